@@ -24,7 +24,7 @@ use synthesis::{InstantiateError, ParsePatternError};
 #[cfg(feature = "synthesis")]
 use verify::VerifyError;
 
-/// Why a question could not be asked or answered. An answer of "no", or "not known", is a value and no error.
+/// The reason why a question could not be asked or answered. The answers "no" and "not known" are values, not errors.
 ///
 /// ```
 /// use equipod::prelude::*;
@@ -42,14 +42,14 @@ pub enum Error {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         source: std::io::Error,
     },
-    /// A design file with everything that is wrong with it.
+    /// A design file with all its violations.
     #[cfg(feature = "files")]
     #[error("{}{}", file.as_ref().map(|f| format!("{}: ", f.display())).unwrap_or_default(), listed(violations))]
     Design {
-        /// The file, where the text is from one.
+        /// The file, if the text comes from one.
         file: Option<PathBuf>,
         /// All violations, in the order of the text.
         violations: Vec<Violation>,
@@ -60,14 +60,14 @@ pub enum Error {
     Trajectory {
         /// The table.
         file: PathBuf,
-        /// What is wrong with it, line by line.
+        /// Its faults, line by line.
         bad: Vec<String>,
     },
     /// A joint cannot be changed.
     #[cfg(feature = "files")]
     #[error(transparent)]
     Joint(#[from] JointError),
-    /// A name that is none of those known.
+    /// An unknown name.
     #[error(transparent)]
     Name(#[from] UnknownName),
     /// Joints and legs that make no manipulator.
@@ -79,20 +79,20 @@ pub enum Error {
     /// A matrix, quaternion or text that is no pose.
     #[error(transparent)]
     Pose(#[from] InvalidPose),
-    /// A pose so far away that leg lengths overflow.
+    /// A pose so far away that the leg lengths overflow.
     #[error("the leg lengths at this pose overflow")]
     Overflow,
     /// Neither home nor a pose drawn on the way from it meets the requirements.
     #[cfg(feature = "files")]
     #[error("no pose was found that meets the requirements")]
     NoAllowedPose,
-    /// A question about the class of octahedral platforms, asked of another design.
+    /// A question about the class of octahedral platforms, put to another design.
     #[error("not an octahedral platform: {0}")]
     NotOctahedral(#[from] NotOctahedral),
-    /// A method does not apply, or forward kinematics broke down.
+    /// A method does not apply, or forward kinematics failed.
     #[error(transparent)]
     Fk(#[from] FkError),
-    /// A search for equivalent platforms from a home pose that none of them holds.
+    /// A search for equivalent platforms at a singular home pose, which none of them holds.
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[error("{0}, and no equivalent platform holds it")]
     SingularHome(SingularHome),
@@ -104,7 +104,7 @@ pub enum Error {
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Linalg(#[from] LinalgError),
-    /// Nothing could be calibrated.
+    /// The calibration could not be computed.
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
@@ -112,16 +112,16 @@ pub enum Error {
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Verify(#[from] VerifyError),
-    /// Two judgements of one design contradict each other.
+    /// Two results about one design contradict each other.
     #[cfg(feature = "synthesis")]
     #[error(
         "the design is proved to be {}, and {poses} poses are counted for generic leg lengths: one of the two is wrong, please report the design",
         if *singular { "architecturally singular" } else { "regular" }
     )]
     Contradiction {
-        /// What the leg lines say.
+        /// The verdict of the leg lines.
         singular: bool,
-        /// What the count says.
+        /// The number of poses counted.
         poses: usize,
     },
     /// A text that names no pattern of the class.
@@ -132,11 +132,11 @@ pub enum Error {
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Offsets(#[from] InstantiateError),
-    /// The design requires nothing that could be assessed.
+    /// The design has no requirement to assess.
     #[cfg(feature = "files")]
     #[error("the design requires nothing: add [hardware] with lengths, swing, diameters or greatest forces")]
     NothingRequired,
-    /// Nothing to export.
+    /// There is nothing to export.
     #[cfg(feature = "files")]
     #[error(transparent)]
     Export(#[from] NoExport),
@@ -144,15 +144,15 @@ pub enum Error {
     #[cfg(feature = "files")]
     #[error(transparent)]
     Format(#[from] Unsupported),
-    /// The offsets cannot be optimised as the design asks.
+    /// The offsets cannot be optimised as the design requires.
     #[cfg(feature = "optimize")]
     #[error(transparent)]
     OffsetProblem(#[from] optimize::offsets::InvalidOffsetProblem),
-    /// The platform cannot be optimised as the design asks.
+    /// The platform cannot be optimised as the design requires.
     #[cfg(feature = "optimize")]
     #[error(transparent)]
     DimensionalProblem(#[from] optimize::dimensional::InvalidProblem),
-    /// A front asked for with a table of drives.
+    /// A Pareto front requested together with a table of drives.
     #[cfg(feature = "optimize")]
     #[error("a front is many platforms, and a drive is chosen for one")]
     FrontWithDrives,
@@ -166,13 +166,13 @@ pub enum Error {
         "the design names a table of drives ({0}): give the table too, remove `drives` from [hardware], or give the limits of one drive"
     )]
     DriveTable(String),
-    /// It was cancelled before there was an answer.
+    /// The computation was cancelled before there was an answer.
     #[error("cancelled")]
     Cancelled,
 }
 
 impl Error {
-    /// Everything that is wrong with a design file; empty for other errors.
+    /// All violations of a design file; empty for other errors.
     #[cfg(feature = "files")]
     #[must_use]
     pub fn violations(&self) -> &[Violation] {
@@ -188,7 +188,7 @@ fn listed(violations: &[Violation]) -> String {
     violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// The parts of an error of cranks are errors of their own.
+/// Converts an error of cranks to the error of its part.
 #[cfg(feature = "files")]
 impl From<machine::rotary::RotaryFkError> for Error {
     fn from(error: machine::rotary::RotaryFkError) -> Self {
@@ -199,7 +199,7 @@ impl From<machine::rotary::RotaryFkError> for Error {
     }
 }
 
-/// Lengths that are valid already cannot fail to be.
+/// The conversion of valid lengths cannot fail.
 impl From<std::convert::Infallible> for Error {
     fn from(never: std::convert::Infallible) -> Self {
         match never {}

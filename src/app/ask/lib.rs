@@ -1,11 +1,11 @@
-//! Asks: one function for each question, which every door calls.
+//! The questions: one function for each, which the command line, the page, Python and C call.
 //!
-//! It knows all rooms below. It computes nothing by itself: each question names the modules that answer it, with their
-//! defaults.
+//! It depends on all packages of the library. It computes nothing itself: each question calls the modules that answer
+//! it, with their defaults.
 //!
 //! * [`Design`]: a platform with names, units, home pose and requirements; its methods are the questions.
-//! * [`Kinematics`]: the questions that need a platform alone.
-//! * [`Error`]: why a question has no answer.
+//! * [`Kinematics`]: the questions that need only a platform.
+//! * [`Error`]: the reason why a question has no answer.
 //!
 //! A design is read from a text, a question is put to it with its options, and the answer is a value with its evidence.
 

@@ -21,7 +21,7 @@ pub trait Kinematics {
     /// Forward kinematics: all finite poses, real and complex, at these leg lengths.
     ///
     /// # Errors
-    /// Values that are no lengths; a computation that broke down.
+    /// Values that are no lengths; a failed computation.
     fn fk<L: TryInto<LegLengths>>(&self, lengths: L) -> Result<FkSolutions, Error>
     where
         Error: From<L::Error>;
@@ -29,7 +29,7 @@ pub trait Kinematics {
     /// As [`fk`](Self::fk), with options.
     ///
     /// # Errors
-    /// Those of [`fk`](Self::fk); a method that does not apply.
+    /// The errors of [`fk`](Self::fk); a method that does not apply.
     fn fk_with<L: TryInto<LegLengths>>(&self, lengths: L, options: FkOptions) -> Result<FkSolutions, Error>
     where
         Error: From<L::Error>;
@@ -37,14 +37,14 @@ pub trait Kinematics {
     /// Inverse kinematics: the leg lengths at a pose.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for a pose so far away that lengths overflow.
+    /// [`Error::Overflow`] for a pose so far away that the lengths overflow.
     fn ik(&self, pose: &Pose) -> Result<LegLengths, Error>;
 
-    /// Forward kinematics prepared for many lengths.
+    /// Prepares forward kinematics for many lengths.
     #[must_use]
     fn solver(&self, options: FkOptions) -> Solver;
 
-    /// One real pose followed from lengths to lengths, for control loops.
+    /// Starts tracking one real pose from lengths to lengths, for control loops.
     #[must_use]
     fn tracker(&self, start: Pose) -> Tracker;
 }
@@ -81,7 +81,7 @@ impl Kinematics for Manipulator {
 #[cfg(feature = "files")]
 impl Design {
     /// Forward kinematics: all finite poses, real and complex, at the lengths that the legs show; `&LegLengths` or six
-    /// numbers. The joints of a calibrated design are as far apart as a leg shows, less its
+    /// numbers. In a calibrated design the distance of two joints is the shown length minus the
     /// [offset](files::design::DesignModel::leg_offsets).
     ///
     /// ```
@@ -95,7 +95,7 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// Values that are no lengths; a computation that broke down.
+    /// Values that are no lengths; a failed computation.
     pub fn fk<L: TryInto<LegLengths>>(&self, lengths: L) -> Result<FkSolutions, Error>
     where
         Error: From<L::Error>,
@@ -106,7 +106,7 @@ impl Design {
     /// As [`fk`](Self::fk), with options.
     ///
     /// # Errors
-    /// Those of [`fk`](Self::fk); a method that does not apply.
+    /// The errors of [`fk`](Self::fk); a method that does not apply.
     pub fn fk_with<L: TryInto<LegLengths>>(
         &self,
         lengths: L,
@@ -123,35 +123,35 @@ impl Design {
     /// [offsets](files::design::DesignModel::leg_offsets) of a calibration.
     ///
     /// # Errors
-    /// [`Error::Overflow`] for a pose so far away that lengths overflow; an offset that makes a length negative.
+    /// [`Error::Overflow`] for a pose so far away that the lengths overflow; an offset that makes a length negative.
     pub fn ik(&self, pose: &Pose) -> Result<LegLengths, Error> {
         Ok(self.manipulator().ik(pose)?.shown_with(&self.leg_offsets())?)
     }
 
-    /// Forward kinematics prepared for many lengths that the legs show.
+    /// Prepares forward kinematics for many shown lengths.
     #[must_use]
     pub fn solver(&self, options: FkOptions) -> Solver {
         Solver { offsets: self.leg_offsets(), ..self.manipulator().solver(options) }
     }
 
-    /// One real pose followed from shown lengths to shown lengths, for control loops.
+    /// Starts tracking one real pose from shown lengths to shown lengths, for control loops.
     #[must_use]
     pub fn tracker(&self, start: Pose) -> Tracker {
         Tracker { offsets: self.leg_offsets(), ..self.manipulator().tracker(start) }
     }
 }
 
-/// What is worked out once for a design. Clones share it; it may go to other threads.
+/// Forward kinematics prepared once for a design. Clones share the preparation and may move to other threads.
 #[derive(Clone)]
 pub struct Solver {
     manipulator: Arc<Manipulator>,
     method: Arc<dyn ForwardKinematics>,
-    /// `None` where the method has nothing to prepare.
+    /// The preparation; `None` if the method has nothing to prepare.
     prepared: Option<Arc<dyn PreparedDesign>>,
     options: FkOptions,
     threads: Threads,
     cancel: Cancel,
-    /// Each leg shows the distance of its joints and this.
+    /// The shown length of each leg minus the distance of its joints.
     offsets: [f64; 6],
 }
 
@@ -168,7 +168,7 @@ impl std::fmt::Debug for Solver {
 }
 
 impl Solver {
-    /// Prepares a platform, which the solver owns from then on.
+    /// Prepares a platform, which the solver then owns.
     #[must_use]
     pub fn new(manipulator: Manipulator, options: FkOptions) -> Self {
         let method = solver(options.method);
@@ -184,14 +184,14 @@ impl Solver {
         }
     }
 
-    /// How many threads [`solve_all`](Self::solve_all) may use; without a word, one for each processor.
+    /// Sets the number of threads of [`solve_all`](Self::solve_all); by default one for each processor.
     #[must_use]
     pub fn threads(mut self, threads: Threads) -> Self {
         self.threads = threads;
         self
     }
 
-    /// What ends [`solve_all`](Self::solve_all) before its time.
+    /// Sets the cancellation of [`solve_all`](Self::solve_all).
     #[must_use]
     pub fn cancel(mut self, cancel: &Cancel) -> Self {
         self.cancel = cancel.clone();
@@ -213,7 +213,7 @@ impl Solver {
         self.solve_squared(&shown.without(&self.offsets)?.squared())
     }
 
-    /// All finite poses at these squared distances of joints, those that a leg map gives for instance.
+    /// All finite poses at these squared distances of joints, for instance from a leg map.
     ///
     /// # Errors
     /// As [`Manipulator::fk_with`].
@@ -224,9 +224,9 @@ impl Solver {
         })
     }
 
-    /// Many lengths on all cores: result `i` belongs to row `i` and comes as soon as it and those before it are there.
-    /// Rows are taken as they are needed, so that a table of millions needs no more memory than a short one. A row that
-    /// fails leaves the others as they are; results do not depend on the number of threads.
+    /// Solves many lengths on all cores. Result `i` belongs to row `i`, and comes as soon as it and all before it are
+    /// ready. Rows are read when needed, so a table of millions needs no more memory than a short one. A row that fails
+    /// does not affect others; results do not depend on the number of threads.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -271,7 +271,7 @@ impl Iterator for Batch {
     }
 }
 
-/// All finite poses with each row of angles of cranks, radians, on all cores and in the order of the rows; as
+/// All finite poses for each row of crank angles, radians, on all cores and in the order of the rows; as
 /// [`Solver::solve_all`].
 #[cfg(feature = "files")]
 pub fn solve_angles<I>(
@@ -288,18 +288,18 @@ where
     Stream::new(rows, workers, cancel.clone(), move |angles: [f64; 6]| Ok(platform.fk(&angles, &options)?))
 }
 
-/// Follows one real pose, never to another assembly mode; a step allocates nothing.
+/// Tracks one real pose without changing the assembly mode; a step allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Tracker {
     solver: NearSolver,
     pose: Pose,
-    /// Each leg shows the distance of its joints and this.
+    /// The shown length of each leg minus the distance of its joints.
     offsets: [f64; 6],
 }
 
 impl Tracker {
-    /// Continues the pose to these lengths. Where it is lost, or a singularity is in the way, the tracker stays where
-    /// it was.
+    /// Continues the pose to these lengths. If it is lost, or a singularity is in the way, the tracker stays at its old
+    /// pose.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -326,7 +326,7 @@ impl Tracker {
         Ok(outcome)
     }
 
-    /// Where the platform is.
+    /// The current pose of the platform.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.pose

@@ -1,4 +1,4 @@
-//! Designs, and what is computed at a pose.
+//! Designs, and results at a pose.
 
 use std::ffi::{CStr, CString, c_char};
 
@@ -13,7 +13,7 @@ use files::design::Format;
 use machine::requirements::Requirements;
 use platform::manipulator::{Leg, Manipulator, jacobian};
 
-/// A design. It does not change: threads may share it.
+/// An immutable design, which threads may share.
 #[derive(Debug)]
 pub struct EqpDesign {
     pub(super) design: Design,
@@ -24,7 +24,7 @@ pub struct EqpDesign {
 
 impl EqpDesign {
     fn new(design: Design) -> Self {
-        // names with a zero in them end there
+        // names containing a zero end there
         let text = |s: &str| CString::new(s.split('\0').next().unwrap_or_default()).unwrap_or_default();
         let required = design.requirements();
         Self { name: text(&design.name), units: text(&design.units), required, design }
@@ -44,7 +44,8 @@ unsafe fn parsed(text: *const c_char, length: usize, format: Format) -> Result<E
 /// Reads the text of a design file, TOML, of `length` bytes.
 ///
 /// # Safety
-/// `text` points to `length` bytes, `design` to a place for a pointer, `error` is null or points to a place for an error.
+/// `text` points to `length` bytes, and `design` to a place for a pointer. The argument `error` is null or points to a
+/// place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_design_from_toml(
     text: *const c_char,
@@ -74,7 +75,8 @@ pub unsafe extern "C" fn eqp_design_from_json(
 /// Reads a design file; `path` ends with a zero and is UTF-8.
 ///
 /// # Safety
-/// `path` points to a text that ends with a zero, `design` to a place for a pointer, `error` is null or points to a place for an error.
+/// `path` points to a text that ends with a zero, and `design` to a place for a pointer. The argument `error` is null
+/// or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_design_load(
     path: *const c_char,
@@ -94,10 +96,12 @@ pub unsafe extern "C" fn eqp_design_load(
     }
 }
 
-/// A design from the ends of its six legs: base joints in the base frame, platform joints in the platform frame, in leg order. Its home is worked out, and nothing limits it.
+/// Makes a design from the ends of its six legs: base joints in the base frame, platform joints in the platform frame,
+/// in leg order. Its home is computed, and it has no limits.
 ///
 /// # Safety
-/// `base` and `platform` point to six points of three numbers, `design` to a place for a pointer, `error` is null or points to a place for an error.
+/// `base` and `platform` point to six points of three numbers, and `design` to a place for a pointer. The argument
+/// `error` is null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_design_from_joints(
     base: *const f64,
@@ -118,7 +122,7 @@ pub unsafe extern "C" fn eqp_design_from_joints(
     }
 }
 
-/// Frees a design; null is nothing. What was made from it stays.
+/// Frees a design; null is ignored. Objects made from it stay valid.
 ///
 /// # Safety
 /// `design` is null or a design that was not freed.
@@ -128,7 +132,7 @@ pub unsafe extern "C" fn eqp_design_free(design: *mut EqpDesign) {
     unsafe { take_back(design) }
 }
 
-/// The name of a design, which lives as long as it; null for null.
+/// The name of a design, valid as long as the design; null for null.
 ///
 /// # Safety
 /// `design` is null or a design.
@@ -138,7 +142,7 @@ pub unsafe extern "C" fn eqp_design_name(design: *const EqpDesign) -> *const c_c
     unsafe { design.as_ref() }.map_or(std::ptr::null(), |d| d.name.as_ptr())
 }
 
-/// The unit of lengths of a design, which lives as long as it; null for null.
+/// The unit of lengths of a design, valid as long as the design; null for null.
 ///
 /// # Safety
 /// `design` is null or a design.
@@ -148,7 +152,7 @@ pub unsafe extern "C" fn eqp_design_units(design: *const EqpDesign) -> *const c_
     unsafe { design.as_ref() }.map_or(std::ptr::null(), |d| d.units.as_ptr())
 }
 
-/// The home pose of a design, above the base where it names none.
+/// The home pose of a design, or the default pose above the base.
 ///
 /// # Safety
 /// `design` is a design, `pose` points to a place for a pose, `error` is null or points to a place for an error.
@@ -171,7 +175,8 @@ pub unsafe extern "C" fn eqp_design_home(
 /// Inverse kinematics: six lengths for each of `count` poses.
 ///
 /// # Safety
-/// `design` is a design, `poses` points to `count` poses, `lengths` to places for `count` rows of six numbers, `error` is null or points to a place for an error.
+/// `design` is a design, `poses` points to `count` poses, and `lengths` to places for `count` rows of six numbers. The
+/// argument `error` is null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_ik(
     design: *const EqpDesign,
@@ -194,11 +199,13 @@ pub unsafe extern "C" fn eqp_ik(
     }
 }
 
-/// The Jacobian at a pose, row `i` `[u_i, ((R b_i) x u_i) / L]`: speed of leg `i` from the velocity of the platform origin and the angular velocity times `L`, base frame.
-/// `EQP_STATUS_BAD_LENGTHS` where the characteristic length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` where a leg has length zero.
+/// The Jacobian at a pose, base frame, rows `[u_i, ((R b_i) x u_i) / L]`. It gives the speed of leg `i` from the
+/// velocity of the platform origin and the angular velocity times `L`. `EQP_STATUS_BAD_LENGTHS` if the characteristic
+/// length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` for a leg of length zero.
 ///
 /// # Safety
-/// `design` is a design, `pose` points to a pose, `rows` to places for six rows of six numbers, `error` is null or points to a place for an error.
+/// `design` is a design, `pose` points to a pose, and `rows` to places for six rows of six numbers. The argument
+/// `error` is null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_jacobian(
     design: *const EqpDesign,

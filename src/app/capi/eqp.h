@@ -8,20 +8,20 @@
 #include <stdint.h>
 
 /*
- Bytes of the message of an error, the zero at its end included.
+ Size of the message of an error, bytes, including the zero at its end.
  */
 #define EQP_MESSAGE 1024
 
 /*
- What became of a call.
+ The outcome of a call.
  */
 typedef enum eqp_status {
     /*
-     Done.
+     Success.
      */
     EQP_STATUS_OK = 0,
     /*
-     A pointer is null that must not be, or a number of items is too large.
+     A required pointer is null, or a number of items is too large.
      */
     EQP_STATUS_BAD_POINTER = 1,
     /*
@@ -29,7 +29,7 @@ typedef enum eqp_status {
      */
     EQP_STATUS_BAD_TEXT = 2,
     /*
-     The text of a design is refused; all that is wrong with it is in the message.
+     The text of a design is refused; the message lists all violations.
      */
     EQP_STATUS_BAD_DESIGN = 3,
     /*
@@ -45,7 +45,7 @@ typedef enum eqp_status {
      */
     EQP_STATUS_BAD_LENGTHS = 6,
     /*
-     Numbers that are no pose.
+     Numbers that make no pose.
      */
     EQP_STATUS_BAD_POSE = 7,
     /*
@@ -53,7 +53,7 @@ typedef enum eqp_status {
      */
     EQP_STATUS_OVERFLOW = 8,
     /*
-     No pose was found that meets the requirements.
+     No pose that meets the requirements was found.
      */
     EQP_STATUS_NO_ALLOWED_POSE = 9,
     /*
@@ -61,11 +61,11 @@ typedef enum eqp_status {
      */
     EQP_STATUS_BAD_INDEX = 10,
     /*
-     A computation that broke down, or a leg of length zero, which has no direction.
+     A failed computation, or a leg of length zero, which has no direction.
      */
     EQP_STATUS_COMPUTATION = 11,
     /*
-     A fault of the library.
+     An error of the library.
      */
     EQP_STATUS_INTERNAL = 12,
     /*
@@ -75,7 +75,7 @@ typedef enum eqp_status {
 } eqp_status;
 
 /*
- Whether a list of poses is all of them.
+ Whether a list holds all poses.
  */
 typedef enum eqp_completeness {
     /*
@@ -83,15 +83,16 @@ typedef enum eqp_completeness {
      */
     EQP_COMPLETENESS_UNPROVED = 0,
     /*
-     As many as there are, counted modulo random primes: wrong with a probability that the library bounds.
+     The list has as many poses as counted modulo random primes; the library bounds the probability of a wrong count.
      */
     EQP_COMPLETENESS_MODULAR = 1,
     /*
-     As many as a theorem allows.
+     The list has as many poses as a theorem allows.
      */
     EQP_COMPLETENESS_PROVED = 2,
     /*
-     All poses up to a distance, so all real ones, by a theorem; others are proved to be farther out.
+     The list has all poses up to a distance, so all real ones, by a theorem; all others are proved to be farther
+     away.
      */
     EQP_COMPLETENESS_PROVED_BOUNDED = 3,
 } eqp_completeness;
@@ -101,39 +102,40 @@ typedef enum eqp_completeness {
  */
 typedef enum eqp_reality {
     /*
-     It is not.
+     The pose is not real.
      */
     EQP_REALITY_COMPLEX = 0,
     /*
-     It is.
+     The pose is real.
      */
     EQP_REALITY_REAL = 1,
     /*
-     Not decided.
+     Undecided.
      */
     EQP_REALITY_UNDECIDED = 2,
 } eqp_reality;
 
 /*
- What became of a step.
+ The outcome of a step.
  */
 typedef enum eqp_track_status {
     /*
-     The pose continues the last one, joined to it by regular poses: no other assembly mode was taken.
+     The pose continues the last one through regular poses, so the assembly mode is the same.
      */
     EQP_TRACK_STATUS_TRACKED = 0,
     /*
-     A singular pose lies on the way or at its end.
+     A singular pose lies on the path or at its end.
      */
     EQP_TRACK_STATUS_NEAR_SINGULAR = 1,
     /*
-     Given up: the lengths are too far from the last ones, or rounding keeps Newton's method from the accuracy that the test needs.
+     The pose is lost. The lengths are too far from the last ones, or rounding keeps Newton's method from the
+     accuracy that the test needs.
      */
     EQP_TRACK_STATUS_LOST = 2,
 } eqp_track_status;
 
 /*
- A design. It does not change: threads may share it.
+ An immutable design, which threads may share.
  */
 typedef struct eqp_design eqp_design;
 
@@ -143,17 +145,18 @@ typedef struct eqp_design eqp_design;
 typedef struct eqp_solutions eqp_solutions;
 
 /*
- A design prepared for many lengths. It does not change: threads may share it.
+ A design prepared for many lengths. It is immutable, and threads may share it.
  */
 typedef struct eqp_solver eqp_solver;
 
 /*
- Follows the pose of a machine. It belongs to one thread at a time; a step takes a few microseconds and allocates nothing.
+ Tracks the pose of a machine. It belongs to one thread at a time; a step takes a few microseconds and allocates
+ nothing.
  */
 typedef struct eqp_tracker eqp_tracker;
 
 /*
- What went wrong, in words. The caller owns it; a null pointer in its place says that no words are wanted.
+ An error in words, owned by the caller. Pass a null pointer in its place to get no words.
  */
 typedef struct eqp_error {
     /*
@@ -161,49 +164,51 @@ typedef struct eqp_error {
      */
     enum eqp_status status;
     /*
-     UTF-8 that ends with a zero; cut where it is longer, empty where all is well.
+     The message, UTF-8 with a zero at its end; cut if it is too long, empty on success.
      */
     char message[EQP_MESSAGE];
 } eqp_error;
 
 /*
- A pose: a platform point `x` is at `R x + p` in the base frame.
+ A pose: it moves a platform point `x` to `R x + p` in the base frame.
  */
 typedef struct eqp_pose {
     /*
-     `R`, row by row.
+     The rotation matrix `R`, row by row.
      */
     double rotation[3][3];
     /*
-     `p`, design units.
+     The position `p`, design units.
      */
     double position[3];
 } eqp_pose;
 
 /*
- How far one of the six numbers of a pose (x, y, z in design units; roll, pitch, yaw in degrees) may move while the others stay.
+ The free travel of one number of a pose while the others stay fixed. The number is x, y, z in design units, or roll,
+ pitch, yaw in degrees.
  */
 typedef struct eqp_free_range {
     /*
-     Towards smaller values, not negative.
+     The travel towards smaller values, not negative.
      */
     double back;
     /*
-     Towards greater ones.
+     The travel towards greater values, not negative.
      */
     double forth;
     /*
-     Whether something binds there; else nothing does within half a turn, or ten sizes of the design.
+     Whether a requirement ends the travel `back`; otherwise none does within half a turn, or ten sizes of the
+     design.
      */
     bool back_binds;
     /*
-     The same of the greater values.
+     Whether a requirement ends the travel `forth`.
      */
     bool forth_binds;
 } eqp_free_range;
 
 /*
- An allowed pose near one that may not be.
+ The allowed pose found near a pose that is not allowed.
  */
 typedef struct eqp_nearest {
     /*
@@ -211,7 +216,8 @@ typedef struct eqp_nearest {
      */
     struct eqp_pose pose;
     /*
-     `sqrt(|p - p'|^2 + (L angle)^2)` from the one asked for, `L` the characteristic length of the design; 0 where that one is allowed.
+     The distance `sqrt(|p - p'|^2 + (L angle)^2)` from the given pose, with the characteristic length `L` of the
+     design; 0 if the given pose is allowed.
      */
     double distance;
     /*
@@ -219,7 +225,7 @@ typedef struct eqp_nearest {
      */
     bool stationary;
     /*
-     Whether the straight way from home to it violates nothing.
+     Whether the straight path from home to the pose violates nothing.
      */
     bool straight_from_home;
 } eqp_nearest;
@@ -237,35 +243,35 @@ typedef struct eqp_solution {
      */
     double position[3];
     /*
-     Imaginary part of `R`, zero where the pose is real.
+     Imaginary part of `R`; zero for a real pose.
      */
     double rotation_imaginary[3][3];
     /*
-     Imaginary part of `p`.
+     Imaginary part of `p`, design units.
      */
     double position_imaginary[3];
     /*
-     Whether it is real.
+     Whether the pose is real.
      */
     enum eqp_reality reality;
     /*
-     Whether a proof in interval arithmetic says that there is such a pose near these numbers.
+     Whether a proof in interval arithmetic shows that such a pose exists near these numbers.
      */
     bool certified;
     /*
-     Bound on the distance of every entry of `R` from that of the pose proved; infinite without a certificate.
+     Greatest error of an entry of `R` against the proved pose; infinite without a certificate.
      */
     double rotation_error;
     /*
-     The same of `p`, design units.
+     Greatest error of an entry of `p` against the proved pose, design units; infinite without a certificate.
      */
     double position_error;
     /*
-     How often it counts.
+     The multiplicity of the pose.
      */
     uint32_t multiplicity;
     /*
-     Largest error of the leg equations over the squared size of the design.
+     Largest error of the leg equations divided by the squared size of the design.
      */
     double residual;
 } eqp_solution;
@@ -275,27 +281,27 @@ typedef struct eqp_solution {
  */
 typedef struct eqp_track {
     /*
-     What became of it.
+     The outcome of the step.
      */
     enum eqp_track_status status;
     /*
-     The pose for the lengths where it was tracked, else the last one on the way to them.
+     The pose for the lengths if it was tracked, otherwise the last pose on the path to them.
      */
     struct eqp_pose pose;
     /*
-     How far on the straight line of squared lengths, from 0 to 1.
+     The fraction of the straight line of squared lengths that was covered, from 0 to 1.
      */
     double fraction;
     /*
-     Largest error of the leg equations at the pose over the squared size of the design.
+     Largest error of the leg equations at the pose divided by the squared size of the design.
      */
     double residual;
     /*
-     `6 / (|J| |J^-1|)` at the pose: 1 at best, 0 at a singular pose.
+     The ratio `6 / (|J| |J^-1|)` at the pose: 1 at best, 0 at a singular pose.
      */
     double frobenius_ratio;
     /*
-     Newton steps.
+     Number of Newton steps.
      */
     uint32_t newton_steps;
 } eqp_track;
@@ -305,7 +311,7 @@ extern "C" {
 #endif // __cplusplus
 
 /*
- The version of the library, `major.minor.patch`: a text that stays.
+ The version of the library, `major.minor.patch`, a static text.
  */
 const char *eqp_version(void);
 
@@ -313,7 +319,8 @@ const char *eqp_version(void);
  Reads the text of a design file, TOML, of `length` bytes.
 
  # Safety
- `text` points to `length` bytes, `design` to a place for a pointer, `error` is null or points to a place for an error.
+ `text` points to `length` bytes, and `design` to a place for a pointer. The argument `error` is null or points to a
+ place for an error.
  */
 enum eqp_status eqp_design_from_toml(const char *text,
                                      size_t length,
@@ -335,17 +342,20 @@ enum eqp_status eqp_design_from_json(const char *text,
  Reads a design file; `path` ends with a zero and is UTF-8.
 
  # Safety
- `path` points to a text that ends with a zero, `design` to a place for a pointer, `error` is null or points to a place for an error.
+ `path` points to a text that ends with a zero, and `design` to a place for a pointer. The argument `error` is null
+ or points to a place for an error.
  */
 enum eqp_status eqp_design_load(const char *path,
                                 struct eqp_design **design,
                                 struct eqp_error *error);
 
 /*
- A design from the ends of its six legs: base joints in the base frame, platform joints in the platform frame, in leg order. Its home is worked out, and nothing limits it.
+ Makes a design from the ends of its six legs: base joints in the base frame, platform joints in the platform frame,
+ in leg order. Its home is computed, and it has no limits.
 
  # Safety
- `base` and `platform` point to six points of three numbers, `design` to a place for a pointer, `error` is null or points to a place for an error.
+ `base` and `platform` point to six points of three numbers, and `design` to a place for a pointer. The argument
+ `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_design_from_joints(const double *base,
                                        const double *platform,
@@ -353,7 +363,7 @@ enum eqp_status eqp_design_from_joints(const double *base,
                                        struct eqp_error *error);
 
 /*
- Frees a design; null is nothing. What was made from it stays.
+ Frees a design; null is ignored. Objects made from it stay valid.
 
  # Safety
  `design` is null or a design that was not freed.
@@ -361,7 +371,7 @@ enum eqp_status eqp_design_from_joints(const double *base,
 void eqp_design_free(struct eqp_design *design);
 
 /*
- The name of a design, which lives as long as it; null for null.
+ The name of a design, valid as long as the design; null for null.
 
  # Safety
  `design` is null or a design.
@@ -369,7 +379,7 @@ void eqp_design_free(struct eqp_design *design);
 const char *eqp_design_name(const struct eqp_design *design);
 
 /*
- The unit of lengths of a design, which lives as long as it; null for null.
+ The unit of lengths of a design, valid as long as the design; null for null.
 
  # Safety
  `design` is null or a design.
@@ -377,7 +387,7 @@ const char *eqp_design_name(const struct eqp_design *design);
 const char *eqp_design_units(const struct eqp_design *design);
 
 /*
- The home pose of a design, above the base where it names none.
+ The home pose of a design, or the default pose above the base.
 
  # Safety
  `design` is a design, `pose` points to a place for a pose, `error` is null or points to a place for an error.
@@ -388,7 +398,8 @@ enum eqp_status eqp_design_home(const struct eqp_design *design, struct eqp_pose
  Inverse kinematics: six lengths for each of `count` poses.
 
  # Safety
- `design` is a design, `poses` points to `count` poses, `lengths` to places for `count` rows of six numbers, `error` is null or points to a place for an error.
+ `design` is a design, `poses` points to `count` poses, and `lengths` to places for `count` rows of six numbers. The
+ argument `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_ik(const struct eqp_design *design,
                        const struct eqp_pose *poses,
@@ -397,11 +408,13 @@ enum eqp_status eqp_ik(const struct eqp_design *design,
                        struct eqp_error *error);
 
 /*
- The Jacobian at a pose, row `i` `[u_i, ((R b_i) x u_i) / L]`: speed of leg `i` from the velocity of the platform origin and the angular velocity times `L`, base frame.
- `EQP_STATUS_BAD_LENGTHS` where the characteristic length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` where a leg has length zero.
+ The Jacobian at a pose, base frame, rows `[u_i, ((R b_i) x u_i) / L]`. It gives the speed of leg `i` from the
+ velocity of the platform origin and the angular velocity times `L`. `EQP_STATUS_BAD_LENGTHS` if the characteristic
+ length `L` is not positive and finite, `EQP_STATUS_COMPUTATION` for a leg of length zero.
 
  # Safety
- `design` is a design, `pose` points to a pose, `rows` to places for six rows of six numbers, `error` is null or points to a place for an error.
+ `design` is a design, `pose` points to a pose, and `rows` to places for six rows of six numbers. The argument
+ `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_jacobian(const struct eqp_design *design,
                              const struct eqp_pose *pose,
@@ -410,7 +423,7 @@ enum eqp_status eqp_jacobian(const struct eqp_design *design,
                              struct eqp_error *error);
 
 /*
- What a code means, a text that stays; for a number that is no code it says so.
+ The meaning of a code, a static text, also for an unknown code.
  */
 const char *eqp_status_text(int32_t status);
 
@@ -418,7 +431,8 @@ const char *eqp_status_text(int32_t status);
  Whether a pose meets every requirement of the design, and `det J` has the sign that it has at home.
 
  # Safety
- `design` is a design, `pose` points to a pose, `allowed` to a place for the answer, `error` is null or points to a place for an error.
+ `design` is a design, `pose` points to a pose, and `allowed` to a place for the answer. The argument `error` is null
+ or points to a place for an error.
  */
 enum eqp_status eqp_allowed(const struct eqp_design *design,
                             const struct eqp_pose *pose,
@@ -426,10 +440,12 @@ enum eqp_status eqp_allowed(const struct eqp_design *design,
                             struct eqp_error *error);
 
 /*
- How far x, y, z, roll, pitch and yaw of a pose may move, each alone; `EQP_STATUS_NO_ALLOWED_POSE` where the pose itself is not allowed.
+ The free travel of x, y, z, roll, pitch and yaw from a pose, each alone; `EQP_STATUS_NO_ALLOWED_POSE` if the pose
+ itself is not allowed.
 
  # Safety
- `design` is a design, `pose` points to a pose, `ranges` to places for six ranges, `error` is null or points to a place for an error.
+ `design` is a design, `pose` points to a pose, and `ranges` to places for six ranges. The argument `error` is null
+ or points to a place for an error.
  */
 enum eqp_status eqp_free_ranges(const struct eqp_design *design,
                                 const struct eqp_pose *pose,
@@ -437,10 +453,11 @@ enum eqp_status eqp_free_ranges(const struct eqp_design *design,
                                 struct eqp_error *error);
 
 /*
- A pose locally nearest to `asked` among those that meet every requirement; `asked` itself where it does.
+ A pose locally nearest to `asked` among the poses that meet every requirement; `asked` itself if it does.
 
  # Safety
- `design` is a design, `asked` points to a pose, `nearest` to a place for the answer, `error` is null or points to a place for an error.
+ `design` is a design, `asked` points to a pose, and `nearest` to a place for the answer. The argument `error` is
+ null or points to a place for an error.
  */
 enum eqp_status eqp_nearest_allowed(const struct eqp_design *design,
                                     const struct eqp_pose *asked,
@@ -449,10 +466,12 @@ enum eqp_status eqp_nearest_allowed(const struct eqp_design *design,
                                     struct eqp_error *error);
 
 /*
- The pose at a position with the roll, pitch and yaw given, degrees: `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+ Makes the pose with this position, design units, and this roll, pitch and yaw, degrees:
+ `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 
  # Safety
- `position` and `rpy_deg` point to three numbers each, `pose` to a place for a pose, `error` is null or points to a place for an error.
+ `position` and `rpy_deg` point to three numbers each, and `pose` to a place for a pose. The argument `error` is null
+ or points to a place for an error.
  */
 enum eqp_status eqp_pose_from_rpy(const double *position,
                                   const double *rpy_deg,
@@ -479,7 +498,7 @@ enum eqp_status eqp_solver_new(const struct eqp_design *design,
                                struct eqp_error *error);
 
 /*
- Frees a solver; null is nothing.
+ Frees a solver; null is ignored.
 
  # Safety
  `solver` is null or a solver that was not freed.
@@ -490,7 +509,8 @@ void eqp_solver_free(struct eqp_solver *solver);
  All finite poses, real and complex, for six lengths.
 
  # Safety
- `solver` is a solver, `lengths` points to six numbers, `solutions` to a place for a pointer, `error` is null or points to a place for an error.
+ `solver` is a solver, `lengths` points to six numbers, and `solutions` to a place for a pointer. The argument
+ `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_solve(const struct eqp_solver *solver,
                           const double *lengths,
@@ -498,12 +518,14 @@ enum eqp_status eqp_solve(const struct eqp_solver *solver,
                           struct eqp_error *error);
 
 /*
- All finite poses for each of `count` rows of lengths, computed by up to `threads` threads, 0 for as many as there are processors. A row that fails has a null pointer in `solutions`, and its code in
- `statuses`, which may be null; the others are as they are alone. Returns the first code that is not `EQP_STATUS_OK`, with its message.
+ Finds all finite poses for each of `count` rows of lengths, with up to `threads` threads; 0 means one for each
+ processor. A row that fails has a null pointer in `solutions`, and its code in `statuses`, which may be null. It
+ does not affect other rows. Returns the first code that is not `EQP_STATUS_OK`, with its message.
 
  # Safety
- `solver` is a solver, `lengths` points to `count` rows of six numbers, `solutions` to places for `count` pointers, `statuses` is null or points to places for `count` codes, `error` is null or points to a place for
- an error.
+ `solver` is a solver, `lengths` points to `count` rows of six numbers, and `solutions` to places for `count`
+ pointers. The argument `statuses` is null or points to places for `count` codes. The argument `error` is null or
+ points to a place for an error.
  */
 enum eqp_status eqp_solve_all(const struct eqp_solver *solver,
                               const double *lengths,
@@ -514,7 +536,7 @@ enum eqp_status eqp_solve_all(const struct eqp_solver *solver,
                               struct eqp_error *error);
 
 /*
- Frees a list of poses; null is nothing.
+ Frees a list of poses; null is ignored.
 
  # Safety
  `solutions` is null or a list that was not freed.
@@ -522,7 +544,7 @@ enum eqp_status eqp_solve_all(const struct eqp_solver *solver,
 void eqp_solutions_free(struct eqp_solutions *solutions);
 
 /*
- How many poses a list has; 0 for null.
+ Number of poses in a list; 0 for null.
 
  # Safety
  `solutions` is null or a list.
@@ -530,7 +552,7 @@ void eqp_solutions_free(struct eqp_solutions *solutions);
 size_t eqp_solutions_count(const struct eqp_solutions *solutions);
 
 /*
- Whether a list is all poses that there are; `EQP_COMPLETENESS_UNPROVED` for null.
+ Whether a list holds all poses; `EQP_COMPLETENESS_UNPROVED` for null.
 
  # Safety
  `solutions` is null or a list.
@@ -538,10 +560,11 @@ size_t eqp_solutions_count(const struct eqp_solutions *solutions);
 enum eqp_completeness eqp_solutions_completeness(const struct eqp_solutions *solutions);
 
 /*
- A pose of a list, counted from 0.
+ The pose with this index in a list, from 0.
 
  # Safety
- `solutions` is a list, `solution` points to a place for a pose with its evidence, `error` is null or points to a place for an error.
+ `solutions` is a list, and `solution` points to a place for a pose with its evidence. The argument `error` is null
+ or points to a place for an error.
  */
 enum eqp_status eqp_solutions_get(const struct eqp_solutions *solutions,
                                   size_t index,
@@ -549,10 +572,11 @@ enum eqp_status eqp_solutions_get(const struct eqp_solutions *solutions,
                                   struct eqp_error *error);
 
 /*
- A tracker that begins at a pose; it does not need the design afterwards.
+ Makes a tracker that begins at a pose; it does not need the design afterwards.
 
  # Safety
- `design` is a design, `start` points to a pose, `tracker` to a place for a pointer, `error` is null or points to a place for an error.
+ `design` is a design, `start` points to a pose, and `tracker` to a place for a pointer. The argument `error` is null
+ or points to a place for an error.
  */
 enum eqp_status eqp_tracker_new(const struct eqp_design *design,
                                 const struct eqp_pose *start,
@@ -560,10 +584,12 @@ enum eqp_status eqp_tracker_new(const struct eqp_design *design,
                                 struct eqp_error *error);
 
 /*
- Continues the pose to six lengths. Where it is not tracked the tracker stays where it was, and the call is `EQP_STATUS_OK` all the same: `track` says what became of it.
+ Continues the pose to six lengths. If tracking fails, the tracker stays at its old pose, and the call still returns
+ `EQP_STATUS_OK`: `track` holds the outcome.
 
  # Safety
- `tracker` is a tracker that no other thread uses meanwhile, `lengths` points to six numbers, `track` to a place for the answer, `error` is null or points to a place for an error.
+ `tracker` is a tracker that no other thread uses meanwhile. The argument `lengths` points to six numbers, and
+ `track` to a place for the answer. The argument `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_tracker_step(struct eqp_tracker *tracker,
                                  const double *lengths,
@@ -571,17 +597,18 @@ enum eqp_status eqp_tracker_step(struct eqp_tracker *tracker,
                                  struct eqp_error *error);
 
 /*
- Where the platform is.
+ The current pose of the platform.
 
  # Safety
- `tracker` is a tracker that no other thread steps meanwhile, `pose` points to a place for a pose, `error` is null or points to a place for an error.
+ `tracker` is a tracker that no other thread steps meanwhile, and `pose` points to a place for a pose. The argument
+ `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_tracker_pose(const struct eqp_tracker *tracker,
                                  struct eqp_pose *pose,
                                  struct eqp_error *error);
 
 /*
- Frees a tracker; null is nothing.
+ Frees a tracker; null is ignored.
 
  # Safety
  `tracker` is null or a tracker that was not freed.

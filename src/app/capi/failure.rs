@@ -6,17 +6,17 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use ask::Error;
 use files::design::Code;
 
-/// What became of a call.
+/// The outcome of a call.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EqpStatus {
-    /// Done.
+    /// Success.
     Ok = 0,
-    /// A pointer is null that must not be, or a number of items is too large.
+    /// A required pointer is null, or a number of items is too large.
     BadPointer = 1,
     /// A text is not UTF-8.
     BadText = 2,
-    /// The text of a design is refused; all that is wrong with it is in the message.
+    /// The text of a design is refused; the message lists all violations.
     BadDesign = 3,
     /// A file cannot be read.
     File = 4,
@@ -24,36 +24,36 @@ pub enum EqpStatus {
     BadJoints = 5,
     /// Values that are no leg lengths, or a characteristic length that is not positive and finite.
     BadLengths = 6,
-    /// Numbers that are no pose.
+    /// Numbers that make no pose.
     BadPose = 7,
     /// A pose so far away that lengths overflow.
     Overflow = 8,
-    /// No pose was found that meets the requirements.
+    /// No pose that meets the requirements was found.
     NoAllowedPose = 9,
     /// An index beyond the number of items.
     BadIndex = 10,
-    /// A computation that broke down, or a leg of length zero, which has no direction.
+    /// A failed computation, or a leg of length zero, which has no direction.
     Computation = 11,
-    /// A fault of the library.
+    /// An error of the library.
     Internal = 12,
     /// The legs of a design are rods on cranks: functions for them are in the C of `equipod export DESIGN --to c`.
     Cranks = 13,
 }
 
-/// Bytes of the message of an error, the zero at its end included.
+/// Size of the message of an error, bytes, including the zero at its end.
 pub const EQP_MESSAGE: usize = 1024;
 
-/// What went wrong, in words. The caller owns it; a null pointer in its place says that no words are wanted.
+/// An error in words, owned by the caller. Pass a null pointer in its place to get no words.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct EqpError {
     /// The outcome of the call.
     pub status: EqpStatus,
-    /// UTF-8 that ends with a zero; cut where it is longer, empty where all is well.
+    /// The message, UTF-8 with a zero at its end; cut if it is too long, empty on success.
     pub message: [c_char; EQP_MESSAGE],
 }
 
-/// What a code means, a text that stays; for a number that is no code it says so.
+/// The meaning of a code, a static text, also for an unknown code.
 #[unsafe(no_mangle)]
 pub extern "C" fn eqp_status_text(status: i32) -> *const c_char {
     let text: &CStr = match status {
@@ -76,7 +76,7 @@ pub extern "C" fn eqp_status_text(status: i32) -> *const c_char {
     text.as_ptr()
 }
 
-/// Why a call failed, before it is told.
+/// The reason why a call failed, before the caller gets it.
 #[derive(Debug)]
 pub(super) struct CallFault {
     pub(super) status: EqpStatus,
@@ -98,7 +98,7 @@ impl From<Error> for CallFault {
         if let Error::Design { violations, .. } = &error
             && violations.iter().any(|v| v.code == Code::Rotary)
         {
-            // what to do comes first: a message that is too long is cut at its end
+            // the remedy comes first, since a message that is too long is cut at its end
             let message = format!(
                 "the legs are rods on cranks, and this library takes legs that change their lengths; `equipod export DESIGN --to c` writes C for cranks: {error}"
             );
@@ -118,12 +118,12 @@ impl From<Error> for CallFault {
     }
 }
 
-/// Runs the body of an exported function and tells its outcome; no panic passes.
+/// Runs the body of an exported function and reports its outcome; no panic leaves it.
 ///
 /// # Safety
 /// `error` is null or points to an [`EqpError`] that this thread may write.
 pub(super) unsafe fn told(error: *mut EqpError, body: impl FnOnce() -> Result<(), CallFault>) -> EqpStatus {
-    // a body writes its answers last, so that a panic leaves nothing half made that is looked at again
+    // a body writes its answers last, so a panic leaves no incomplete value that is read later
     let outcome = catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
         let said = payload.downcast_ref::<&str>().map(ToString::to_string);
         let said = said.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
@@ -133,7 +133,7 @@ pub(super) unsafe fn told(error: *mut EqpError, body: impl FnOnce() -> Result<()
         Ok(()) => (EqpStatus::Ok, ""),
         Err(fault) => (fault.status, fault.message.as_str()),
     };
-    // SAFETY: the caller's promise; null is looked for.
+    // SAFETY: the caller's promise; null is checked.
     if let Some(error) = unsafe { error.as_mut() } {
         error.status = status;
         write_text(message, &mut error.message);
@@ -141,7 +141,7 @@ pub(super) unsafe fn told(error: *mut EqpError, body: impl FnOnce() -> Result<()
     status
 }
 
-/// Writes a text with a zero at its end, cut between two characters where it is too long.
+/// Writes a text with a zero at its end, cut between two characters if it is too long.
 fn write_text(text: &str, to: &mut [c_char; EQP_MESSAGE]) {
     let mut length = text.len().min(EQP_MESSAGE - 1);
     while !text.is_char_boundary(length) {
@@ -155,25 +155,25 @@ fn write_text(text: &str, to: &mut [c_char; EQP_MESSAGE]) {
 /// A value behind a pointer of the caller.
 ///
 /// # Safety
-/// `pointer` is null or points to a `T` that nothing changes while the reference lives.
+/// `pointer` is null or points to a `T` that stays unchanged while the reference lives.
 pub(super) unsafe fn read<'a, T>(pointer: *const T, what: &str) -> Result<&'a T, CallFault> {
-    // SAFETY: the caller's promise; null is looked for.
+    // SAFETY: the caller's promise; null is checked.
     unsafe { pointer.as_ref() }.ok_or_else(|| CallFault::null(what))
 }
 
-/// A place that the caller wants an answer in.
+/// A place of the caller for an answer.
 ///
 /// # Safety
-/// `pointer` is null or points to a `T` that this thread may write and nobody else looks at while the reference lives.
+/// `pointer` is null or points to a `T` that only this thread reads and writes while the reference lives.
 pub(super) unsafe fn write<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut T, CallFault> {
-    // SAFETY: the caller's promise; null is looked for.
+    // SAFETY: the caller's promise; null is checked.
     unsafe { pointer.as_mut() }.ok_or_else(|| CallFault::null(what))
 }
 
 /// Items of the caller.
 ///
 /// # Safety
-/// `pointer` is null or points to `count` values of `T` one after the other that nothing changes while the slice lives.
+/// `pointer` is null or points to `count` consecutive values of `T` that stay unchanged while the slice lives.
 pub(super) unsafe fn items<'a, T>(pointer: *const T, count: usize, what: &str) -> Result<&'a [T], CallFault> {
     checked_count::<T>(count, what)?;
     if count == 0 {
@@ -189,7 +189,8 @@ pub(super) unsafe fn items<'a, T>(pointer: *const T, count: usize, what: &str) -
 /// Places for items of the caller.
 ///
 /// # Safety
-/// `pointer` is null or points to `count` values of `T` one after the other that this thread may write and nobody else looks at while the slice lives.
+/// `pointer` is null or points to `count` consecutive values of `T` that only this thread reads and writes while the
+/// slice lives.
 pub(super) unsafe fn places<'a, T>(
     pointer: *mut T,
     count: usize,
@@ -211,24 +212,24 @@ fn checked_count<T>(count: usize, what: &str) -> Result<(), CallFault> {
     bytes.map(|_| ()).ok_or_else(|| CallFault::new(EqpStatus::BadPointer, format!("{what}: too many items")))
 }
 
-/// Gives a value to the caller, who frees it by the function for its type.
+/// Gives a value to the caller, who frees it with the function for its type.
 ///
 /// # Safety
 /// As [`write()`].
 pub(super) unsafe fn give<T>(value: T, to: *mut *mut T, what: &str) -> Result<(), CallFault> {
-    // SAFETY: the caller's promise. The place comes first: without one the value is dropped here.
+    // SAFETY: the caller's promise. The place is checked first: without one the value is dropped here.
     let to = unsafe { write(to, what) }?;
     *to = Box::into_raw(Box::new(value));
     Ok(())
 }
 
-/// Takes back what [`give`] gave; null is nothing.
+/// Takes back a value from [`give`]; null is ignored.
 ///
 /// # Safety
 /// `pointer` is null or came from [`give`] and was not taken back before.
 pub(super) unsafe fn take_back<T>(pointer: *mut T) {
     if !pointer.is_null() {
-        // SAFETY: the caller's promise. A panic of a destructor would be a fault of the library and is kept from leaving it.
+        // SAFETY: the caller's promise. A panic of a destructor would be an error of the library, and is kept inside.
         let _ = catch_unwind(AssertUnwindSafe(|| drop(unsafe { Box::from_raw(pointer) })));
     }
 }

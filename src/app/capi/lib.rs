@@ -1,11 +1,11 @@
 //! The C interface of the library: designs from text, lengths and poses, prepared solvers, batches, tracked poses.
 //!
-//! `eqp.h` beside this file is what cbindgen makes of it; `docs/c-interface.md` says how to build and use it. Nothing is computed here: pointers become values of the front page, and answers are written where the caller
-//! says.
+//! cbindgen makes `eqp.h` beside this file; `docs/c-interface.md` describes how to build and use it. Nothing is
+//! computed here: pointers become values of the front page, and answers are written to places of the caller.
 //!
-//! Every function that can fail returns an `EqpStatus` and writes a text into an `EqpError` where the caller gives one; there is no state of the library to ask afterwards. A panic, which would be
-//! a fault of the library, ends as `EqpStatus::Internal` and does not leave it. Designs, solvers and solutions do not change once they are made, so that threads may share them; a tracker belongs to one
-//! thread at a time.
+//! Every function that can fail returns an `EqpStatus`, and writes a text into an `EqpError` if the caller gives one.
+//! The library keeps no error state. A panic, which would be an error of the library, ends as `EqpStatus::Internal`.
+//! Designs, solvers and solutions are immutable, so threads may share them. A tracker belongs to one thread at a time.
 
 #![allow(
     unsafe_code,
@@ -22,10 +22,10 @@ mod tracking;
 
 use std::ffi::{CStr, c_char};
 
-/// The version of the library, `major.minor.patch`: a text that stays.
+/// The version of the library, `major.minor.patch`, a static text.
 #[unsafe(no_mangle)]
 pub extern "C" fn eqp_version() -> *const c_char {
-    // the one text of this function that ends with a zero
+    // the only text of this function that ends with a zero
     const VERSION: &CStr =
         match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
             Ok(text) => text,

@@ -1,4 +1,4 @@
-//! How far from a pose, and the nearest allowed pose.
+//! The free travel from a pose, and the nearest allowed pose.
 
 use super::design::EqpDesign;
 use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
@@ -7,38 +7,41 @@ use ask::Error;
 use machine::reach::{NearestPoseOptions, Reach, Travel};
 use platform::geom::Pose;
 
-/// How far one of the six numbers of a pose (x, y, z in design units; roll, pitch, yaw in degrees) may move while the others stay.
+/// The free travel of one number of a pose while the others stay fixed. The number is x, y, z in design units, or roll,
+/// pitch, yaw in degrees.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EqpFreeRange {
-    /// Towards smaller values, not negative.
+    /// The travel towards smaller values, not negative.
     pub back: f64,
-    /// Towards greater ones.
+    /// The travel towards greater values, not negative.
     pub forth: f64,
-    /// Whether something binds there; else nothing does within half a turn, or ten sizes of the design.
+    /// Whether a requirement ends the travel `back`; otherwise none does within half a turn, or ten sizes of the
+    /// design.
     pub back_binds: bool,
-    /// The same of the greater values.
+    /// Whether a requirement ends the travel `forth`.
     pub forth_binds: bool,
 }
 
-/// An allowed pose near one that may not be.
+/// The allowed pose found near a pose that is not allowed.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EqpNearest {
     /// The pose.
     pub pose: EqpPose,
-    /// `sqrt(|p - p'|^2 + (L angle)^2)` from the one asked for, `L` the characteristic length of the design; 0 where that one is allowed.
+    /// The distance `sqrt(|p - p'|^2 + (L angle)^2)` from the given pose, with the characteristic length `L` of the
+    /// design; 0 if the given pose is allowed.
     pub distance: f64,
     /// Whether it is locally nearest, as far as margins are smooth.
     pub stationary: bool,
-    /// Whether the straight way from home to it violates nothing.
+    /// Whether the straight path from home to the pose violates nothing.
     pub straight_from_home: bool,
 }
 
-/// The requirements of a design about a pose of the caller, called `name` there.
+/// The requirements of a design with a pose of the caller, which is called `name` there.
 ///
 /// # Safety
-/// `design` is null or a design, which lives as long as what is given back; `pose` is null or points to a pose.
+/// `design` is null or a design that lives as long as the result; `pose` is null or points to a pose.
 unsafe fn reach_and_pose<'a>(
     design: *const EqpDesign,
     pose: *const EqpPose,
@@ -52,7 +55,8 @@ unsafe fn reach_and_pose<'a>(
 /// Whether a pose meets every requirement of the design, and `det J` has the sign that it has at home.
 ///
 /// # Safety
-/// `design` is a design, `pose` points to a pose, `allowed` to a place for the answer, `error` is null or points to a place for an error.
+/// `design` is a design, `pose` points to a pose, and `allowed` to a place for the answer. The argument `error` is null
+/// or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_allowed(
     design: *const EqpDesign,
@@ -70,10 +74,12 @@ pub unsafe extern "C" fn eqp_allowed(
     }
 }
 
-/// How far x, y, z, roll, pitch and yaw of a pose may move, each alone; `EQP_STATUS_NO_ALLOWED_POSE` where the pose itself is not allowed.
+/// The free travel of x, y, z, roll, pitch and yaw from a pose, each alone; `EQP_STATUS_NO_ALLOWED_POSE` if the pose
+/// itself is not allowed.
 ///
 /// # Safety
-/// `design` is a design, `pose` points to a pose, `ranges` to places for six ranges, `error` is null or points to a place for an error.
+/// `design` is a design, `pose` points to a pose, and `ranges` to places for six ranges. The argument `error` is null
+/// or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_free_ranges(
     design: *const EqpDesign,
@@ -102,10 +108,11 @@ pub unsafe extern "C" fn eqp_free_ranges(
     }
 }
 
-/// A pose locally nearest to `asked` among those that meet every requirement; `asked` itself where it does.
+/// A pose locally nearest to `asked` among the poses that meet every requirement; `asked` itself if it does.
 ///
 /// # Safety
-/// `design` is a design, `asked` points to a pose, `nearest` to a place for the answer, `error` is null or points to a place for an error.
+/// `design` is a design, `asked` points to a pose, and `nearest` to a place for the answer. The argument `error` is
+/// null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_nearest_allowed(
     design: *const EqpDesign,

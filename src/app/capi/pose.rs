@@ -6,13 +6,13 @@ use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
 use ask::Error;
 use platform::geom::{Angles, Pose};
 
-/// A pose: a platform point `x` is at `R x + p` in the base frame.
+/// A pose: it moves a platform point `x` to `R x + p` in the base frame.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EqpPose {
-    /// `R`, row by row.
+    /// The rotation matrix `R`, row by row.
     pub rotation: [[f64; 3]; 3],
-    /// `p`, design units.
+    /// The position `p`, design units.
     pub position: [f64; 3],
 }
 
@@ -27,7 +27,7 @@ impl From<&Pose> for EqpPose {
 }
 
 impl EqpPose {
-    /// The pose; a matrix that is a rotation but for rounding becomes the nearest one.
+    /// The pose; a matrix that is a rotation up to rounding becomes the nearest rotation.
     pub(super) fn checked(&self) -> Result<Pose, CallFault> {
         let mut matrix = Matrix4::identity();
         let rows = Matrix3::from_fn(|i, j| self.rotation[i][j]);
@@ -39,10 +39,12 @@ impl EqpPose {
     }
 }
 
-/// The pose at a position with the roll, pitch and yaw given, degrees: `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+/// Makes the pose with this position, design units, and this roll, pitch and yaw, degrees:
+/// `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 ///
 /// # Safety
-/// `position` and `rpy_deg` point to three numbers each, `pose` to a place for a pose, `error` is null or points to a place for an error.
+/// `position` and `rpy_deg` point to three numbers each, and `pose` to a place for a pose. The argument `error` is null
+/// or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_pose_from_rpy(
     position: *const f64,

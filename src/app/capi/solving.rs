@@ -7,7 +7,7 @@ use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, 
 use ask::Solver;
 use fk::{Completeness, FkOptions, FkRoot, FkSolutions, Reality, Threads};
 
-/// A design prepared for many lengths. It does not change: threads may share it.
+/// A design prepared for many lengths. It is immutable, and threads may share it.
 #[derive(Debug)]
 pub struct EqpSolver(Solver);
 
@@ -15,17 +15,18 @@ pub struct EqpSolver(Solver);
 #[derive(Debug)]
 pub struct EqpSolutions(FkSolutions);
 
-/// Whether a list of poses is all of them.
+/// Whether a list holds all poses.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EqpCompleteness {
     /// Nothing is known.
     Unproved = 0,
-    /// As many as there are, counted modulo random primes: wrong with a probability that the library bounds.
+    /// The list has as many poses as counted modulo random primes; the library bounds the probability of a wrong count.
     Modular = 1,
-    /// As many as a theorem allows.
+    /// The list has as many poses as a theorem allows.
     Proved = 2,
-    /// All poses up to a distance, so all real ones, by a theorem; others are proved to be farther out.
+    /// The list has all poses up to a distance, so all real ones, by a theorem; all others are proved to be farther
+    /// away.
     ProvedBounded = 3,
 }
 
@@ -33,11 +34,11 @@ pub enum EqpCompleteness {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EqpReality {
-    /// It is not.
+    /// The pose is not real.
     Complex = 0,
-    /// It is.
+    /// The pose is real.
     Real = 1,
-    /// Not decided.
+    /// Undecided.
     Undecided = 2,
 }
 
@@ -49,25 +50,25 @@ pub struct EqpSolution {
     pub rotation: [[f64; 3]; 3],
     /// Real part of `p`, design units.
     pub position: [f64; 3],
-    /// Imaginary part of `R`, zero where the pose is real.
+    /// Imaginary part of `R`; zero for a real pose.
     pub rotation_imaginary: [[f64; 3]; 3],
-    /// Imaginary part of `p`.
+    /// Imaginary part of `p`, design units.
     pub position_imaginary: [f64; 3],
-    /// Whether it is real.
+    /// Whether the pose is real.
     pub reality: EqpReality,
-    /// Whether a proof in interval arithmetic says that there is such a pose near these numbers.
+    /// Whether a proof in interval arithmetic shows that such a pose exists near these numbers.
     pub certified: bool,
-    /// Bound on the distance of every entry of `R` from that of the pose proved; infinite without a certificate.
+    /// Greatest error of an entry of `R` against the proved pose; infinite without a certificate.
     pub rotation_error: f64,
-    /// The same of `p`, design units.
+    /// Greatest error of an entry of `p` against the proved pose, design units; infinite without a certificate.
     pub position_error: f64,
-    /// How often it counts.
+    /// The multiplicity of the pose.
     pub multiplicity: u32,
-    /// Largest error of the leg equations over the squared size of the design.
+    /// Largest error of the leg equations divided by the squared size of the design.
     pub residual: f64,
 }
 
-/// Greatest distances of the numbers of a root from those of the pose that its certificate proves: of `R` and of `p`.
+/// Greatest errors of the numbers of a root against the pose proved by its certificate: of `R` and of `p`.
 fn errors(root: &FkRoot) -> (f64, f64) {
     let Some(certificate) = &root.certificate else { return (f64::INFINITY, f64::INFINITY) };
     let discs = certificate.enclosure();
@@ -125,7 +126,7 @@ pub unsafe extern "C" fn eqp_solver_new(
     }
 }
 
-/// Frees a solver; null is nothing.
+/// Frees a solver; null is ignored.
 ///
 /// # Safety
 /// `solver` is null or a solver that was not freed.
@@ -138,7 +139,8 @@ pub unsafe extern "C" fn eqp_solver_free(solver: *mut EqpSolver) {
 /// All finite poses, real and complex, for six lengths.
 ///
 /// # Safety
-/// `solver` is a solver, `lengths` points to six numbers, `solutions` to a place for a pointer, `error` is null or points to a place for an error.
+/// `solver` is a solver, `lengths` points to six numbers, and `solutions` to a place for a pointer. The argument
+/// `error` is null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_solve(
     solver: *const EqpSolver,
@@ -155,12 +157,14 @@ pub unsafe extern "C" fn eqp_solve(
     }
 }
 
-/// All finite poses for each of `count` rows of lengths, computed by up to `threads` threads, 0 for as many as there are processors. A row that fails has a null pointer in `solutions`, and its code in
-/// `statuses`, which may be null; the others are as they are alone. Returns the first code that is not `EQP_STATUS_OK`, with its message.
+/// Finds all finite poses for each of `count` rows of lengths, with up to `threads` threads; 0 means one for each
+/// processor. A row that fails has a null pointer in `solutions`, and its code in `statuses`, which may be null. It
+/// does not affect other rows. Returns the first code that is not `EQP_STATUS_OK`, with its message.
 ///
 /// # Safety
-/// `solver` is a solver, `lengths` points to `count` rows of six numbers, `solutions` to places for `count` pointers, `statuses` is null or points to places for `count` codes, `error` is null or points to a place for
-/// an error.
+/// `solver` is a solver, `lengths` points to `count` rows of six numbers, and `solutions` to places for `count`
+/// pointers. The argument `statuses` is null or points to places for `count` codes. The argument `error` is null or
+/// points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_solve_all(
     solver: *const EqpSolver,
@@ -205,7 +209,7 @@ pub unsafe extern "C" fn eqp_solve_all(
     }
 }
 
-/// Frees a list of poses; null is nothing.
+/// Frees a list of poses; null is ignored.
 ///
 /// # Safety
 /// `solutions` is null or a list that was not freed.
@@ -215,7 +219,7 @@ pub unsafe extern "C" fn eqp_solutions_free(solutions: *mut EqpSolutions) {
     unsafe { take_back(solutions) }
 }
 
-/// How many poses a list has; 0 for null.
+/// Number of poses in a list; 0 for null.
 ///
 /// # Safety
 /// `solutions` is null or a list.
@@ -225,7 +229,7 @@ pub unsafe extern "C" fn eqp_solutions_count(solutions: *const EqpSolutions) -> 
     unsafe { solutions.as_ref() }.map_or(0, |s| s.0.roots.len())
 }
 
-/// Whether a list is all poses that there are; `EQP_COMPLETENESS_UNPROVED` for null.
+/// Whether a list holds all poses; `EQP_COMPLETENESS_UNPROVED` for null.
 ///
 /// # Safety
 /// `solutions` is null or a list.
@@ -240,10 +244,11 @@ pub unsafe extern "C" fn eqp_solutions_completeness(solutions: *const EqpSolutio
     }
 }
 
-/// A pose of a list, counted from 0.
+/// The pose with this index in a list, from 0.
 ///
 /// # Safety
-/// `solutions` is a list, `solution` points to a place for a pose with its evidence, `error` is null or points to a place for an error.
+/// `solutions` is a list, and `solution` points to a place for a pose with its evidence. The argument `error` is null
+/// or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_solutions_get(
     solutions: *const EqpSolutions,

@@ -217,7 +217,7 @@ fn a_jacobian_has_a_length_and_legs_with_directions() {
             assert_eq!(status, EqpStatus::BadLengths, "{length}");
             assert!(message(&error).contains("characteristic_length"), "{}", message(&error));
         }
-        // moments over so short a length overflow
+        // moments divided by so short a length overflow
         let status = eqp_jacobian(design, &raw const home, 1e-320, (&raw mut rows).cast(), null_mut());
         assert_eq!((status, rows), (EqpStatus::Computation, [[7.0; 6]; 6]), "refused rows stay");
         let status = eqp_jacobian(design, &raw const home, 50.0, (&raw mut rows).cast(), null_mut());

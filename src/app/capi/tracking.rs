@@ -1,4 +1,4 @@
-//! One real pose followed from lengths to lengths.
+//! Tracks one real pose from lengths to lengths.
 
 use super::design::EqpDesign;
 use super::failure::{EqpError, EqpStatus, give, read, take_back, told, write};
@@ -6,19 +6,21 @@ use super::pose::EqpPose;
 use ask::Tracker;
 use fk::NearOutcome;
 
-/// Follows the pose of a machine. It belongs to one thread at a time; a step takes a few microseconds and allocates nothing.
+/// Tracks the pose of a machine. It belongs to one thread at a time; a step takes a few microseconds and allocates
+/// nothing.
 #[derive(Debug)]
 pub struct EqpTracker(Tracker);
 
-/// What became of a step.
+/// The outcome of a step.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EqpTrackStatus {
-    /// The pose continues the last one, joined to it by regular poses: no other assembly mode was taken.
+    /// The pose continues the last one through regular poses, so the assembly mode is the same.
     Tracked = 0,
-    /// A singular pose lies on the way or at its end.
+    /// A singular pose lies on the path or at its end.
     NearSingular = 1,
-    /// Given up: the lengths are too far from the last ones, or rounding keeps Newton's method from the accuracy that the test needs.
+    /// The pose is lost. The lengths are too far from the last ones, or rounding keeps Newton's method from the
+    /// accuracy that the test needs.
     Lost = 2,
 }
 
@@ -26,24 +28,25 @@ pub enum EqpTrackStatus {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EqpTrack {
-    /// What became of it.
+    /// The outcome of the step.
     pub status: EqpTrackStatus,
-    /// The pose for the lengths where it was tracked, else the last one on the way to them.
+    /// The pose for the lengths if it was tracked, otherwise the last pose on the path to them.
     pub pose: EqpPose,
-    /// How far on the straight line of squared lengths, from 0 to 1.
+    /// The fraction of the straight line of squared lengths that was covered, from 0 to 1.
     pub fraction: f64,
-    /// Largest error of the leg equations at the pose over the squared size of the design.
+    /// Largest error of the leg equations at the pose divided by the squared size of the design.
     pub residual: f64,
-    /// `6 / (|J| |J^-1|)` at the pose: 1 at best, 0 at a singular pose.
+    /// The ratio `6 / (|J| |J^-1|)` at the pose: 1 at best, 0 at a singular pose.
     pub frobenius_ratio: f64,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub newton_steps: u32,
 }
 
-/// A tracker that begins at a pose; it does not need the design afterwards.
+/// Makes a tracker that begins at a pose; it does not need the design afterwards.
 ///
 /// # Safety
-/// `design` is a design, `start` points to a pose, `tracker` to a place for a pointer, `error` is null or points to a place for an error.
+/// `design` is a design, `start` points to a pose, and `tracker` to a place for a pointer. The argument `error` is null
+/// or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_tracker_new(
     design: *const EqpDesign,
@@ -60,10 +63,12 @@ pub unsafe extern "C" fn eqp_tracker_new(
     }
 }
 
-/// Continues the pose to six lengths. Where it is not tracked the tracker stays where it was, and the call is `EQP_STATUS_OK` all the same: `track` says what became of it.
+/// Continues the pose to six lengths. If tracking fails, the tracker stays at its old pose, and the call still returns
+/// `EQP_STATUS_OK`: `track` holds the outcome.
 ///
 /// # Safety
-/// `tracker` is a tracker that no other thread uses meanwhile, `lengths` points to six numbers, `track` to a place for the answer, `error` is null or points to a place for an error.
+/// `tracker` is a tracker that no other thread uses meanwhile. The argument `lengths` points to six numbers, and
+/// `track` to a place for the answer. The argument `error` is null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_tracker_step(
     tracker: *mut EqpTracker,
@@ -94,10 +99,11 @@ pub unsafe extern "C" fn eqp_tracker_step(
     }
 }
 
-/// Where the platform is.
+/// The current pose of the platform.
 ///
 /// # Safety
-/// `tracker` is a tracker that no other thread steps meanwhile, `pose` points to a place for a pose, `error` is null or points to a place for an error.
+/// `tracker` is a tracker that no other thread steps meanwhile, and `pose` points to a place for a pose. The argument
+/// `error` is null or points to a place for an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eqp_tracker_pose(
     tracker: *const EqpTracker,
@@ -114,7 +120,7 @@ pub unsafe extern "C" fn eqp_tracker_pose(
     }
 }
 
-/// Frees a tracker; null is nothing.
+/// Frees a tracker; null is ignored.
 ///
 /// # Safety
 /// `tracker` is null or a tracker that was not freed.

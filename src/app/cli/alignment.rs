@@ -19,10 +19,10 @@ use verify::judge;
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FrameArgs {
-    /// Find all rigid motions of the base and platform frames of the second design that make it equivalent to the first
+    /// Find all rigid motions of the second design's base and platform frames that make it equivalent to the first
     #[arg(long)]
     align: bool,
-    /// Exchange base and platform of the second design first, so that its poses become the inverse poses
+    /// Exchange base and platform of the second design first; its poses become the inverse poses
     #[arg(long)]
     exchange: bool,
     /// Write the second design, in the frames of the first, to this file (.toml or .json)
@@ -30,26 +30,26 @@ pub(crate) struct FrameArgs {
     output: Option<OutputPath>,
 }
 
-/// The second design as it is compared with the first.
+/// The second design, prepared for the comparison with the first.
 #[derive(Debug)]
 pub(crate) struct Second {
-    /// In the frames of the first, where `--align` found how.
+    /// In the frames of the first design, if `--align` found a motion.
     pub(crate) manipulator: Manipulator,
-    /// As it is asked about, before any motion.
+    /// As requested, before any motion.
     given: Manipulator,
     aligned: Option<Aligned>,
     exchange: bool,
     written: Option<PathBuf>,
 }
 
-/// What `--align` finds.
+/// The results of `--align`.
 #[derive(Debug)]
 struct Aligned {
-    /// For the second design as it is asked about.
+    /// The alignment of the second design as requested.
     given: Alignment,
-    /// With its base and platform exchanged.
+    /// The alignment of the second design with base and platform exchanged.
     exchanged: Alignment,
-    /// For its mirror image.
+    /// The alignment of the second design's mirror image.
     mirrored: Alignment,
 }
 
@@ -64,7 +64,7 @@ pub(crate) fn same_units(a: &Design, b: &Design, code: &str) -> Result<(), Failu
 }
 
 impl FrameArgs {
-    /// Exchanges, aligns and writes the second design as asked.
+    /// Exchanges, aligns and writes the second design as requested.
     pub(crate) fn apply(&self, a: &Design, b: &Design, context: &Context) -> Result<Second, Failure> {
         if !(self.align || self.exchange) {
             context.no_effect("output", "the second design stays as it is without --align and --exchange")?;
@@ -94,7 +94,7 @@ impl FrameArgs {
             if let Alignment::Found { motions, .. } = &found {
                 let first = &motions[0];
                 motion = Some((first.base, first.platform));
-                // without a motion the joints stay as exact as they are
+                // without a motion the joints stay exact
                 if first.is_motion() {
                     second.manipulator = transformed(&second.manipulator, &first.base, &first.platform)
                         .map_err(|e| broken(&e))?;
@@ -111,8 +111,8 @@ impl FrameArgs {
 }
 
 impl Second {
-    /// What the first design and this one have to do with each other. A motion that was found is known to rounding
-    /// only, so that nothing but singular platforms is proved after it.
+    /// The relation of the first design and this one. A motion is known only to rounding, so after it nothing is proved
+    /// except that a platform is singular.
     pub(crate) fn judged(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
         let given = judge(a, &self.given)?;
         match self.aligned.as_ref().map(|found| &found.given) {
@@ -123,7 +123,7 @@ impl Second {
         }
     }
 
-    /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided
+    /// Whether the requested rigid motion was not found: there is none (`Some(true)`), or it is undecided
     /// (`Some(false)`).
     pub(crate) fn refuted(&self) -> Option<bool> {
         match self.aligned.as_ref()?.given {
@@ -133,7 +133,8 @@ impl Second {
         }
     }
 
-    /// Names, lengths and home pose follow; a box of poses about home, which has the axes of the old frame, does not.
+    /// Names, lengths and home pose are carried over. A box of poses about home is dropped, since it has the axes of
+    /// the old frame.
     fn design(&self, b: &Design, motion: Option<&(Pose, Pose)>) -> Result<Design, Failure> {
         let (mut base, mut platform) = (b.base_names().to_vec(), b.platform_names().to_vec());
         if self.exchange {
@@ -149,9 +150,9 @@ impl Second {
         (design.source, design.description) = (b.source.clone(), b.description.clone());
         (design.lengths, design.optimize, design.hardware) = (b.lengths, b.optimize, b.hardware);
         design.home = b.home.as_ref().map(moved);
-        // in the base frame: home is not the same pose in the new frames
+        // in the base frame: home is a different pose in the new frames
         design.workspace.poses = b.workspace.space(&b.home_or_default()).poses.iter().map(moved).collect();
-        // a motion that is found numerically leaves no exact joint: three numbers each
+        // a numerical motion makes all joints inexact: three numbers each
         Ok(if motion.is_none() { design.exchanged_from(b) } else { design }.into())
     }
 
@@ -165,7 +166,7 @@ impl Second {
         }
     }
 
-    /// One sentence on the alignment, where one was asked for.
+    /// One sentence on the alignment, if it was requested.
     pub(crate) fn explanation(&self) -> Option<String> {
         self.aligned.as_ref().map(|a| a.given.explanation())
     }

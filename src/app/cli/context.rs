@@ -1,4 +1,4 @@
-//! What a command is given besides its own arguments.
+//! The context of a command: global options, warnings, and the designs read.
 
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use machine::coupled::CoupledLegs;
 use machine::rotary::RotaryPlatform;
 use records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 
-/// Options every command takes, before or after its name.
+/// Options of every command, before or after its name.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Global {
     /// Write exactly one JSON document to standard output, errors included
@@ -38,11 +38,11 @@ pub(crate) struct FileWarning {
     pub(crate) warning: Warning,
 }
 
-/// Global options and the warnings gathered on the way.
+/// Global options and collected warnings.
 #[derive(Debug)]
 pub(crate) struct Context {
     seed: u64,
-    /// The command has asked for the seed: the answer may depend on it.
+    /// Whether the command has used the seed, so that the answer may depend on it.
     seed_taken: Cell<bool>,
     json: bool,
     quiet: bool,
@@ -67,14 +67,13 @@ impl Context {
         }
     }
 
-    /// That of a command without arguments, for tests.
+    /// The context of a command without arguments, for tests.
     #[cfg(test)]
     pub(crate) fn silent() -> Self {
         Self::new(&Global { json: false, seed: 1, quiet: true }, &ArgMatches::default())
     }
 
-    /// Refuses an option that was typed although it has no effect for `reason`: nothing that was asked for is passed
-    /// over.
+    /// Refuses an option that was typed but has no effect for `reason`: no option is silently ignored.
     ///
     /// # Errors
     /// Exit 2, `usage::no_effect`.
@@ -94,7 +93,7 @@ impl Context {
         self.seed
     }
 
-    /// What the answer was made from.
+    /// The program, seed and files behind the answer.
     pub(crate) fn provenance(&self) -> ProvenanceRecord {
         let texts = files::texts_read();
         let source = |(name, path): &(String, String)| {
@@ -114,7 +113,7 @@ impl Context {
         }
     }
 
-    /// `--json`: for commands that would do needless work to render what is not shown.
+    /// `--json`: lets commands skip rendering of text that is not shown.
     pub(crate) fn json(&self) -> bool {
         self.json
     }
@@ -128,14 +127,14 @@ impl Context {
         &self.warnings
     }
 
-    /// Tells people something on standard error, with `--quiet` too: it belongs to the answer.
+    /// Writes a part of the answer to standard error, even with `--quiet`.
     pub(crate) fn note(&self, words: &str) {
         if !self.json {
             diagnostic::print_note(words);
         }
     }
 
-    /// Tells people what was guessed about a table.
+    /// Reports guesses about a table.
     pub(crate) fn note_guesses(&self, table: &str, guesses: &[String]) {
         for guess in guesses.iter().filter(|_| !self.quiet) {
             diagnostic::print_note(&format!("{table}: {guess}"));
@@ -143,7 +142,7 @@ impl Context {
     }
 
     /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document.
-    /// Rods on cranks and joints that are not ideal are refused: a command that takes them asks for
+    /// Rods on cranks and joints that are not ideal are refused; commands that accept them call
     /// [`Self::load_with_cranks`].
     ///
     /// # Errors
@@ -152,7 +151,7 @@ impl Context {
         self.read_design(path, parse).map(|read| read.design)
     }
 
-    /// As [`Self::load`], with the texts that the design was read from, for commands that keep them.
+    /// As [`Self::load`], with the texts of the design, for commands that keep them.
     ///
     /// # Errors
     /// As [`Self::load`].
@@ -160,7 +159,7 @@ impl Context {
         self.read_design(path, parse)
     }
 
-    /// As [`Self::load`], for commands that know what to do with rods on cranks and with joints that are not ideal.
+    /// As [`Self::load`], for commands that handle rods on cranks and joints that are not ideal.
     ///
     /// # Errors
     /// As [`Self::load`].
@@ -168,7 +167,7 @@ impl Context {
         self.read_design(path, parse_with_cranks).map(|read| read.design)
     }
 
-    /// As [`Self::load`], for commands that know what to do with rods on cranks, and take joints as ideal.
+    /// As [`Self::load`], for commands that handle rods on cranks, and take joints as ideal.
     ///
     /// # Errors
     /// As [`Self::load`].
@@ -176,7 +175,7 @@ impl Context {
         self.read_design(path, parse_ideal).map(|read| read.design)
     }
 
-    /// The cranks of a design that has some.
+    /// The cranks of a design, if it has any.
     ///
     /// # Errors
     /// Exit 2: cranks and joints that make no platform.
@@ -184,10 +183,10 @@ impl Context {
         design.rotary().map_err(|why| Failure::refused("design::invalid", format!("{}: {why}", design.name)))
     }
 
-    /// The legs of a design whose joints are not ideal.
+    /// The legs of a design with joints that are not ideal.
     ///
     /// # Errors
-    /// Exit 2: drives that have no lengths at home, from where their turns count.
+    /// Exit 2: drives without a length at home, where their twists are zero.
     pub(crate) fn coupled_of(design: &Design) -> Result<Option<CoupledLegs>, Failure> {
         if !design.hardware.is_coupled() {
             return Ok(None);
@@ -197,7 +196,7 @@ impl Context {
         CoupledLegs::new(design.manipulator(), &design.hardware, &home).map(Some).map_err(refused)
     }
 
-    /// A design of six legs, or of five, for commands that know what to do with both: `read` reads the former.
+    /// A design of six or five legs, for commands that handle both; `read` reads designs of six.
     ///
     /// # Errors
     /// As [`Self::load`].
@@ -270,7 +269,7 @@ pub(crate) enum SixOrFive {
     Five(Box<FiveLegs>),
 }
 
-/// A design with the texts that it was read from.
+/// A design with its texts.
 #[derive(Debug)]
 pub(crate) struct ReadDesign {
     pub(crate) design: Design,
@@ -279,7 +278,7 @@ pub(crate) struct ReadDesign {
     pub(crate) poses: Option<(PathBuf, Vec<u8>)>,
 }
 
-/// The notation of a design: by the name of the file or, on standard input, by its first character.
+/// The notation of a design: by the file name or, on standard input, by the first character.
 pub(crate) fn format_of(path: &Path, text: &str) -> Format {
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     if files::is_standard(path) && begins.starts_with('{') { Format::Json } else { Format::of_path(path) }

@@ -13,8 +13,8 @@ use num::names::changes_direction;
 
 const RENDERER: Renderer = Renderer::styled();
 
-/// An excerpt shows a part of this beginning of its line, so that one long line with many faults is not read whole for
-/// each.
+/// Only this number of characters at the beginning of a line is used for excerpts, so that a long line with many faults
+/// is cheap.
 const MAX_READ: usize = 2000;
 
 /// Shows a failure and all its violations.
@@ -27,7 +27,7 @@ pub(crate) fn print_warning(path: &str, text: &str, warning: &Warning) {
     print(&render_warning(path, text, warning));
 }
 
-/// Shows a line as it is.
+/// Shows a line unchanged.
 pub(crate) fn print_note(text: &str) {
     print(&format!("{}\n", printable_lines(text)));
 }
@@ -92,7 +92,7 @@ fn excerpt<'a>(
     Snippet::source(source).line_start(line).path(path).annotation(mark)
 }
 
-/// Control characters replaced one for one, so that a file cannot steer the terminal and columns stay.
+/// Replaces control characters one for one, so that a file cannot control the terminal and columns stay.
 fn printable(text: &str) -> String {
     text.chars().map(printable_char).collect()
 }
@@ -114,7 +114,7 @@ fn steers(c: char) -> bool {
     c.is_control() || changes_direction(c) || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}')
 }
 
-/// A text whose characters that could steer a terminal are spelled by `spell`; ends of lines and tabulators stay.
+/// A text with terminal control characters replaced by `spell`; line ends and tabulators stay.
 pub(crate) fn escaped(text: &str, spell: impl Fn(char) -> String) -> String {
     let plain = |c: char| !steers(c) || matches!(c, '\n' | '\r' | '\t');
     if text.chars().all(plain) {
@@ -123,7 +123,7 @@ pub(crate) fn escaped(text: &str, spell: impl Fn(char) -> String) -> String {
     text.chars().map(|c| if plain(c) { c.to_string() } else { spell(c) }).collect()
 }
 
-/// An answer for people: names of files and joints in it cannot steer the terminal.
+/// An answer for people: names of files and joints in it cannot control the terminal.
 pub(crate) fn harmless(text: &str) -> String {
     escaped(text, |c| c.escape_unicode().to_string())
 }

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-/// What the exit code tells; the order is that of the codes.
+/// The meaning of the exit code, in the order of the codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Exit {
     /// 0: yes, solved, done.
@@ -30,7 +30,7 @@ impl Exit {
     }
 }
 
-/// What an answer that is yes, no or undecided means for the exit code.
+/// The exit code of an answer that is yes, no or undecided.
 impl From<Option<bool>> for Exit {
     fn from(answer: Option<bool>) -> Self {
         match answer {

@@ -1,10 +1,10 @@
-//! Why a command has no answer.
+//! The reasons why a command has no answer.
 
 use super::exit::Exit;
 use files::design::Violation;
 use records::{FailureRecord, ViolationRecord};
 
-/// A refusal or failure: what `"error"` holds in JSON and standard error shows.
+/// A refusal or failure: the content of `"error"` in JSON and of standard error.
 #[derive(Debug, Clone)]
 pub(crate) struct Failure {
     /// The exit code.
@@ -13,13 +13,13 @@ pub(crate) struct Failure {
     pub(crate) code: String,
     /// One sentence.
     pub(crate) message: String,
-    /// What to do about it.
+    /// The remedy.
     pub(crate) help: Option<String>,
-    /// The design file it is about.
+    /// The design file concerned.
     pub(crate) design: Option<Box<BadDesign>>,
 }
 
-/// A design file and what is wrong with it.
+/// A design file and its violations.
 #[derive(Debug, Clone)]
 pub(crate) struct BadDesign {
     pub(crate) path: String,
@@ -44,7 +44,7 @@ impl Failure {
         Self::new(Exit::Internal, "internal", message).with_help(help)
     }
 
-    /// Adds what to do about it.
+    /// Adds the remedy.
     pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self

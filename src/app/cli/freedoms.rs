@@ -22,7 +22,7 @@ impl Freedoms {
         }
     }
 
-    /// Their places among the six; positions before 3.
+    /// Their indices among the six; positions are below 3.
     pub(crate) fn places(self) -> [usize; 2] {
         self.0
     }
@@ -33,20 +33,20 @@ impl Freedoms {
 pub(crate) struct PoseGrid {
     pub(crate) freedoms: Freedoms,
     pub(crate) middle: Pose,
-    /// Half widths: design units, or degrees.
+    /// Half widths, design units or degrees.
     pub(crate) half: [f64; 2],
-    /// Points a side, two or more.
+    /// Number of points along each side, at least two.
     pub(crate) side: usize,
 }
 
 impl PoseGrid {
-    /// Where the pose in the middle lies on the axes: its position, and no rotation.
+    /// The place of the central pose on the axes: its position, and no rotation.
     pub(crate) fn centre(&self) -> (f64, f64) {
         let at = |place: usize| if place < 3 { self.middle.position[place] } else { 0.0 };
         (at(self.freedoms.0[0]), at(self.freedoms.0[1]))
     }
 
-    /// To the right and upwards.
+    /// The axes: to the right and upwards.
     pub(crate) fn axes(&self, design: &Design) -> [SliceAxis; 2] {
         let centre = [self.centre().0, self.centre().1];
         std::array::from_fn(|k| {

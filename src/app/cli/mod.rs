@@ -54,19 +54,19 @@ pub fn status(args: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Runs the program for a caller in the same process: exit code and standard output.
 ///
-/// The texts for standard error go to `said`, piece by piece. Standard input is empty.
-/// The streams, the signals and the panic hook of the process stay as they are. Several threads may call this at once.
+/// The texts for standard error go to `said`, piece by piece. Standard input is empty. The streams, the signals and the
+/// panic hook of the process stay unchanged. Several threads may call this at once.
 pub fn asked(args: Vec<OsString>, said: Sender<String>, stop: Arc<Stop>) -> (u8, String) {
     streams::for_caller(said, stop, || started(args).code())
 }
 
 fn started(args: Vec<OsString>) -> Exit {
-    // clap knows about --json only when it understood everything, but its refusals must obey it too
+    // clap knows --json only after it has understood everything, but its refusals must obey it too
     let json = args.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--json");
     guarded(json, || run(args, json))
 }
 
-/// Runs `body`; a panic in it becomes a failure with exit 4, in JSON when asked.
+/// Runs `body`; a panic becomes a failure with exit 4, in JSON if requested.
 fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
     catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
         let text = payload.downcast_ref::<&str>().map(ToString::to_string);
@@ -75,17 +75,17 @@ fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
     })
 }
 
-/// The notices of everything that is compiled in, as they come with the sources.
+/// The notices of all software compiled in, as they come with the sources.
 const LICENCES: &str = include_str!("../../../THIRD-PARTY-LICENCES.txt");
 
-/// Whether `--licences` is all that is asked: like `--version` it needs no command.
+/// Whether only `--licences` is given: like `--version` it needs no command.
 fn asks_for_licences(words: &[String]) -> bool {
     let own = |w: &String| ["--json", "-q", "--quiet"].contains(&w.as_str());
     words.iter().skip(1).filter(|w| !own(w)).eq(["--licences"])
 }
 
-/// `equipod sweep PLAN` is `equipod sweep run PLAN`: what a sweep is asked for most has the shortest name. A plan that
-/// is called as a command is `sweep run status`.
+/// Expands `equipod sweep PLAN` to `equipod sweep run PLAN`, since the most frequent command gets the shortest name.
+/// For a plan with the name of a command, write `sweep run status`.
 fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
     let mut rest = args.iter().enumerate().skip(1);
     while let Some((at, word)) = rest.next() {
@@ -104,10 +104,10 @@ fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
     args
 }
 
-/// What `sweep` takes beside a plan.
+/// The arguments that `sweep` accepts beside a plan.
 const SWEEP_COMMANDS: [&str; 8] = ["run", "status", "merge", "verify", "best", "design", "script", "help"];
 
-/// Prints help and version, or refuses the arguments, as clap says.
+/// Prints help and version, or refuses the arguments, as decided by clap.
 fn told(output: Output, said: &clap::Error, words: &[String]) -> Exit {
     if said.use_stderr() { output.failure(&usage::refusal(said, words), None) } else { output.help(said) }
 }
@@ -115,7 +115,7 @@ fn told(output: Output, said: &clap::Error, words: &[String]) -> Exit {
 fn run(args: Vec<OsString>, json: bool) -> Exit {
     let mut args = args;
     if args.len() < 2 {
-        // nothing was asked: say what can be
+        // without arguments show the help
         args.push("--help".into());
     }
     let args = sweep_run_in_full(args);

@@ -12,23 +12,23 @@ pub(crate) fn one(text: &str) -> Option<f64> {
 /// The value of an option that is one number.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The fault of the text.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     one(text).ok_or_else(|| {
         "this is no finite number, neither a decimal nor an expression such as 12/5".to_owned()
     })
 }
 
-/// So many finite numbers separated by commas.
+/// Finite numbers separated by commas.
 pub(crate) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
     let all: Option<Vec<f64>> = text.split(',').map(one).collect();
     all.and_then(|v| v.try_into().ok())
 }
 
-/// So many exact numbers separated by commas.
+/// Exact numbers separated by commas.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The fault of the text.
 pub(crate) fn exact<const N: usize>(text: &str) -> Result<[Surd; N], String> {
     let one = |field: &str| {
         let number: Share = field.parse().map_err(|why: files::design::InvalidShare| why.to_string())?;

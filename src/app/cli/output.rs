@@ -13,7 +13,7 @@ use super::files;
 use super::streams;
 use records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
-/// What a command found: the record that `--json` prints, and the text that people read without it.
+/// The result of a command: the record for `--json`, and the text for people.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) exit: Exit,
@@ -27,7 +27,7 @@ impl Answer {
     }
 }
 
-/// A record of whatever type that can be written as a document.
+/// A record of any type that can be written as a document.
 trait ErasedRecord: Debug {
     fn document(&self, context: &Context) -> Result<String, Failure>;
 }
@@ -38,7 +38,7 @@ impl<T: Serialize + Debug> ErasedRecord for T {
     }
 }
 
-/// Where results go.
+/// The destination of results.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Output {
     json: bool,
@@ -58,7 +58,7 @@ impl Output {
             let Some(file) = files::standard_output() else {
                 return write_out(&diagnostic::harmless(&answer.text), answer.exit);
             };
-            // a file on standard output leaves what there is to say to standard error
+            // if a file goes to standard output, the text goes to standard error
             if !context.quiet() {
                 let said = answer
                     .text
@@ -76,7 +76,7 @@ impl Output {
         }
     }
 
-    /// `context`: `None` before the arguments are understood.
+    /// `context`: `None` before the arguments are parsed.
     pub(crate) fn failure(self, failure: &Failure, context: Option<&Context>) -> Exit {
         diagnostic::print_failure(failure);
         if !self.json {
@@ -96,7 +96,7 @@ impl Output {
         }
     }
 
-    /// Help and version, which clap words.
+    /// Help and version, in the words of clap.
     pub(crate) fn help(self, said: &clap::Error) -> Exit {
         if self.json {
             return self.notices(&said.to_string());
@@ -115,7 +115,7 @@ pub(crate) fn document(
 ) -> Result<String, Failure> {
     let document = Document::new(answer, provenance, warnings.iter().map(WarningRecord::from).collect());
     let text = serde_json::to_string(&document);
-    // what could steer a terminal stands in strings alone, where JSON has another spelling for it
+    // terminal control characters occur only in strings, and JSON has an escape for them
     text.map(|t| {
         diagnostic::escaped(&t, |c| {
             c.encode_utf16(&mut [0; 2]).iter().fold(String::new(), |t, u| format!("{t}\\u{u:04x}"))
@@ -124,8 +124,8 @@ pub(crate) fn document(
     .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
 }
 
-/// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be
-/// written, standard error has said it.
+/// A refusal or failure as a document of texts and line numbers. If even that cannot be written, standard error has the
+/// message.
 fn write_failure(failure: &Failure, context: Option<&Context>) -> Exit {
     let (provenance, warnings) = context.map_or_else(Default::default, |c| (c.provenance(), c.warnings()));
     let text = document(ErrorAnswer { error: failure.into() }, provenance, warnings).unwrap_or_default();
@@ -144,7 +144,7 @@ impl From<&FileWarning> for WarningRecord {
     }
 }
 
-/// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer, any other failure
+/// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer; any other failure
 /// is exit 4.
 fn write_out(text: &str, exit: Exit) -> Exit {
     match streams::write_output(text) {

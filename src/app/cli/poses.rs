@@ -12,30 +12,30 @@ use synthesis::singularity::ExactPose;
 
 const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
 
-/// The home pose of the design, the default one where it gives none.
+/// The home pose of the design, or the default one.
 pub(crate) fn home(design: &Design) -> Pose {
     design.home_or_default()
 }
 
-/// The workspace of the design, or a box about home where it has none; and whether it is the design's.
+/// The workspace of the design, or a box about home; and whether it comes from the design.
 pub(crate) fn workspace(design: &Design) -> (Workspace, bool) {
     (design.workspace_or_default(), !design.workspace.is_empty())
 }
 
-/// All poses the design has to reach, and whether its file says so.
+/// All poses that the design has to reach, and whether they come from its file.
 pub(crate) fn space(design: &Design) -> (PoseSpace, bool) {
     let (workspace, given) = workspace(design);
     (workspace.space(&home(design)), given)
 }
 
-/// The seven fields of a CSV file in which a pose is written: position and quaternion, scalar part first.
+/// The seven fields of a pose in a CSV file: position and quaternion, scalar part first.
 pub(crate) fn csv_fields(pose: &Pose) -> String {
     let numbers = pose.position.iter().copied().chain(pose.quaternion());
     numbers.map(|x| x.to_string()).collect::<Vec<_>>().join(",")
 }
 
-/// An exact pose: `home`, or six or seven numbers, which may be expressions; the quaternion has any norm but zero.
-/// Angles whose halves have no exact cosines are those of the nearest doubles.
+/// An exact pose: `home`, or six or seven numbers, which may be expressions; the quaternion has any nonzero norm. If an
+/// angle has no exact half-angle cosine, the nearest double is used.
 ///
 /// # Errors
 /// Exit 2 with the code given.
@@ -70,7 +70,7 @@ pub(crate) fn exact(text: &str, design: &Design, option: &str, code: &str) -> Re
     })
 }
 
-/// The quaternion of `Rz(yaw) Ry(pitch) Rx(roll)`, angles in degrees; `None` where it has no exact one.
+/// The quaternion of `Rz(yaw) Ry(pitch) Rx(roll)`, angles in degrees; `None` if no exact one exists.
 fn exact_quaternion(angles: &[Surd; 3]) -> Option<[Surd; 4]> {
     let half = |angle: &Surd| Surd::turn(&(angle.as_rational()? / Rational::from_integer(2.into())));
     let [(cr, sr), (cp, sp), (cy, sy)] = [half(&angles[0])?, half(&angles[1])?, half(&angles[2])?];

@@ -1,4 +1,4 @@
-//! What stage a run is in, on standard error.
+//! The progress of a run, on standard error.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Condvar, Mutex};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::streams::{self, Errors, Stop};
 use ask::optimizing::ends_of;
 
-/// On a terminal one line that changes; elsewhere a line every ten seconds, so that short runs write none.
+/// On a terminal one changing line; elsewhere one line every ten seconds, so that short runs write none.
 #[derive(Debug)]
 pub(crate) struct ProgressLine {
     watcher: Watcher,
@@ -36,7 +36,7 @@ impl ProgressLine {
         Self { watcher, stage: String::new(), shown: None }
     }
 
-    /// Text of the terminal, and the words of the log.
+    /// Shows the text on the terminal, or the words in the log.
     fn put(&self, text: &str, words: &str) {
         match &self.watcher {
             Watcher::Nobody => {}
@@ -45,14 +45,14 @@ impl ProgressLine {
         }
     }
 
-    /// A stage begins.
+    /// Begins a stage.
     pub(crate) fn stage(&mut self, number: usize, what: &str) {
         self.shown = None;
         self.stage = format!("[{number}/5] {what} ");
         self.put(&format!("[{number}/5] {what}\n"), "");
     }
 
-    /// `done` of `total` within a stage, in whole percents.
+    /// Shows `done` of `total` within a stage, in whole percents.
     pub(crate) fn part(&mut self, what: &str, done: usize, total: usize) {
         let percent = 100 * done / total.max(1);
         if self.shown == Some(percent) {
@@ -63,7 +63,7 @@ impl ProgressLine {
         self.put(&format!("\r      {what}: {percent:>3} %{end}"), &format!("{what}: {percent} %"));
     }
 
-    /// Some words about an open-ended stage, in the place of the last ones.
+    /// Shows words about an open-ended stage, replacing the last ones.
     pub(crate) fn note(&mut self, words: &str) {
         self.put(&format!("\r      {words}\x1b[K"), words);
         self.shown = None;
@@ -75,7 +75,7 @@ impl ProgressLine {
     }
 }
 
-/// Time from one line of a log to the next.
+/// Time between two lines of the log.
 const TICK: Duration = Duration::from_secs(10);
 
 /// A thread that writes the last words every ten seconds.
@@ -84,7 +84,7 @@ struct Ticker {
     shared: Arc<(Mutex<Said>, Condvar)>,
 }
 
-/// The last words, and whether the run is over.
+/// The last words, and whether the run has ended.
 #[derive(Debug, Default)]
 struct Said {
     words: String,
@@ -148,32 +148,31 @@ impl std::str::FromStr for TimeLimit {
     }
 }
 
-/// Ctrl-C, a request to terminate and a limit of time ask a search to stop and to show what it has.
+/// Stops a search on Ctrl-C, on a request to terminate, or at a time limit; the search then shows its result so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Interrupt {
     stop: Arc<Stop>,
-    /// When the search ends, and when the judging of what it found.
+    /// The end of the search, and the end of the assessment of its result.
     ends: Option<[Instant; 2]>,
 }
 
 impl Interrupt {
-    /// Heeds the stop of the caller from now on, or Ctrl-C. Ctrl-C ends the process where it cannot be taken over.
+    /// Watches for the stop of the caller from now on, or for Ctrl-C. If Ctrl-C cannot be handled, it ends the process.
     pub(crate) fn watch() -> Self {
         Self::watch_for(None)
     }
 
-    /// The same, and after a limit of time everything is to end: the search earlier, so that what it found can be
-    /// judged.
+    /// The same with a time limit for everything: the search ends earlier, so that its result can be assessed.
     pub(crate) fn watch_for(limit: Option<TimeLimit>) -> Self {
         Self { stop: streams::heeded_stop(), ends: limit.and_then(|TimeLimit(time)| ends_of(time)) }
     }
 
-    /// When the judging of what a search found ends.
+    /// The time at which the assessment of a result ends.
     pub(crate) fn until(&self) -> Option<Instant> {
         self.ends.map(|[_, judging]| judging)
     }
 
-    /// What a search is told.
+    /// Whether the search shall continue.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
         if late || self.stop.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

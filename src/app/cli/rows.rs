@@ -1,4 +1,4 @@
-//! Tables of leg lengths and poses, one record a line.
+//! Tables of leg lengths and poses, one record on each line.
 
 use std::path::Path;
 
@@ -8,21 +8,21 @@ use super::files;
 use ::files::design::{InvalidSeries, SeriesKind, TimeSeries};
 use platform::geom::{InvalidPose, Pose};
 
-/// What a table is called when it is refused.
+/// The description of a table for refusals.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TableName<'a> {
     /// Its file.
     pub(crate) path: &'a Path,
     /// Code of the refusal.
     pub(crate) code: &'static str,
-    /// What a line holds: "six lengths a line: l1,..".
+    /// The form of a line: "six lengths a line: l1,..".
     pub(crate) form: &'static str,
 }
 
-/// Rows read by `record` from a table in any usual notation; what was guessed about it goes to standard error.
+/// Rows read by `record` from a table in any usual notation; guesses about it go to standard error.
 ///
 /// # Errors
-/// Exit 2: all bad lines are named; a table without a record is refused too.
+/// Exit 2, naming all bad lines; a table without a record is refused too.
 pub(crate) fn read<T>(
     kind: SeriesKind,
     table: TableName<'_>,
@@ -64,7 +64,7 @@ pub(crate) fn poses(
     poses_of(&files::read_table(path)?, path, code, home, context)
 }
 
-/// The poses of a table whose bytes were read before.
+/// The poses of a table read before.
 ///
 /// # Errors
 /// As [`read`].

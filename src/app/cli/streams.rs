@@ -1,4 +1,4 @@
-//! Streams and interrupts of a run: those of the process, or those of a caller inside the process.
+//! Streams and interrupts of a run: of the process, or of a caller inside the process.
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal as _, Read, Write as _};
@@ -14,12 +14,13 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// Asks the command to end. True for the first request to a command that heeds it, whose answer is the best so far.
+    /// Asks the command to end. Returns true for the first request to a command that obeys it; its answer is the best
+    /// so far.
     pub fn ask(&self) -> bool {
         !self.asked.swap(true, Ordering::Relaxed) && self.heeded.load(Ordering::Relaxed)
     }
 
-    /// Whether an end was asked for.
+    /// Whether an end was requested.
     pub(super) fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
     }
@@ -49,9 +50,9 @@ fn has_caller() -> bool {
     CALLER.with_borrow(Option::is_some)
 }
 
-/// The stop that the command heeds from now on.
+/// The stop that the command obeys from now on.
 ///
-/// Without a caller Ctrl-C or a request to terminate asks for the stop, and the second one ends the process.
+/// Without a caller, Ctrl-C or a request to terminate triggers the stop, and a second one ends the process.
 #[allow(clippy::exit, reason = "the second Ctrl-C ends the program without an answer")]
 pub(super) fn heeded_stop() -> Arc<Stop> {
     let stop = CALLER.with_borrow(|caller| caller.as_ref().map(|caller| Arc::clone(&caller.stop)));
@@ -60,7 +61,7 @@ pub(super) fn heeded_stop() -> Arc<Stop> {
     stop.heeded.store(true, Ordering::Relaxed);
     if !is_of_caller {
         let asked = Arc::clone(&stop);
-        // an error means that somebody else has the key: the search then cannot be interrupted gently
+        // an error means that another handler exists: the search then cannot be interrupted gently
         let _ = ctrlc::set_handler(move || {
             if !asked.ask() {
                 std::process::exit(INTERRUPTED);
@@ -78,17 +79,17 @@ pub(super) fn input() -> Box<dyn Read> {
     if has_caller() { Box::new(io::empty()) } else { Box::new(io::stdin().lock()) }
 }
 
-/// Whether a person can answer questions on standard input.
+/// Whether standard input is a terminal, so that a person can answer questions.
 pub(super) fn input_is_terminal() -> bool {
     !has_caller() && io::stdin().is_terminal()
 }
 
-/// Whether a person reads standard output.
+/// Whether standard output is a terminal.
 pub(super) fn output_is_terminal() -> bool {
     !has_caller() && io::stdout().is_terminal()
 }
 
-/// Whether standard output takes colours.
+/// Whether standard output accepts colours.
 pub(super) fn output_is_coloured() -> bool {
     !has_caller() && anstream::AutoStream::choice(&io::stdout()) != anstream::ColorChoice::Never
 }
@@ -105,7 +106,7 @@ pub(super) fn write_output(text: &str) -> io::Result<()> {
     })
 }
 
-/// Standard error of a run, for the threads of the run too.
+/// Standard error of a run, shared by its threads.
 #[derive(Debug)]
 pub(super) struct Errors(Option<Sender<String>>);
 
@@ -119,21 +120,21 @@ impl Errors {
         self.0.is_none() && io::stderr().is_terminal()
     }
 
-    /// Writes a text as it is.
+    /// Writes a text unchanged.
     pub(super) fn write(&self, text: &str) {
-        // the reader may be gone; the run goes on without a watcher
+        // the reader may be gone; the run continues without it
         let _ = match &self.0 {
             Some(said) => said.send(text.to_owned()).map_err(io::Error::other),
             None => io::stderr().write_all(text.as_bytes()),
         };
     }
 
-    /// Writes a text whose colours only a terminal gets.
+    /// Writes a text, with colours only on a terminal.
     pub(super) fn write_styled(&self, text: &str) {
         if self.0.is_some() {
             self.write(&anstream::adapter::strip_str(text).to_string());
         } else {
-            // standard error may be closed: there is nobody left to tell
+            // standard error may be closed: nobody can be told
             let _ = anstream::stderr().lock().write_all(text.as_bytes());
         }
     }

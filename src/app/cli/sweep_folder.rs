@@ -1,8 +1,8 @@
-//! The folder of a sweep: what it is of, its parts, their manifests.
+//! The folder of a sweep: its plan, its parts, their manifests.
 //!
 //! `sweep.json` holds plan, base design and seed. Each shard has a part and, written after it, a manifest with the
-//! digest of the part: a shard is done when both are there and agree. All files are written under other names and
-//! renamed, so that what has its name is whole.
+//! digest of the part. A shard is done if both are present and agree. All files are written under temporary names and
+//! renamed, so that a file with its final name is whole.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, ErrorKind, Write};
@@ -27,13 +27,13 @@ use sweep::part::{PartError, PartReader, PartWriter};
 use sweep::plan::{self, BaseName, BasePlan, PlanFiles, PlanText};
 use sweep::{Digested, RowChunk, Sweep, SweepCell, digest_of};
 
-/// The file that says what the folder is of.
+/// The file that describes the sweep of the folder.
 const SWEEP: &str = "sweep.json";
 
-/// The key under which a part says of which plan it is.
+/// The key of the plan's digest in a part.
 const PLAN_NOTE: &str = "equipod.plan_sha256";
 
-/// Shards, at most: each has two files.
+/// Greatest number of shards: each has two files.
 pub(crate) const MOST_SHARDS: u64 = 1_000_000;
 
 /// The folder of a sweep.
@@ -43,7 +43,7 @@ pub(crate) struct SweepFolder {
     pub(crate) record: SweepFolderRecord,
 }
 
-/// What is known of a shard.
+/// The state of a shard.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ShardState {
     Done(Box<SweepManifestRecord>),
@@ -51,19 +51,19 @@ pub(crate) enum ShardState {
     Damaged(String),
 }
 
-/// How much of a part is looked at.
+/// The depth of the check of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PartLook {
-    /// All of it: its digest is that of the manifest.
+    /// The whole part: its digest is compared with the manifest.
     Whole,
-    /// Its size, which shows what was cut off. For the parts of other jobs, because with as many jobs as shards a look
-    /// at all by each is a square.
+    /// The size only, which detects truncation. For parts of other jobs: with as many jobs as shards, complete checks
+    /// by each would cost the square.
     Size,
 }
 
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
     move |error| match error.kind() {
-        // what a limit on the size of files says is no fault of the arguments either
+        // a limit on the size of files is not the fault of the arguments either
         ErrorKind::FileTooLarge => {
             let message = format!("{} cannot be written: {error}", path.display());
             Failure::new(Exit::Internal, "file::disk_full", message)
@@ -73,7 +73,7 @@ fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
     }
 }
 
-/// Why a part is not written.
+/// The failure for a part that cannot be written.
 pub(crate) fn part_failed(path: &Path, error: &PartError) -> Failure {
     match error.system() {
         Some(system) => failed(path)(std::io::Error::new(system.kind(), system.to_string())),
@@ -81,7 +81,7 @@ pub(crate) fn part_failed(path: &Path, error: &PartError) -> Failure {
     }
 }
 
-/// Writes a file under another name with `write`, makes sure that it is on the disk, and gives it its name.
+/// Writes a file under another name with `write`, flushes it to the disk, and renames it.
 pub(crate) fn write_whole<T>(
     path: &Path,
     write: impl FnOnce(BufWriter<File>) -> Result<Option<(BufWriter<File>, T)>, Failure>,
@@ -100,7 +100,7 @@ fn write_record(path: &Path, record: &impl Serialize) -> Result<(), Failure> {
 }
 
 impl SweepFolder {
-    /// Begins a sweep in a folder, or goes on with it.
+    /// Begins a sweep in a folder, or continues it.
     pub(crate) fn begin(
         path: &Path,
         texts: &SweepTexts,
@@ -128,12 +128,12 @@ impl SweepFolder {
         if let Some(there) = there {
             return there.goes_on(&record);
         }
-        // of two that begin at the same time both write the same
+        // two processes that begin at the same time write the same
         write_record(&path.join(SWEEP), &record)?;
         Ok(Self { path: path.to_path_buf(), record })
     }
 
-    /// Refuses to go on with another sweep.
+    /// Refuses to continue another sweep.
     fn goes_on(self, wanted: &SweepFolderRecord) -> Result<Self, Failure> {
         let own = &self.record;
         let differs = [
@@ -165,13 +165,13 @@ impl SweepFolder {
         Ok(Self { path: path.to_path_buf(), record })
     }
 
-    /// The texts that it was begun with.
+    /// The texts from which it was begun.
     pub(crate) fn texts(&self) -> SweepTexts {
         let SweepFolderRecord { plan, design, drives, poses, .. } = self.record.clone();
         SweepTexts { plan, design, drives, poses }
     }
 
-    /// The sweep, ready to compute rows again as they were.
+    /// The sweep, ready to recompute its rows.
     pub(crate) fn sweep(&self) -> Result<Sweep, Failure> {
         if self.record.version != env!("CARGO_PKG_VERSION") {
             let message = format!("{} was computed by equipod {}", self.path.display(), self.record.version);
@@ -204,7 +204,7 @@ impl SweepFolder {
         self.path.join(self.stem(shard) + ".json")
     }
 
-    /// What every part says of its origin.
+    /// The notes on its origin in every part.
     pub(crate) fn notes(&self, description: Option<&str>, shard: Option<u64>) -> Vec<(String, String)> {
         let r = &self.record;
         let mut notes = vec![
@@ -221,7 +221,7 @@ impl SweepFolder {
         notes
     }
 
-    /// Writes the table of poses that the candidates of a sweep name into the folder of their design files.
+    /// Writes the table of poses named by the candidates of a sweep into the folder of their design files.
     ///
     /// # Errors
     /// Exit 2: another file has its name.
@@ -241,7 +241,7 @@ impl SweepFolder {
         }
     }
 
-    /// What is known of a shard.
+    /// The state of a shard.
     pub(crate) fn state(&self, shard: u64, look: PartLook) -> ShardState {
         let (part, manifest) = (self.part(shard), self.manifest(shard));
         if !manifest.exists() {
@@ -275,7 +275,7 @@ impl SweepFolder {
         }
     }
 
-    /// Opens the part of a shard that is done.
+    /// Opens the part of a finished shard.
     pub(crate) fn reader(&self, shard: u64) -> Result<PartReader, Failure> {
         let path = self.part(shard);
         let unreadable = |why: String| {
@@ -290,8 +290,8 @@ impl SweepFolder {
         Ok(reader)
     }
 
-    /// Writes the part of a shard from its rows, then its manifest; `None` where `go_on`, which hears of all candidates
-    /// that are done, ends it.
+    /// Writes the part of a shard from its rows, then its manifest. The function `go_on` gets the number of finished
+    /// candidates, and may stop the work; the result is then `None`.
     pub(crate) fn write_part(
         &self,
         sweep: &Sweep,
@@ -301,7 +301,7 @@ impl SweepFolder {
         mut go_on: impl FnMut(u64) -> ControlFlow<()>,
     ) -> Result<Option<SweepManifestRecord>, Failure> {
         let (path, manifest) = (self.part(shard), self.manifest(shard));
-        // a manifest never speaks of a part that is not there yet
+        // a manifest must never describe a missing part
         match fs::remove_file(&manifest) {
             Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&manifest)(error)),
             _ => {}
@@ -357,12 +357,12 @@ impl SweepFolder {
         Ok(Some(record))
     }
 
-    /// What is done and what is missing, with every part read.
+    /// The finished and missing shards, after reading every part.
     pub(crate) fn status(&self) -> SweepStatusAnswer {
         self.status_after(Vec::new(), |shard| self.state(shard, PartLook::Whole))
     }
 
-    /// What is done and what is missing, by `state`, after `computed` were computed.
+    /// The finished and missing shards by `state`, after the shards `computed` were computed.
     pub(crate) fn status_after(
         &self,
         computed: Vec<u64>,
@@ -403,7 +403,7 @@ impl SweepFolder {
         }
     }
 
-    /// Files that were being written when a run ended, or are being written now.
+    /// Files left incomplete by an ended run, or being written now.
     fn unfinished(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let names = entries.map(|e| e.file_name().to_string_lossy().into_owned());
@@ -413,7 +413,8 @@ impl SweepFolder {
         names
     }
 
-    /// Removes what ended runs have left, once all shards are done: what others still write is needless then too.
+    /// Removes leftovers of ended runs once all shards are done; files still being written by others are then
+    /// superfluous too.
     pub(crate) fn tidy(&self) {
         for name in self.unfinished() {
             let _ = fs::remove_file(self.path.join(name)); // it is in nobody's way
@@ -421,7 +422,7 @@ impl SweepFolder {
     }
 }
 
-/// Opens a table that `sweep` wrote, a part or a merged one.
+/// Opens a table written by `sweep`, a part or a merged one.
 pub(crate) fn open_table(path: &Path) -> Result<PartReader, Failure> {
     let unreadable = |why: String| {
         Failure::refused("file::not_readable", format!("{} cannot be read: {why}", path.display()))
@@ -431,7 +432,7 @@ pub(crate) fn open_table(path: &Path) -> Result<PartReader, Failure> {
     PartReader::new(file).map_err(|e| unreadable(e.to_string()))
 }
 
-/// As few shards as lose little when one is lost: sixteen, more where one had more than 100 000 candidates.
+/// A number of shards that limits the loss of one: sixteen, or more if one had more than 100 000 candidates.
 pub(crate) fn default_shards(candidates: u64) -> u64 {
     candidates.div_ceil(100_000).clamp(16, MOST_SHARDS).min(candidates.max(1))
 }
@@ -449,7 +450,7 @@ pub(crate) fn ranges(numbers: &[u64]) -> String {
     out.iter().map(shown).collect::<Vec<_>>().join(",")
 }
 
-/// Refuses an output inside of the folder of the sweep, where it would be taken for a part.
+/// Refuses an output inside the folder of the sweep, since it would be taken for a part.
 pub(crate) fn outside(output: &OutputPath) -> Result<(), Failure> {
     let name = output.file_name().unwrap_or_default().to_string_lossy();
     if name.starts_with("part-") {
@@ -484,7 +485,7 @@ impl SweepTexts {
             BaseName::Preset(_, text) => (SweepTextRecord { text: text.into(), format: Format::Toml }, None),
             BaseName::File(name) => {
                 let file = beside(name);
-                // warnings are shown, and provenance knows the design
+                // warnings are shown, and the provenance includes the design
                 let read = context.load_with_texts(&file)?;
                 let poses = read.poses.map(|(table, bytes)| files::utf8(&table, bytes)).transpose()?;
                 if let (None, Some(name)) = (&drives, &read.design.drive_table) {
@@ -496,7 +497,7 @@ impl SweepTexts {
         Ok(Self { plan: SweepTextRecord { text, format }, design, drives, poses })
     }
 
-    /// SHA-256 over all of them.
+    /// SHA-256 over all texts.
     pub(crate) fn sha256(&self) -> String {
         let part = |t: &SweepTextRecord| format!("{} {}\n{}", t.format, t.text.len(), t.text);
         let table = |name: &str, text: &Option<String>| {
@@ -506,7 +507,7 @@ impl SweepTexts {
         sha256((part(&self.plan) + &part(&self.design) + &tables).as_bytes())
     }
 
-    /// The sweep that they describe; `shown` is where the plan is from.
+    /// The sweep described by the texts; `shown` is the source of the plan.
     pub(crate) fn sweep(&self, seed: u64, shown: &str) -> Result<Sweep, Failure> {
         let base =
             BasePlan::new(PlanText::new(&self.design.text, self.design.format)).map_err(|violations| {

@@ -1,4 +1,4 @@
-//! The rows of a sweep that conditions keep, from its folder or from a merged file.
+//! The rows of a sweep that fulfil conditions, from its folder or from a merged file.
 
 use std::path::Path;
 
@@ -8,14 +8,14 @@ use sweep::part::PartReader;
 use sweep::plan::KeepCondition;
 use sweep::{SweepCell, SweepColumn};
 
-/// `--better`: which values of a column are the better ones.
+/// `--better`: the better direction of a column's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Better {
     High,
     Low,
 }
 
-/// Tables with the same columns, one after the other, and what a row of them has to fulfil.
+/// Tables with the same columns, one after the other, and the conditions on their rows.
 pub(crate) struct SweptTable {
     path: String,
     pub(crate) name: String,
@@ -39,7 +39,7 @@ fn tables(path: &Path) -> Result<(String, Vec<PartReader>), Failure> {
 }
 
 impl SweptTable {
-    /// Opens what is done of a sweep; `keep` are conditions as in a plan.
+    /// Opens the finished part of a sweep; `keep` are conditions as in a plan.
     pub(crate) fn open(path: &Path, keep: &[String]) -> Result<Self, Failure> {
         let (name, readers) = tables(path)?;
         let shown = path.display().to_string();
@@ -56,7 +56,7 @@ impl SweptTable {
         Ok(Self { path: shown, name, columns, readers, conditions })
     }
 
-    /// The place of a column.
+    /// The index of a column.
     pub(crate) fn column(&self, name: &str) -> Result<usize, Failure> {
         let names: Vec<&str> = self.columns.iter().map(|c| c.name.as_str()).collect();
         names.iter().position(|n| *n == name).ok_or_else(|| {
@@ -65,12 +65,12 @@ impl SweptTable {
         })
     }
 
-    /// What the file says of itself.
+    /// The note of the file under this key.
     pub(crate) fn note(&self, key: &str) -> String {
         self.readers.first().and_then(|r| r.note(key)).unwrap_or_default()
     }
 
-    /// Looks at the rows that fulfil all conditions, in their order.
+    /// Calls `look` for the rows that fulfil all conditions, in order.
     pub(crate) fn each_row(&self, mut look: impl FnMut(&[SweepCell])) -> Result<(), Failure> {
         let every: Vec<usize> = (0..self.columns.len()).collect();
         for reader in &self.readers {

@@ -2,14 +2,14 @@
 
 use files::export::csv_field;
 
-/// Cells on a line, each as [`csv_field`] has it.
+/// Cells on a line, each in the notation of [`csv_field`].
 pub(crate) fn csv_line(cells: &[impl AsRef<str>]) -> String {
     cells.iter().map(|cell| csv_field(cell.as_ref())).collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// A number with the fewest digits that read back to it.
 pub(crate) fn number(x: f64) -> String {
-    // no cell says `-0.0`
+    // no cell contains `-0.0`
     format!("{:?}", x + 0.0)
 }
 

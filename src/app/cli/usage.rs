@@ -1,4 +1,4 @@
-//! Arguments that the program does not understand: what was meant.
+//! Misunderstood arguments, with suggestions.
 
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -7,10 +7,10 @@ use super::failure::Failure;
 use super::guide::{self, GuideEntry};
 use files::design::{likeness, nearest_word};
 
-/// Words nearer than this to a name are taken for it (similarity of Jaro and Winkler).
+/// Words more similar than this to a name are taken for it (similarity of Jaro and Winkler).
 const NEAR: f64 = 0.9;
 
-/// Options that other programs have, and what this one calls them.
+/// Options of other programs, with their names in this one.
 const OPTIONS: [(&str, &str); 8] = [
     ("--out", "--output"),
     ("--file", "--output"),
@@ -22,7 +22,7 @@ const OPTIONS: [(&str, &str); 8] = [
     ("--length", "--lengths"),
 ];
 
-/// The refusal of arguments, with what was meant.
+/// The refusal of arguments, with suggestions.
 pub(crate) fn refusal(error: &clap::Error, args: &[String]) -> Failure {
     let text = error.to_string();
     let lines = text.lines().take_while(|l| !l.starts_with("Usage:")).map(str::trim);
@@ -60,7 +60,7 @@ fn said(error: &clap::Error, kind: ContextKind) -> Option<String> {
     }
 }
 
-/// How far the arguments were understood.
+/// The part of the arguments that was understood.
 struct UnderstoodUpTo<'a> {
     program: &'a Command,
     command: &'a Command,
@@ -84,7 +84,7 @@ impl<'a> UnderstoodUpTo<'a> {
         place
     }
 
-    /// As it is typed.
+    /// The command as typed.
     fn name(&self) -> String {
         std::iter::once("equipod").chain(self.path.iter().copied()).collect::<Vec<_>>().join(" ")
     }
@@ -115,7 +115,7 @@ impl<'a> UnderstoodUpTo<'a> {
         (message, help)
     }
 
-    /// What an unknown option may have been: one of this command, or one of another command.
+    /// The suggestions for an unknown option: an option of this command, or of another command.
     fn meant_option(&self, word: &str) -> Option<String> {
         let options = |c: &Command| -> Vec<String> {
             let shown = c.get_arguments().filter(|a| !a.is_hide_set());
@@ -145,8 +145,8 @@ fn find<'a>(program: &'a Command, path: &str) -> Option<&'a Command> {
     path.split(' ').try_fold(program, |c, word| c.find_subcommand(word))
 }
 
-/// The commands that a word stands for: by the last word of their name, by other words for them, or nearly so. Those of
-/// `group` come before others.
+/// The suggested commands for a word: by the last word of their name, by other words for them, or by similarity.
+/// Commands of `group` come before others.
 fn nearest(word: &str, group: &str) -> Vec<&'static str> {
     let meant = |e: &GuideEntry| {
         let leaf = e.path.rsplit(' ').next().unwrap_or(e.path);

@@ -1,5 +1,4 @@
-//! Designs to begin with, for those who have no file: from the numbers of a data sheet, from twelve points, and the
-//! presets.
+//! Starting designs for users without a file: from the numbers of a data sheet, from twelve points, and the presets.
 
 use std::fmt::Display;
 
@@ -11,18 +10,18 @@ use crate::app::presets::PRESETS;
 use ask::design::parse;
 use files::design::{Format, HexapodSizes, PointTable, Violation};
 
-/// A hexapod as makers describe it: pairs of joints on two circles.
+/// A hexapod in the terms of makers: pairs of joints on two circles.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct DataSheet {
-    /// Of the circle through the base joints, design units.
+    /// Radius of the circle through the base joints, design units.
     base_radius: f64,
-    /// Of the circle through the platform joints, design units.
+    /// Radius of the circle through the platform joints, design units.
     platform_radius: f64,
-    /// Between the two joints of a pair of the base, seen from the centre.
+    /// Angle between the two joints of a base pair, seen from the centre, degrees.
     base_spread_deg: f64,
-    /// Between the two joints of a pair of the platform, seen from the centre.
+    /// Angle between the two joints of a platform pair, seen from the centre, degrees.
     platform_spread_deg: f64,
-    /// Of the platform joints over the base joints at home, design units.
+    /// Height of the platform joints above the base joints at home, design units.
     height: f64,
     /// Name of the length unit.
     units: String,
@@ -30,14 +29,14 @@ pub(super) struct DataSheet {
 
 /// The hexapod of the page without a design, millimetres.
 const FIRST: HexapodSizes = HexapodSizes { radius: [500.0, 300.0], spread_deg: [20.0, 20.0], height: 400.0 };
-/// The name of a design that has none yet.
+/// The name of a new design.
 const NAME: &str = "hexapod";
 
-/// A design file that was made.
+/// A new design file.
 #[derive(Debug, Serialize)]
 pub(super) struct MadeRecord {
     toml: String,
-    /// What was taken for granted, a sentence each.
+    /// Assumptions made, one sentence each.
     guesses: Vec<String>,
 }
 
@@ -60,7 +59,7 @@ pub(super) fn preset(name: &str) -> Result<MadeRecord, Refusal> {
     Ok(MadeRecord { toml: found.text.into(), guesses: Vec::new() })
 }
 
-/// The design with the joints of a table, in whatever notation ([`PointTable`]); `units` where the table names none.
+/// The design with the joints of a table in any notation ([`PointTable`]); `units` applies if the table names none.
 pub(super) fn points(text: &str, units: &str) -> Result<MadeRecord, Refusal> {
     let refused = |e: &dyn Display| Refusal::new("points", e);
     let mut table = PointTable::read(text.as_bytes()).map_err(|e| refused(&e))?;
@@ -88,10 +87,10 @@ fn sentences(violations: &[Violation]) -> String {
 }
 
 impl Session {
-    /// The session of the page that is written without a design: an ordinary hexapod, to be replaced by one's own.
+    /// The session of a page without a design: a typical hexapod, which the user replaces.
     ///
     /// # Errors
-    /// [`InvalidStart::Design`] when that hexapod is no design.
+    /// [`InvalidStart::Design`] if this hexapod is no design.
     pub fn without_design() -> Result<Self, InvalidStart> {
         let (design, _) = parse(&FIRST.to_toml(NAME, "mm"), Format::Toml)
             .map_err(|violations| InvalidStart::Design(sentences(&violations)))?;

@@ -1,4 +1,4 @@
-//! Over two offsets of an equivalent platform: where a requirement is violated somewhere in the workspace.
+//! Violated requirements over two offsets of an equivalent platform, for all poses of the workspace.
 
 use serde::Serialize;
 
@@ -9,20 +9,20 @@ use ask::Design;
 use machine::requirements::{AssessOptions, Requirements, Terms, ViolationSearch};
 use platform::geom::Pose;
 
-/// What stands where the offsets give no platform: joints or legs of it coincide.
+/// The code for offsets that give no platform: some of its joints or legs coincide.
 const NO_PLATFORM: &str = "no_platform";
 
 /// Requirements on a square of two offsets.
 #[derive(Debug, Serialize)]
 pub(super) struct FeasibleRecord {
-    /// Points a side.
+    /// Number of points along each side.
     points: usize,
     low: f64,
     high: f64,
-    /// Poses of the workspace that are looked at for every platform, at most.
+    /// Greatest number of poses of the workspace evaluated for each platform.
     poses: usize,
-    /// Row by row, the first offset to the right: one of the requirements that are violated, by its code; `null` where
-    /// none is at these poses.
+    /// Row by row, the first offset to the right: the code of one violated requirement; `null` if none is violated at
+    /// these poses.
     violated: Vec<Option<&'static str>>,
 }
 
@@ -31,7 +31,7 @@ fn requires_nothing(design: &Design, required: &Requirements, home: &Pose) -> bo
     terms.fixed().is_empty() && terms.at(home).is_empty()
 }
 
-/// Requirements on a square of two offsets, with as many poses as `assess` with these numbers looks at before its
+/// Requirements on a square of two offsets, at the poses that `assess` with these numbers evaluates before its
 /// searches.
 pub(super) fn record(
     session: &Session,
@@ -57,7 +57,7 @@ pub(super) fn record(
                 violated.push(Some(NO_PLATFORM));
                 continue;
             };
-            // where the file gives no home pose each platform has one of its own
+            // without a home pose in the file, each platform has its own
             if *search.home() != design.home_or_default() {
                 search = ViolationSearch::new(&space_of(&design), options);
             }

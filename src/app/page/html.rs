@@ -18,7 +18,7 @@ pub const CORE: &[u8] = include_bytes!("core.wasm.gz");
 
 const TEMPLATE: &str = include_str!("web/page.html");
 const STYLE: [&str; 2] = [include_str!("web/layout.css"), include_str!("web/parts.css")];
-/// In the order in which they need each other.
+/// The scripts in the order in which they depend on each other.
 const SCRIPTS: [&str; 18] = [
     include_str!("web/core.js"),
     include_str!("web/task.js"),
@@ -40,20 +40,20 @@ const SCRIPTS: [&str; 18] = [
     include_str!("web/actions.js"),
 ];
 
-/// The script of every page, closed in itself.
+/// The script of every page, in a scope of its own.
 fn script() -> String {
     format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.concat())
 }
 
-/// What a content security policy calls an inline script or style with exactly this text (W3C, Content Security Policy
-/// Level 3, section 2.3.1).
+/// The source expression of a content security policy for an inline script or style with this text (W3C, Content
+/// Security Policy Level 3, section 2.3.1).
 fn source(text: &str) -> String {
     format!("'sha256-{}'", BASE64.encode(&Sha256::digest(text.as_bytes())))
 }
 
-/// The content security policy of the page, and with `styles` of a page around it, whose policy holds for frames in it
-/// too: the one script and the style sheets by their hashes, WebAssembly, workers from the page itself, no network. An
-/// element or attribute that names another script is not run.
+/// The content security policy of the page; `styles` belong to an enclosing page, whose policy also applies to its
+/// frames. It allows the one script and the style sheets by their hashes, WebAssembly, and workers from the page
+/// itself, but no network. Other scripts, in elements or attributes, are not run.
 #[must_use]
 pub fn policy(styles: &[&str]) -> String {
     let styles: String = styles.iter().map(|text| format!(" {}", source(text))).collect::<Vec<_>>().concat();
@@ -64,8 +64,8 @@ pub fn policy(styles: &[&str]) -> String {
     )
 }
 
-/// The policy of a page without frames, workers and network: one script and one style sheet by their hashes, and images
-/// that stand in the page.
+/// The policy of a page without frames, workers and network. It allows one script and one style sheet by their hashes,
+/// and images contained in the page.
 #[must_use]
 pub fn strict_policy(script: &str, style: &str) -> String {
     format!(
@@ -75,18 +75,18 @@ pub fn strict_policy(script: &str, style: &str) -> String {
     )
 }
 
-/// Recorded poses of one round.
+/// Number of recorded poses of one round.
 const FRAMES: usize = 36;
-/// The same of cranks, whose frames are longer.
+/// Number of recorded poses of one round for cranks, whose frames are longer.
 const CRANK_FRAMES: usize = 18;
-/// Points a side of the recorded plane.
+/// Number of points along each side of the recorded plane.
 const PLANE: usize = 41;
 
-/// The page of a design: one HTML text that needs nothing else, no network.
+/// The page of a design: one self-contained HTML text that works without network.
 ///
-/// `core` is the WebAssembly module, plain or compressed by gzip ([`CORE`] for the one that comes with the library).
-/// Without it, and in browsers that refuse it, the page shows recorded answers: one round of poses, the assembly modes
-/// at home, `det A` over two offsets, and the first self-motion.
+/// `core` is the WebAssembly module, plain or compressed by gzip ([`CORE`] comes with the library). Without it, and in
+/// browsers without WebAssembly, the page shows recorded answers. These are one round of poses, the assembly modes at
+/// home, `det A` over two offsets, and the first self-motion.
 #[must_use]
 pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     let data = PageData {
@@ -95,7 +95,7 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
         begin: session.without_design,
         version: env!("CARGO_PKG_VERSION"),
     };
-    // texts, numbers, lists and fields can be written
+    // texts, numbers, lists and fields can always be written
     let data = serde_json::to_string(&data).unwrap_or_default();
     let title = escape(&session.design.name);
     let notices = core.map(|_| notices()).unwrap_or_default();
@@ -120,8 +120,8 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     out + rest
 }
 
-/// The folded notices of what is compiled into the core. The colon of an address in them is a character reference, so
-/// that a search of the page for addresses finds those alone that a browser would follow, of which there are none.
+/// The folded notices of the software compiled into the core. The colon of an address in them is a character reference.
+/// A search of the page for addresses then finds only those that a browser would follow, and there are none.
 #[cfg(not(target_arch = "wasm32"))]
 fn notices() -> String {
     format!(
@@ -131,18 +131,18 @@ fn notices() -> String {
     )
 }
 
-/// The core writes no pages with a core.
+/// The core writes no pages that contain a core.
 #[cfg(target_arch = "wasm32")]
 fn notices() -> String {
     String::new()
 }
 
-/// What stands in a page besides its script.
+/// The data in a page beside its script.
 #[derive(Debug, Serialize)]
 struct PageData {
     opening: Opening,
     recorded: Recorded,
-    /// Whether it is for those who have no design yet.
+    /// Whether the page is for users without a design.
     begin: bool,
     version: &'static str,
 }

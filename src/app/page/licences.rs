@@ -1,16 +1,15 @@
-//! The licence notices of what is compiled into the core of the page.
+//! The licence notices of the software compiled into the core of the page.
 
 use std::fmt::Write as _;
 
-/// The notices of everything that is compiled into the program; a star stands before what is in the pages too.
+/// The notices of all software compiled into the program; a star marks parts that are in the pages too.
 const NOTICES: &str = include_str!("../../../THIRD-PARTY-LICENCES.txt");
-/// Stands before and after the names over each text.
+/// The length of the rules above and below the names of each text.
 const RULE_LENGTH: usize = 100;
-/// What the core is made with and has no star: it is no crate.
+/// The part of the core without a star, since it is no crate.
 const STANDARD_LIBRARY: &str = "the Rust standard library";
 
-/// The part of the notices that is about the core: its crates with their licences, and the texts that one of them
-/// stands over.
+/// The notices of the core: its crates with their licences, and the texts that apply to one of them.
 pub(super) fn notices() -> String {
     let rule = "=".repeat(RULE_LENGTH);
     let mut parts = NOTICES.split(&rule);

@@ -1,4 +1,4 @@
-//! What a platform has to satisfy over its whole workspace: the answer of `assess`.
+//! The requirements of a platform over its whole workspace: the answer of `assess`.
 
 use super::request::Refusal;
 use ask::Design;
@@ -6,7 +6,7 @@ use ask::Error;
 use machine::requirements::AssessOptions;
 use records::AssessAnswer;
 
-/// What [`Design::assess`] finds with these numbers; a design that requires nothing is refused as there.
+/// The result of [`Design::assess`] with these numbers; like there, a design without requirements is refused.
 pub(super) fn record(
     design: &Design,
     options: &AssessOptions,

@@ -1,8 +1,8 @@
-//! Shows a design to people who have only a browser: one HTML page, and the questions that it asks the core.
+//! Shows a design to users who have only a browser: one HTML page, and its questions to the core.
 //!
-//! The page computes nothing by itself: every number it shows is the answer of [`Session::answer`] to a request in
-//! JSON. In the browser that function runs as WebAssembly; where there is none, the page replays answers that were
-//! recorded when it was written. Text in, text out: nothing here reads or writes files.
+//! The page computes nothing itself: every number it shows is the answer of [`Session::answer`] to a request in JSON.
+//! In the browser this function runs as WebAssembly. Without WebAssembly, the page replays answers recorded when it was
+//! written. The functions here map text to text, without access to files.
 
 mod begin;
 mod feasible;

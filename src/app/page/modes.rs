@@ -18,11 +18,11 @@ use verify::match_poses;
 pub(super) struct ConfirmedRecord {
     first: PosesRecord,
     second: PosesRecord,
-    /// The largest distance of a pose from its partner; `null` unless each has one.
+    /// The largest distance of a pose from its partner; `null` if some pose has none.
     distance: Option<f64>,
 }
 
-/// How many poses a platform has.
+/// The number of poses of a platform.
 #[derive(Debug, Serialize)]
 struct PosesRecord {
     method: &'static str,
@@ -38,9 +38,9 @@ pub(super) struct ModesRecord {
     finite: usize,
     proved: bool,
     reason: String,
-    /// Index of the mode of the pose asked about.
+    /// Index of the mode of the given pose.
     here: Option<usize>,
-    /// Index of the mode nearest to the pose asked about, whatever its lengths.
+    /// Index of the mode nearest to the given pose, for any lengths.
     nearest: Option<usize>,
     modes: Vec<ModeRecord>,
     complex: usize,
@@ -53,7 +53,7 @@ struct ModeRecord {
     turn_deg: f64,
     sign: i8,
     inverse_condition: f64,
-    /// Whether every crank is on its side; `null`: there are none.
+    /// Whether every crank is on the side that the design keeps; `null`: no cranks.
     elbows_kept: Option<bool>,
     certified: bool,
     multiplicity: u32,
@@ -72,19 +72,19 @@ fn solve_with(m: &Manipulator, s: SquaredLegLengths, o: &FkOptions) -> Result<Fk
     solver(None).solve(m, &s, o).map_err(|e| Refusal::new("fk", e))
 }
 
-/// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest of a
-/// pair as [`match_poses`] pairs and measures them, `null` unless each pose has a partner of its own.
+/// All poses of two platforms, real and complex, with their own leg lengths at a pose. The field `distance` is the
+/// largest distance of a pair as matched by [`match_poses`]. It is `null` if some pose has no partner of its own.
 pub(super) fn confirm(
     first: &Manipulator,
     second: &Manipulator,
     at: &Pose,
 ) -> Result<ConfirmedRecord, Refusal> {
-    // as in `verify`: not looked for are poses so far out that the rounding of the joints decides whether there are any
+    // as in `verify`, poses are left out if they are so far away that rounding of the joints decides whether they exist
     let options = FkOptions::new().pose_count(PoseCounting::Never);
     let poses = |m: &Manipulator| solve_with(m, at_pose(m, at)?, &options);
     let (a, b) = (poses(first)?, poses(second)?);
     let all = |s: &FkSolutions| s.roots.iter().map(|r| r.pose).collect::<Vec<_>>();
-    // pairs however far apart: how far is what the page shows
+    // pairs at any distance, since the page shows the distance
     let matching = match_poses(&all(&a), &all(&b), first.size(), f64::INFINITY);
     let distance = matching.is_perfect().then(|| matching.worst_distance());
     let side = |s: &FkSolutions| PosesRecord {
@@ -95,7 +95,7 @@ pub(super) fn confirm(
     Ok(ConfirmedRecord { first: side(&a), second: side(&b), distance })
 }
 
-/// What poses are asked for: the legs with their lengths, or the rods on the tips of cranks with their angles.
+/// The given lengths or angles with their legs: the legs of the design, or the rods on the tips of cranks.
 struct InputsOfPoses {
     m: Manipulator,
     squares: SquaredLegLengths,
@@ -121,9 +121,9 @@ impl InputsOfPoses {
     }
 }
 
-/// All poses with the lengths given (of cranks the angles in degrees), or with those at a pose; `here` is then the
-/// index of the one nearest to that pose, where poses are isolated. `turn_deg`: by how much the platform is turned from
-/// home.
+/// All poses with the given lengths (for cranks, angles in degrees), or with the lengths at a pose. For a given pose
+/// with isolated poses, `here` is the index of the nearest one. `turn_deg` is the rotation of the platform from home,
+/// degrees.
 pub(super) fn record(
     session: &Session,
     design: &Design,
@@ -140,7 +140,7 @@ pub(super) fn record(
     let real: Vec<&FkRoot> = roots.iter().copied().filter(|r| r.reality == Reality::Real).collect();
     let from = ComplexPose::from(*at);
     let distance = |r: &FkRoot| r.pose.distance(&from, m.size());
-    // poses of a curve are samples of it: the nearest one is another pose
+    // poses of a curve are samples, so the nearest one is another pose
     let listed = lengths.is_none() && !matches!(found.solution_set, SolutionSet::PositiveDimensional { .. });
     let nearest = (0..real.len()).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
     let here = nearest.filter(|_| listed);

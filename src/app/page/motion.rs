@@ -8,15 +8,15 @@ use platform::geom::Pose;
 use records::PoseRecord;
 use synthesis::singularity::{CurveEnd, MotionCurve, MotionOptions};
 
-/// Most poses of an animation.
+/// Greatest number of poses of an animation.
 const FRAMES: usize = 240;
-/// How finely the curve is followed: a page has to answer in a moment.
+/// The step sizes of tracing, coarse enough for a quick answer on a page.
 const OPTIONS: MotionOptions = MotionOptions { turn: 0.05, points: 3000, seed: 1 };
 
 /// A self-motion.
 #[derive(Debug, Serialize)]
 pub(super) struct SelfMotionRecord {
-    /// Null where it is undecided.
+    /// The dimension; null: undecided.
     dimension: Option<usize>,
     curves: usize,
     closed: bool,
@@ -25,7 +25,7 @@ pub(super) struct SelfMotionRecord {
     poses: Vec<PoseRecord>,
 }
 
-/// The curve of poses with constant leg lengths on which the pose lies, the longest where several cross.
+/// The curve of poses with constant leg lengths through the pose; the longest if several cross.
 pub(super) fn record(design: &Design, at: &Pose) -> Result<SelfMotionRecord, Refusal> {
     let options = SelfMotionOptions { start: MotionStart::Pose(*at), sections: 0, motion: OPTIONS };
     let report = design.self_motions(&options).map_err(|why| Refusal::new("pose", why.to_string()))?;
@@ -42,7 +42,7 @@ pub(super) fn record(design: &Design, at: &Pose) -> Result<SelfMotionRecord, Ref
     })
 }
 
-/// Poses at about equal lengths along the curve.
+/// Poses at about equal spacing along the curve.
 fn frames(c: &MotionCurve) -> Vec<Pose> {
     let total = c.points.last().map_or(0.0, |p| p.arc);
     let mut next = 0.0;

@@ -1,4 +1,4 @@
-//! What there is to show of a design.
+//! The contents of a page about a design.
 
 use serde::Serialize;
 
@@ -12,23 +12,23 @@ use records::PoseRecord;
 use synthesis::singularity::SingularityVerdict;
 use synthesis::{Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body};
 
-/// A design with what a page can do about it.
+/// A design with the questions that its page can ask.
 #[derive(Debug, Serialize)]
 pub(super) struct OpeningRecord<'a> {
     name: &'a str,
     units: &'a str,
     source: Option<&'a str>,
     description: Option<&'a str>,
-    /// `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` where the legs are rods on cranks.
+    /// The kind: `"octahedral"`, `"equivalent"`, `"general"`, or `"cranks"` for rods on cranks.
     kind: &'static str,
     size: f64,
-    /// Whether the platform shown first is: the octahedral original, or the design where there is none. `null` where it
-    /// is not decided, and for cranks.
+    /// Whether the platform shown first is architecturally singular: the octahedral original, or else the design.
+    /// `null`: undecided, or cranks.
     singular: Option<bool>,
-    /// Why it is singular, or why it is not decided.
+    /// The reason why it is singular, or why it is undecided.
     reason: Option<String>,
-    /// The same of the design as an equivalent, with the offsets that the page starts with; `null` also where the page
-    /// starts with another one.
+    /// Whether the design as an equivalent, with the starting offsets of the page, is singular. `null`: undecided, or
+    /// the page starts with another platform.
     start_singular: Option<bool>,
     home: PoseRecord,
     centre: [f64; 3],
@@ -36,38 +36,38 @@ pub(super) struct OpeningRecord<'a> {
     trajectory: bool,
     workspace: bool,
     lengths: Option<[f64; 6]>,
-    /// Least and greatest angle of each crank, degrees, `null` where there are none; nothing where there are no cranks.
+    /// Least and greatest angle of each crank, degrees, `null` without limits; absent without cranks.
     angles_deg: Option<Vec<Option<[f64; 2]>>>,
     limits: LimitsRecord,
     hardware: HardwareRecord,
     slides: SlidesRecord,
-    /// Of the octahedral original.
+    /// The hexagon of the octahedral original.
     hexagon: Option<HexagonRecord>,
-    /// Equivalents to choose from.
+    /// The equivalents to choose from.
     patterns: Option<Vec<StartPattern>>,
-    /// The equivalent the page begins with.
+    /// The equivalent shown at the beginning.
     start: Option<Chosen>,
 }
 
-/// What is asked of an equivalent.
+/// The limits for an equivalent.
 #[derive(Debug, Serialize)]
 struct LimitsRecord {
-    /// Of joint centres, design units.
+    /// Least distance of joint centres, design units.
     spacing: f64,
-    /// Of `|det A|`.
+    /// Least `|det A|`.
     det: f64,
 }
 
-/// How thick the parts are, design units; `null` where the design does not say.
+/// Dimensions of the parts, design units; `null`: not stated by the design.
 #[derive(Debug, Serialize)]
 struct HardwareRecord {
-    /// Widths of the joints of base and platform.
+    /// Widths of the joints of base and platform, design units.
     joints: [Option<f64>; 2],
-    /// Diameter of the leg, of its cylinder where it has a rod.
+    /// Diameter of the leg, or of its cylinder, design units.
     leg: Option<f64>,
-    /// Length of the cylinder and diameter of the rod.
+    /// Length of the cylinder and diameter of the rod, design units.
     rod: Option<[f64; 2]>,
-    /// Least and greatest leg length.
+    /// Least and greatest leg length, design units.
     lengths: Option<[f64; 2]>,
 }
 
@@ -86,21 +86,21 @@ impl HardwareRecord {
     }
 }
 
-/// How far the sliders of the pose go to either side of home.
+/// The ranges of the pose sliders, to either side of home.
 #[derive(Debug, Serialize)]
 struct SlidesRecord {
-    /// Design units.
+    /// Range of the position, design units.
     position: [f64; 3],
-    /// Roll, pitch, yaw.
+    /// Range of roll, pitch, yaw, degrees.
     rpy_deg: [f64; 3],
 }
 
-/// Sliders go further than the workspace by this factor: what is beyond it has to be seen too.
+/// The factor by which sliders exceed the workspace, so that poses beyond it can be seen.
 const BEYOND: f64 = 1.5;
-/// Least reach of a slider: as a share of the size of the design, and in degrees.
+/// Least range of a slider: as a share of the size of the design, and in degrees.
 const LEAST_SLIDE: (f64, f64) = (0.25, 30.0);
 
-/// How far to either side of home the page looks: positions in design units, and angles in degrees.
+/// The range shown by the page to either side of home: positions in design units, and angles in degrees.
 pub(super) fn reach(design: &Design) -> ([f64; 3], [f64; 3]) {
     let workspace = design.workspace_or_default();
     let least = LEAST_SLIDE.0 * design.manipulator().size();
@@ -115,7 +115,7 @@ impl SlidesRecord {
     }
 }
 
-/// Legs (vertices) and what slides on the sides between them.
+/// The hexagon: its legs as vertices, and the joints that slide on its sides.
 #[derive(Debug, Serialize)]
 struct HexagonRecord {
     vertices: Vec<VertexRecord>,
@@ -133,7 +133,7 @@ struct VertexRecord {
 #[derive(Debug, Serialize)]
 struct SideRecord {
     body: String,
-    /// The joint of the other body.
+    /// The joint of the other body, which stays fixed.
     fixed: String,
     length: f64,
     from: String,
@@ -151,7 +151,7 @@ struct StartPattern {
     legs: Vec<EquivalentLeg>,
     /// The formula of `det A`.
     det: String,
-    /// Where its factors vanish.
+    /// The equations of the zeros of its factors.
     zero: Vec<String>,
 }
 
@@ -169,12 +169,12 @@ struct EquivalentLeg {
     leg: usize,
     joints: [String; 2],
     side: Option<usize>,
-    /// Index into the offsets.
+    /// Index into the offsets; absent for a fixed leg.
     offset: Option<usize>,
     vertex: Option<usize>,
 }
 
-/// Whether a design is architecturally singular, as `equipod check` says it, and why it is or why that is not decided.
+/// Whether a design is architecturally singular, as in `equipod check`, and the reason, also for an undecided case.
 fn regularity(design: &Design) -> (Option<bool>, Option<String>) {
     match SingularityVerdict::of(design.manipulator()) {
         Err(e) => (None, Some(format!("not decided: {e}"))),
@@ -188,7 +188,7 @@ fn regularity(design: &Design) -> (Option<bool>, Option<String>) {
 /// The design, the original's hexagon, and the patterns to choose from.
 pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
     let design = &session.design;
-    // of cranks: what is said of the joints holds for legs that change their lengths
+    // results on the joints apply only to legs that change their lengths, so not to cranks
     let (singular, reason) = match session.cranks {
         None => regularity(session.first()),
         Some(_) => (None, None),
@@ -254,7 +254,7 @@ fn hexagon(o: &Original) -> HexagonRecord {
     HexagonRecord { vertices: vertices.collect(), sides: sides.collect() }
 }
 
-/// One pattern of every topology, the platform without shared joints first, and the one the page starts with.
+/// One pattern of every topology, the platform without shared joints first, and the starting pattern of the page.
 fn patterns(start: &Equivalent, o: &Original) -> Vec<StartPattern> {
     let mut list: Vec<Pattern> = vec![start.pattern.clone()];
     list.extend(Pattern::new([false; 6], [1; 6]));

@@ -8,16 +8,16 @@ use super::session::Session;
 use platform::geom::Pose;
 use records::PoseRecord;
 
-/// Steps between two poses of a trajectory.
+/// Number of steps between two poses of a trajectory.
 const STEPS: usize = 24;
-/// Turns of each coordinate in one round; different ones, so that the path is not a line.
+/// Number of periods of each coordinate in one round; they differ, so that the path is not a line.
 const TURNS: [f64; 6] = [1.0, 2.0, 1.0, 3.0, 2.0, 1.0];
-/// Share of the region that is used.
+/// The share of the region that the path covers.
 const SHARE: f64 = 0.9;
 
 impl Session {
-    /// The pose at the share `at` of a closed round: along the trajectory of the design and back where it has one, else
-    /// on a curve `x_k = 0.9 sin(2 pi n_k at)` through the region of poses, from home to home.
+    /// The pose at the share `at` of a closed round. It follows the trajectory of the design and back, if there is one.
+    /// Otherwise it follows a curve `x_k = 0.9 sin(2 pi n_k at)` through the region of poses, from home to home.
     pub(super) fn along(&self, at: f64) -> Pose {
         let at = if at.is_finite() { at.rem_euclid(1.0) } else { 0.0 };
         let space = self.design.workspace_or_default().space(&self.home);

@@ -6,11 +6,11 @@ use super::request::Refusal;
 use super::session::Equivalent;
 use files::plot::ValueGrid;
 
-/// Most points a side.
+/// Greatest number of points along each side.
 const MOST: usize = 201;
 
 impl Equivalent {
-    /// The offsets with other values of some.
+    /// The offsets with new values for some.
     fn changed(&self, changes: &[(usize, f64)]) -> Result<Vec<f64>, Refusal> {
         let mut offsets = self.offsets.clone();
         for (k, value) in changes {
@@ -22,18 +22,18 @@ impl Equivalent {
         Ok(offsets)
     }
 
-    /// The platform with other values of some offsets.
+    /// The platform with new values for some offsets.
     pub(super) fn moved(&self, changes: &[(usize, f64)]) -> Result<Self, Refusal> {
         Ok(Self { pattern: self.pattern.clone(), offsets: self.changed(changes)? })
     }
 
-    /// `det A` with other values of some offsets.
+    /// `det A` with new values for some offsets.
     pub(super) fn with(&self, changes: &[(usize, f64)]) -> Result<f64, Refusal> {
         self.pattern.determinant(&self.changed(changes)?).map_err(|e| Refusal::new("offsets", e))
     }
 
-    /// For each offset where `det A` vanishes when the others stay: `det A` is affine in every single one. `None` where
-    /// it does not depend on it.
+    /// For each offset, the value for which `det A` vanishes while the others stay fixed; `det A` is affine in every
+    /// single offset. `None` if it does not depend on the offset.
     pub(super) fn zeros(&self) -> Result<Vec<Option<f64>>, Refusal> {
         (0..self.offsets.len())
             .map(|k| {
@@ -48,17 +48,17 @@ impl Equivalent {
 /// `det A` on a square of two offsets.
 #[derive(Debug, Serialize)]
 pub(super) struct PlaneRecord {
-    /// Points a side.
+    /// Number of points along each side.
     points: usize,
     low: f64,
     high: f64,
-    /// Row by row, the first offset to the right.
+    /// The values row by row, the first offset to the right.
     values: Vec<f64>,
-    /// Lines on which it vanishes.
+    /// The lines on which `det A` vanishes.
     zero: Vec<Vec<[f64; 2]>>,
 }
 
-/// Where the points of a square of two offsets lie.
+/// The places of the points of a square of two offsets.
 pub(super) fn square(
     [i, j]: [usize; 2],
     [low, high]: [f64; 2],
@@ -73,8 +73,7 @@ pub(super) fn square(
     Ok(move |k: usize| low + k as f64 / (points as f64 - 1.0) * (high - low))
 }
 
-/// Values on a square of two offsets, row by row with the first offset to the right, and the lines on which they
-/// vanish.
+/// Values on a square of two offsets, row by row with the first offset to the right, and their zero lines.
 pub(super) fn record(
     e: &Equivalent,
     [i, j]: [usize; 2],

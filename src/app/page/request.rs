@@ -1,4 +1,4 @@
-//! What a page may ask.
+//! The requests of a page.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -12,17 +12,17 @@ use platform::geom::{Angles, Pose};
 use records::PoseRecord;
 use synthesis::Pattern;
 
-/// Which platform of the page.
+/// A platform of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Which {
-    /// The octahedral original, or the design where there is none.
+    /// The octahedral original, or else the design.
     First,
-    /// The equivalent.
+    /// The equivalent platform.
     Second,
 }
 
-/// An equivalent platform, as asked for.
+/// An equivalent platform, as requested.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Chosen {
     pattern: String,
@@ -35,35 +35,35 @@ impl From<&Equivalent> for Chosen {
     }
 }
 
-/// A question.
+/// A request.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "lowercase")]
 pub(super) enum PageRequest {
-    /// What there is to show.
+    /// The contents of the page.
     Open,
-    /// Offsets to begin with.
+    /// Starting offsets.
     Start { pattern: String },
-    /// The pose at a share of the way round.
+    /// The pose at a share of the path.
     Path { at: f64 },
     /// The pose at a position with roll, pitch and yaw.
     Place { position: [f64; 3], rpy_deg: [f64; 3] },
-    /// The pose at a position with a unit quaternion, scalar part first: how other answers name their worst poses.
+    /// The pose at a position with a unit quaternion, scalar part first, as other answers give their worst poses.
     Quaternion { p: [f64; 3], q: [f64; 4] },
-    /// Everything about both platforms at a pose.
+    /// All results about both platforms at a pose.
     State { pose: PoseRecord, chosen: Option<Chosen> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
-    /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers; without cells
-    /// with as many as it takes itself.
+    /// The requirements of a platform over its whole workspace, as in `assess` with these numbers; the default for
+    /// cells is that of `assess`.
     Assess { which: Which, chosen: Option<Chosen>, points: usize, searches: usize, cells: Option<usize> },
-    /// All poses with given leg lengths, or with those of a pose; of cranks with angles in degrees.
+    /// All poses with given leg lengths, or with the lengths at a pose; for cranks, angles in degrees.
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
     Confirm { pose: PoseRecord, chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
-    /// Where over two offsets a requirement is violated in the workspace, at the poses that `assess` with so many
-    /// points looks at before its searches.
+    /// Violated requirements over two offsets, at the poses that `assess` with this number of points evaluates before
+    /// its searches.
     Feasible { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize, samples: usize },
     /// `det A = 0` over three offsets.
     Surface { chosen: Chosen, axes: [usize; 3], range: [f64; 2], points: usize },
@@ -75,7 +75,7 @@ pub(super) enum PageRequest {
     Presets,
     /// A preset as a design file.
     Preset { name: String },
-    /// Twelve points out of a table, as a design file.
+    /// Twelve points from a table, as a design file.
     Points { text: String, units: String },
     /// A hexapod with the numbers of a data sheet, as a design file.
     Sheet(begin::DataSheet),
@@ -83,7 +83,7 @@ pub(super) enum PageRequest {
     Design { which: Which, chosen: Option<Chosen> },
 }
 
-/// Offsets to begin with.
+/// Starting offsets.
 #[derive(Debug, Serialize)]
 struct OffsetsRecord {
     offsets: Vec<f64>,
@@ -103,12 +103,12 @@ struct RefusalRecord {
     error: Refusal,
 }
 
-/// A record as it is sent: every one of them is made of texts, numbers, lists and fields, and can be.
+/// A record as JSON; every record consists of texts, numbers, lists and fields, so this cannot fail.
 fn value(record: impl Serialize) -> Value {
     serde_json::to_value(record).unwrap_or_default()
 }
 
-/// Why there is no answer.
+/// The reason why there is no answer.
 #[derive(Debug, Serialize)]
 pub(super) struct Refusal {
     code: &'static str,
@@ -148,7 +148,7 @@ impl Session {
         opened(text).map_err(|e| e.record().to_string())
     }
 
-    /// The answer to a request, both in JSON. A request that cannot be answered gives `{"error": {"code", "message"}}`.
+    /// The answer to a request, both in JSON. An invalid request gives `{"error": {"code", "message"}}`.
     #[must_use]
     pub fn answer(&self, request: &str) -> String {
         let request: Result<PageRequest, _> = serde_json::from_str(request);
@@ -239,7 +239,7 @@ impl Session {
     }
 }
 
-/// What [`Session::open`] needs.
+/// The input of [`Session::open`].
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Opening {
     design: String,
@@ -249,7 +249,7 @@ pub(super) struct Opening {
 }
 
 impl From<&Session> for Opening {
-    /// What opens the same session.
+    /// The input that opens the same session.
     fn from(session: &Session) -> Self {
         let trajectory = session.design.workspace.trajectory.as_ref();
         Self {

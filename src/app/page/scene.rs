@@ -1,4 +1,4 @@
-//! Both platforms at a pose: where everything is, lengths, margins, and how the lengths are related.
+//! Both platforms at a pose: places, lengths, margins, and the relation of the lengths.
 
 use std::collections::BTreeMap;
 
@@ -15,17 +15,17 @@ use platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condit
 use records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
 use synthesis::AffineLegMap;
 
-/// Below this a singular value is not told from zero.
+/// Singular values below this count as zero.
 const ROUNDING: f64 = 1e-13;
 
 /// Both platforms at a pose.
 #[derive(Debug, Serialize)]
 pub(super) struct SceneRecord {
     pose: PoseRecord,
-    /// Roll, pitch and yaw of the pose.
+    /// Roll, pitch and yaw of the pose, degrees.
     rpy_deg: [f64; 3],
     platforms: Vec<PlatformRecord>,
-    /// From the lengths of the first to those of the second.
+    /// The leg map from the lengths of the first platform to those of the second.
     map: Option<RelationRecord>,
 }
 
@@ -42,19 +42,19 @@ struct PlatformRecord {
     inverse_condition: f64,
     sign: i8,
     spacing: BodySpacings,
-    /// The least of each kind of requirement at the pose.
+    /// The least margin of each kind of requirement at the pose.
     margins: Vec<MarginRecord>,
-    /// Where the legs are rods on cranks; the lengths are then those of the rods.
+    /// The cranks, for rods on cranks; the lengths are then rod lengths.
     cranks: Option<CranksRecord>,
 }
 
 /// The cranks at a pose; their centres are the base joints.
 #[derive(Debug, Serialize)]
 struct CranksRecord {
-    /// From each centre to the tip at the angle 0 and at a quarter turn.
+    /// The vectors from each centre to the tip at angle 0 and at a quarter turn.
     arms: [[[f64; 3]; 2]; 6],
     out_of_reach: Option<OutOfReachRecord>,
-    /// In leg order; none where a rod does not reach.
+    /// The cranks in leg order; empty if a rod does not reach.
     list: Vec<CrankPlace>,
 }
 
@@ -63,11 +63,11 @@ struct CranksRecord {
 struct CrankPlace {
     #[serde(flatten)]
     crank: CrankRecord,
-    /// On the other side.
+    /// The tip on the other side.
     other_tip: [f64; 3],
 }
 
-/// A joint and where it is, base frame.
+/// A joint with its position, base frame.
 #[derive(Debug, Serialize)]
 struct PlaceRecord {
     name: String,
@@ -88,7 +88,7 @@ struct SpacingRecord {
     joints: [String; 2],
 }
 
-/// `s' = A s + c`, and how well it holds at the pose.
+/// The map `s' = A s + c`, with its error at the pose.
 #[derive(Debug, Serialize)]
 struct RelationRecord {
     #[serde(rename = "A")]
@@ -97,15 +97,15 @@ struct RelationRecord {
     constants: [f64; 6],
     det: f64,
     inverse_condition: f64,
-    /// `A s + c`.
+    /// The image `A s + c`, design units squared.
     image: [f64; 6],
-    /// Its largest difference from `s'`, relative.
+    /// The largest relative difference of the image from `s'`.
     error: f64,
-    /// For each offset where `det A` vanishes; `null`: nowhere.
+    /// For each offset, the value for which `det A` vanishes; `null`: there is none.
     zeros: Vec<Option<f64>>,
 }
 
-/// Everything a page shows at a pose.
+/// All data that a page shows at a pose.
 pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Result<SceneRecord, Refusal> {
     let first = session.first();
     let s = match &session.cranks {

@@ -10,18 +10,18 @@ use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 use synthesis::{AffineLegMap, InstantiateError, Pattern};
 
-/// A design with what its page needs to know: the octahedral platform behind it, home, and where the offsets begin.
+/// A design with the data of its page: its octahedral platform, home, and the starting offsets.
 #[derive(Debug, Clone)]
 pub struct Session {
     pub(super) design: Design,
     pub(super) original: Option<Original>,
     pub(super) start: Option<Equivalent>,
-    /// Where the legs are rods on cranks; there is no original then.
+    /// The cranks, for rods on cranks; there is then no octahedral original.
     pub(super) cranks: Option<RotaryPlatform>,
     pub(super) home: Pose,
-    /// Least distance of joint centres and least `|det A|` asked for.
+    /// The limits of the least distance of joint centres and the least `|det A|`.
     pub(super) limits: (f64, f64),
-    /// Whether the page is for those who have no design yet.
+    /// Whether the page is for users without a design.
     pub(super) without_design: bool,
 }
 
@@ -44,17 +44,17 @@ pub enum InvalidStart {
     /// The offsets do not fit the pattern.
     #[error(transparent)]
     Offsets(#[from] InstantiateError),
-    /// The design to begin with is none.
+    /// The starting design is invalid.
     #[error("the page without a design has none to begin with: {0}")]
     Design(String),
 }
 
 impl Session {
-    /// Opens a design. The page of an octahedral design starts with an equivalent without shared joints that meets the
-    /// requirements of the design where a regular one does, that of an equivalent one with the design itself.
+    /// Opens a design. The page of an octahedral design starts with an equivalent without shared joints, if possible
+    /// one that is regular and meets the requirements. The page of an equivalent design starts with the design itself.
     #[must_use]
     pub fn new(design: Design) -> Self {
-        // cranks of a design that was read make a platform
+        // the cranks of a parsed design always make a platform
         let cranks = design.rotary().ok().flatten();
         let original = if cranks.is_some() { None } else { Original::of(&design) };
         let table = &design.optimize;
@@ -75,7 +75,7 @@ impl Session {
         session
     }
 
-    /// The design itself as an equivalent, else the platform without shared joints with regular offsets.
+    /// The design itself as an equivalent, or else the platform without shared joints with regular offsets.
     fn first_equivalent(&self) -> Option<Equivalent> {
         let (pattern, offsets) = if let Some(seen) = self.original.as_ref()?.seen.clone() {
             seen
@@ -87,10 +87,10 @@ impl Session {
         Some(Equivalent { pattern, offsets })
     }
 
-    /// The same with another equivalent platform to begin with.
+    /// The same session with another equivalent platform at the start.
     ///
     /// # Errors
-    /// [`InvalidStart`] when there are no equivalents, or the offsets do not fit.
+    /// [`InvalidStart`] if there are no equivalents, or the offsets do not fit.
     pub fn starting_with(mut self, pattern: Pattern, offsets: Vec<f64>) -> Result<Self, InvalidStart> {
         let original = self.original.as_ref().ok_or(InvalidStart::NoOriginal)?;
         pattern.instantiate(&original.octahedral, &offsets)?;
@@ -104,20 +104,20 @@ impl Session {
         &self.design
     }
 
-    /// The platform that the page opens with: the equivalent where there is one to begin with, else the design.
+    /// The platform that the page shows first: the starting equivalent, or else the design.
     #[must_use]
     pub fn shown(&self) -> Design {
         let equivalent = self.start.as_ref().and_then(|e| self.second(e).ok());
         equivalent.map_or_else(|| self.design.clone(), |(design, _)| design)
     }
 
-    /// The octahedral original, or the design itself where there is none.
+    /// The octahedral original, or else the design itself.
     pub(super) fn first(&self) -> &Design {
         self.original.as_ref().map_or(&self.design, |o| &o.design)
     }
 
-    /// Whether the requirements of the file are about [`first`](Self::first): those of a platform without shared joints
-    /// are not about its original.
+    /// Whether the requirements of the file apply to [`first`](Self::first); requirements of a platform without shared
+    /// joints do not apply to its original.
     pub(super) fn first_is_given(&self) -> bool {
         self.original.as_ref().is_none_or(|o| o.seen.is_none())
     }
@@ -128,19 +128,19 @@ impl Session {
         Ok(original.equivalent(&e.pattern, &e.offsets)?)
     }
 
-    /// The poses by which conditioning is judged: those of the workspace, home first.
+    /// The poses for the conditioning: the poses of the workspace, home first.
     pub(super) fn judged(&self) -> Vec<Pose> {
         self.design.workspace_or_default().sample(&self.home)
     }
 
-    /// Size of both bodies at home: what a picture has to hold.
+    /// Size of both bodies at home, which a picture has to contain.
     pub(super) fn reach(&self) -> (nalgebra::Point3<f64>, f64) {
         let m: &Manipulator = self.first().manipulator();
         let ends: Vec<_> = m.legs().iter().flat_map(|l| [l.base, self.home.transform(&l.platform)]).collect();
         let centre = nalgebra::Point3::from(
             ends.iter().map(|p| p.coords).sum::<nalgebra::Vector3<f64>>() / ends.len() as f64,
         );
-        // the tips of cranks go around the base joints
+        // the tips of the cranks move around the base joints
         let crank = self.cranks.iter().flat_map(RotaryPlatform::legs).map(|leg| leg.crank.length);
         (centre, ends.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max) + crank.fold(0.0, f64::max))
     }

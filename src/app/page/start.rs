@@ -1,4 +1,4 @@
-//! The offsets a page begins with when nothing else is asked.
+//! The default starting offsets of a page.
 
 use super::session::{InvalidStart, Session};
 use ask::equivalents::Original;
@@ -6,20 +6,20 @@ use machine::requirements::{Requirements, Standing, Terms};
 use platform::manipulator::{Body, inverse_condition, jacobian};
 use synthesis::{Offset, Pattern, sliding_body};
 
-/// Offsets that are tried, on all edges of a body alike.
+/// Offsets to try, equal on all edges of a body.
 const SHARES: [f64; 12] = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9];
-/// By which share the conditioning has to be better: platforms that mirror each other differ by rounding.
+/// The share by which the conditioning must improve, since mirrored platforms differ by rounding.
 const BETTER: f64 = 1e-9;
 
-/// What regular offsets make: requirements that are violated, those at their limit, and the inverse condition number at
-/// home.
+/// The quality of offsets: numbers of violated requirements and of requirements at their limit, and the inverse
+/// condition number at home.
 type StartWorth = ([usize; 2], f64);
 
 impl Session {
-    /// Regular offsets of a pattern: one value on the edges of the base, one on those of the platform, a second joint
-    /// of an edge as far from its other end. Of these the ones that violate the fewest requirements (of the file at
-    /// home, joint distance and `det A`), then those with the fewest at their limit, then the ones with the best
-    /// conditioning at home.
+    /// Regular offsets of a pattern: one value on the edges of the base, one on the edges of the platform. A second
+    /// joint of an edge is as far from its other end. The choice has the fewest violated requirements (of the file at
+    /// home, joint distance and `det A`). Ties are broken by the fewest at their limit, then by the best conditioning
+    /// at home.
     pub(super) fn first_offsets(&self, pattern: &Pattern) -> Result<Vec<f64>, InvalidStart> {
         let original = self.original.as_ref().ok_or(InvalidStart::NoOriginal)?;
         let mut required = self.design.requirements();

@@ -1,5 +1,5 @@
-//! Singular surfaces in space: `det A` over three offsets, and `det J` over the positions of the platform with the
-//! orientation it has.
+//! Singular surfaces in space: `det A` over three offsets, and `det J` over the positions of the platform at its
+//! orientation.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -13,9 +13,9 @@ use files::plot::{TriangleSurface, ValueBox};
 use platform::geom::Pose;
 use platform::manipulator::jacobian;
 
-/// Most points a side.
+/// Greatest number of points along each side.
 const MOST: usize = 61;
-/// Points a side at which it is looked whether a platform is singular everywhere.
+/// Number of points along each side for checking whether a platform is singular everywhere.
 const COARSE: usize = 3;
 
 /// A surface of triangles in a box.
@@ -24,7 +24,7 @@ pub(super) struct SurfaceRecord {
     low: [f64; 3],
     high: [f64; 3],
     vertices: Vec<[f64; 3]>,
-    /// Three vertices each.
+    /// The triangles, each as three indices of vertices.
     triangles: Vec<[usize; 3]>,
 }
 
@@ -44,9 +44,9 @@ impl SurfaceRecord {
 /// The singular poses about home with one orientation.
 #[derive(Debug, Serialize)]
 pub(super) struct LocusRecord {
-    /// Every pose is singular: there is no surface.
+    /// Whether every pose is singular: there is no surface.
     everywhere: bool,
-    /// Half widths of the workspace about home.
+    /// Half widths of the workspace about home, design units.
     workspace: [f64; 3],
     home: [f64; 3],
     surface: SurfaceRecord,
@@ -78,7 +78,7 @@ fn values<E>(
     Ok(ValueBox { points, values })
 }
 
-/// The surface `det A = 0` over three offsets, the others as they are.
+/// The surface `det A = 0` over three offsets; the others stay fixed.
 pub(super) fn offsets(
     e: &Equivalent,
     axes: [usize; 3],
@@ -95,10 +95,11 @@ pub(super) fn offsets(
     Ok(SurfaceRecord::new(found.surface(0.0), ends, points))
 }
 
-/// The positions with the orientation of a pose at which `det J = 0`, about home as far as the sliders of the page go.
+/// The positions with the orientation of a pose at which `det J = 0`, about home within the range of the page's
+/// sliders.
 ///
-/// `J` is the Jacobian of the leg lengths with turns times the characteristic length. A position at which a leg has no
-/// length is passed over.
+/// `J` is the Jacobian of the leg lengths, with rotations multiplied by the characteristic length. Positions at which a
+/// leg has no length are left out.
 pub(super) fn locus(
     design: &Design,
     home: &Pose,

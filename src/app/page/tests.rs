@@ -37,7 +37,7 @@ fn built(answer: &Value) -> Design {
     design(answer["toml"].as_str().unwrap())
 }
 
-/// The designs the page offers have the leg map it shows, by the leg vectors of their joints.
+/// The designs offered by the page have the leg map it shows, checked by the leg vectors of their joints.
 #[test]
 fn the_original_of_a_design_without_shared_joints_is_found_with_its_offsets() {
     for text in [EQUIVALENT, MIDLINE] {
@@ -66,8 +66,8 @@ fn the_original_of_a_design_without_shared_joints_is_found_with_its_offsets() {
     }
 }
 
-/// What the page offers for saving says where the joints are: the original keeps its exact corners, the equivalent
-/// platform is on their edges.
+/// Saved designs keep their constructions: the original has its exact corners, and the joints of the equivalent
+/// platform are on its edges.
 #[test]
 fn saved_designs_keep_constructions() {
     let chosen = json!({"pattern": "S123456", "offsets": [0.25, 0.5, 0.25, 0.5, 0.25, 0.75]});
@@ -163,8 +163,8 @@ fn a_singular_platform_moves_and_a_regular_one_does_not() {
     assert_eq!(moving(EQUIVALENT)["dimension"], json!(0));
 }
 
-/// Every class begins with a regular platform that meets the requirements of the file, where one of the regular ones
-/// does.
+/// Every class begins with a regular platform; if some regular one meets the requirements of the file, so does this
+/// one.
 #[test]
 fn the_first_offsets_meet_the_requirements_at_home() {
     let required = "[hardware]\njoint_diameter = 1.4\nbase_swing_deg = 30.0\n";
@@ -187,7 +187,7 @@ fn the_first_offsets_meet_the_requirements_at_home() {
             ask(&session, &json!({"op": "start", "pattern": "S123456"}))["offsets"]
         );
     }
-    // more room than any platform on these edges has: the least bad one, and the page says what is violated
+    // more spacing than any platform on these edges has: the best one is chosen, and the page names the violations
     let session = session(&OCTAHEDRAL.replace("min_joint_distance = 1.2", "min_joint_distance = 7.0"));
     let open = ask(&session, &json!({"op": "open"}));
     let state = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": open["start"]}));
@@ -246,7 +246,7 @@ fn the_page_opens_the_same_session_and_holds_no_address() {
             && licences.contains("&#58;//")
             && !licences.contains("clap ")
     );
-    // the name of the language of pictures is the only address, and nobody follows it
+    // the XML namespace of pictures is the only address, and no browser follows it
     let html = html.replace("http://www.w3.org/2000/svg", "");
     assert!(!html.contains("{{") && !html.contains("http:") && !html.contains("https:"));
     let data = html.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
@@ -287,7 +287,7 @@ fn a_pose_by_its_angles_and_by_its_quaternion_has_the_lengths_of_its_rotation() 
     assert_eq!(refused["error"]["code"], json!("pose"));
 }
 
-/// Lengths that are typed in give the pose they were taken from, as the one nearest to a pose beside it.
+/// Typed lengths give the pose they come from, as the nearest one to a pose close to it.
 #[test]
 fn the_nearest_mode_of_given_lengths_is_the_pose_they_come_from() {
     let session = session(OCTAHEDRAL);
@@ -388,7 +388,7 @@ fn presets_and_points_are_designs() {
     );
 }
 
-/// What is shaded over two offsets is what `assess` finds for the platform of each point at the same poses.
+/// The shading over two offsets agrees with `assess` for the platform of each point at the same poses.
 #[test]
 fn a_platform_is_shaded_where_a_requirement_is_violated_at_a_pose_of_the_workspace() {
     let session = session(OCTAHEDRAL);
@@ -475,7 +475,7 @@ fn det_a_vanishes_on_the_surface_over_three_offsets_and_changes_its_sign_across_
     assert_eq!(ask(&session, &two)["error"]["code"], json!("request"));
 }
 
-/// Close to the surface `det J` is small and of both signs; a singular design is singular everywhere.
+/// Near the surface `det J` is small and has both signs; a singular design is singular everywhere.
 #[test]
 fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
     let session = session(OCTAHEDRAL);
@@ -549,7 +549,7 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
         assert!(apart(&turned, &point(&crank["tip"])) < 1e-9);
     }
     assert!(platform["inverse_condition"].as_f64().unwrap() > 0.0 && platform["sign"] != json!(0));
-    // beyond reach there are circles, and no cranks
+    // beyond reach there are only circles
     let far = json!({"op": "place", "position": [0, 0, 300], "rpy_deg": [0, 0, 0]});
     let pose = ask(&session, &far)["pose"].clone();
     let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": null}));
@@ -562,8 +562,8 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
     }
 }
 
-/// The page and `check` call the same platforms singular: the one shown first, and the equivalent that the page starts
-/// with, by the joints of the file.
+/// The page and `check` agree on singular platforms: the one shown first, and the starting equivalent, with the joints
+/// of the file.
 #[test]
 fn the_page_says_of_the_joints_of_the_file_what_check_says() {
     let opened = |name: &str| {

@@ -14,13 +14,13 @@ use records::PoseRecord;
 /// The worst conditioning of the platforms.
 #[derive(Debug, Serialize)]
 pub(super) struct WorstRecord {
-    /// How many poses were looked at.
+    /// Number of poses evaluated.
     poses: usize,
     first: Option<LeastRecord>,
     second: Option<LeastRecord>,
 }
 
-/// The least inverse condition number of a platform and where it is reached.
+/// The least inverse condition number of a platform, with its pose.
 #[derive(Debug, Serialize)]
 struct LeastRecord {
     inverse_condition: f64,
@@ -28,15 +28,15 @@ struct LeastRecord {
 }
 
 impl Session {
-    /// `sigma_min / sigma_max` of the length-normalised Jacobian of the legs, or of the rods; 0 where a rod does not
+    /// `sigma_min / sigma_max` of the length-normalised Jacobian of the legs, or of the rods; 0 if a rod does not
     /// reach.
     pub(super) fn inverse_condition(&self, design: &Design, pose: &Pose) -> f64 {
         self.pushing(design, pose)
             .map_or(0.0, |m| inverse_condition(&jacobian(&m, pose, design.characteristic_length())))
     }
 
-    /// What pushes the platform at a pose: the legs of a design of the page, or its rods on the tips of their cranks;
-    /// `None` where a rod does not reach.
+    /// The legs that act on the platform at a pose: legs of the design, or rods on the tips of its cranks. `None` if a
+    /// rod does not reach.
     pub(super) fn pushing<'a>(&self, design: &'a Design, pose: &Pose) -> Option<Cow<'a, Manipulator>> {
         match &self.cranks {
             None => Some(Cow::Borrowed(design.manipulator())),
@@ -51,7 +51,7 @@ impl Session {
     }
 }
 
-/// The least inverse condition number of both platforms and the pose where it is reached.
+/// The least inverse condition number of both platforms, with its pose.
 pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<WorstRecord, Refusal> {
     let poses = session.judged();
     let second = match e {

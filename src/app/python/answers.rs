@@ -1,4 +1,4 @@
-//! Answers that are records, as the JSON of the command line.
+//! Answers as JSON records, as on the command line.
 
 use std::ops::ControlFlow;
 
@@ -27,7 +27,7 @@ pub(super) fn preset_names() -> Vec<&'static str> {
     PRESETS.iter().map(|p| p.name).collect()
 }
 
-/// What a notebook shows of an answer: the sheet of its JSON document.
+/// The display of an answer in a notebook: the sheet of its JSON document.
 #[pyfunction]
 pub(super) fn sheet_html(document: &str) -> PyResult<String> {
     let fields = serde_json::from_str(document).map_err(|e| PyRuntimeError::new_err(e.to_string()))?;

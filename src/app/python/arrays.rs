@@ -1,5 +1,5 @@
-//! Between numpy arrays and poses and lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths rows of six; the first
-//! axis counts.
+//! Conversions between numpy arrays and poses or lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths are rows of
+//! six; the first axis counts.
 
 use nalgebra::Matrix4;
 use ndarray::{Array, Array3, ArrayView2, ArrayView3, Dimension, StrideShape};
@@ -12,7 +12,7 @@ use super::failure::{raised, refused};
 use ask::Error;
 use platform::geom::{ComplexPose, InvalidPose, Pose};
 
-/// Why a computation at many poses ended: the matrix of one of them, or what was computed of it.
+/// The reason why a computation at many poses ended: an invalid matrix, or an error of the computation.
 pub(super) enum PoseFault {
     Pose(usize, InvalidPose),
     Failed(Error),
@@ -24,21 +24,21 @@ impl From<Error> for PoseFault {
     }
 }
 
-/// An argument that is an array of doubles, row by row, as it stands; `None`: it is for numpy to make one of it. A look
-/// from here costs less than one from Python.
+/// An argument that already is an array of doubles, row by row; `None`: numpy has to convert it. A check here costs
+/// less than one in Python.
 pub(super) fn as_it_stands<'py>(given: &Bound<'py, PyAny>) -> Option<PyReadonlyArrayDyn<'py, f64>> {
     let array = given.cast::<PyArrayDyn<f64>>().ok()?.try_readonly().ok()?;
-    // a slice would be given of columns after columns too
+    // a slice would also accept arrays stored column by column
     array.is_c_contiguous().then_some(array)
 }
 
-/// The entries of an array of shape `(.., 4, 4)` and the axes before these; `None`: it has another shape.
+/// The entries of an array of shape `(.., 4, 4)`, and the axes before the last two; `None`: another shape.
 pub(super) fn pose_entries<'a>(array: &'a PyReadonlyArrayDyn<'_, f64>) -> Option<(&'a [f64], &'a [usize])> {
     let (before, last) = array.shape().split_last_chunk::<2>()?;
     if *last == [4, 4] { Some((array.as_slice().ok()?, before)) } else { None }
 }
 
-/// Calls `each` with every pose of the entries of 4 x 4 matrices, in order and without the interpreter.
+/// Calls `each` with every pose of the 4 x 4 matrices, in order and without the interpreter.
 pub(super) fn at_poses(
     py: Python<'_>,
     entries: &[f64],
@@ -71,7 +71,7 @@ pub(super) fn poses_in(py: Python<'_>, poses: &ArrayView3<'_, f64>) -> PyResult<
     Ok(out)
 }
 
-/// An array of shape `shape` with these entries, row by row.
+/// An array of this shape with these entries, row by row.
 pub(super) fn shaped<D: Dimension>(
     shape: impl Into<StrideShape<D>>,
     entries: Vec<f64>,

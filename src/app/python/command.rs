@@ -11,17 +11,17 @@ use pyo3::prelude::*;
 
 use equipod::cli::{self, Stop};
 
-/// How often the calling thread looks for signals.
+/// The interval at which the calling thread checks for signals.
 const SIGNALS: Duration = Duration::from_millis(50);
 
-/// Twice the stack that the program has on the main thread of a process.
+/// Twice the program's stack on the main thread of a process, bytes.
 const STACK: usize = 16 << 20;
 
 /// Runs a command: exit code, standard output and standard error. `progress` gets each line of standard error.
 ///
-/// The first interrupt asks the command for the best so far. The second interrupt is raised at once.
-/// An interrupt of a command without a best so far is raised at once too, and so is an exception of `progress`.
-/// The command then goes on unheard until it sees the request or ends.
+/// The first interrupt asks the command for its best result so far. The second interrupt is raised at once. So are an
+/// interrupt of a command without such a result, and an exception of `progress`. The command then continues unobserved
+/// until it sees the request or ends.
 #[pyfunction]
 pub(super) fn ask(
     py: Python<'_>,
@@ -40,7 +40,7 @@ pub(super) fn ask(
     })
 }
 
-/// Hands on the lines of a command until it ends, and looks for signals. Returns the whole text.
+/// Passes on the lines of a command until it ends, and checks for signals. Returns the whole text.
 fn listen(heard: Receiver<String>, stop: &Stop, progress: Option<&Py<PyAny>>) -> PyResult<String> {
     let (mut said, mut told) = (String::new(), 0);
     loop {

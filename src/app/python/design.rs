@@ -1,4 +1,4 @@
-//! Designs, and what is asked of them.
+//! Designs, with the questions about them as methods.
 
 use std::num::NonZeroUsize;
 use std::sync::{Arc, OnceLock};
@@ -27,20 +27,20 @@ use records::{AssessAnswer, CheckAnswer};
 use synthesis::InstantiateError;
 use synthesis::singularity::SingularityVerdict;
 
-/// A design, and `A` and `c` of the leg map to it.
+/// A design with `A` and `c` of the leg map to it.
 type WithLegMap<'py> = (NativeDesign, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 
 /// A platform with names, units, home pose and requirements.
 #[pyclass(frozen, name = "Design", module = "equipod._core")]
 pub(super) struct NativeDesign {
     design: Arc<Design>,
-    /// Where the legs are rods on cranks.
+    /// The cranks, for rods on cranks.
     cranks: Result<Option<RotaryPlatform>, InvalidRotary>,
-    /// Prepared with the default options, for batches.
+    /// Forward kinematics prepared with the default options, for batches.
     solver: OnceLock<Solver>,
 }
 
-/// Angles of the cranks, those on the other sides, transmissions, what remains of the limits; float64, shape (.., 6).
+/// Crank angles, angles on the other sides, transmissions, margins to the limits; float64, shape (.., 6).
 type CrankArrays<'py> = [Bound<'py, PyArrayDyn<f64>>; 4];
 
 impl NativeDesign {
@@ -60,7 +60,7 @@ impl NativeDesign {
             .map_err(|why| refused(py, "design::invalid", &why.to_string()))
     }
 
-    /// Refuses rods on cranks where what is asked for is about legs that change their lengths, and names what is asked
+    /// Refuses rods on cranks for questions about legs that change their lengths, and names the question to ask
     /// instead.
     pub(super) fn only_of_legs(&self, py: Python<'_>, instead: &str) -> PyResult<()> {
         if self.design.has_cranks() { Err(refused_for_cranks(py, instead)) } else { Ok(()) }
@@ -71,16 +71,16 @@ impl NativeDesign {
     }
 }
 
-/// What to ask of cranks in place of whether a design is architecturally singular.
+/// The question for cranks that replaces architectural singularity.
 const OF_SINGULARITY: &str = "ask assess, which proves that no pose of the workspace is singular";
-/// Why there is nothing to ask of cranks in place of leg maps.
+/// The reason why cranks have no question that replaces leg maps.
 pub(super) const OF_LEG_MAPS: &str =
     "leg maps hold between squared lengths of legs, and nothing follows from them for the angles of cranks";
 
-/// Rows of a batch between two looks for a signal, milliseconds where rows take longest.
+/// Number of rows of a batch between two checks for a signal; they take milliseconds for the slowest rows.
 const SIGNALS: usize = 64;
 
-/// How many threads; `None` is one for each processor.
+/// The number of threads; `None` means one for each processor.
 pub(super) fn threads_of(py: Python<'_>, threads: Option<usize>) -> PyResult<Threads> {
     match threads {
         None => Ok(Threads::All),
@@ -136,7 +136,7 @@ impl NativeDesign {
         Err(refused(py, "unknown_name", &message))
     }
 
-    /// Joints, and which of them each leg joins.
+    /// A design from its joints and the pairs of joints that the legs connect.
     #[staticmethod]
     fn from_arrays(
         py: Python<'_>,
@@ -151,7 +151,7 @@ impl NativeDesign {
         Ok(Self::of(Design::new(name, units, manipulator)))
     }
 
-    /// The design with the symmetry that its joints have but for rounding, and what was found.
+    /// The design with the symmetry that its joints have up to rounding, and a list of the findings.
     fn snapped(&self) -> Option<(Self, Vec<String>)> {
         let snapped = self.design.snapped()?;
         let sentences = snapped.sentences(&self.design.units);
@@ -182,13 +182,13 @@ impl NativeDesign {
         if self.design.has_cranks() { "rotary" } else { "prismatic" }
     }
 
-    /// Whether the design says where home is.
+    /// Whether the design states a home pose.
     #[getter]
     fn has_home(&self) -> bool {
         self.design.home.is_some()
     }
 
-    /// Home, or a pose above the base where the design says none; float64, shape (4, 4).
+    /// The home pose, or the default pose above the base; float64, shape (4, 4).
     fn home<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let home = matrices(&[self.design.home_or_default()]);
         home.index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
@@ -205,13 +205,13 @@ impl NativeDesign {
         Ok(Self::body(py, body)?.of((self.design.base_names(), self.design.platform_names())).to_vec())
     }
 
-    /// Which joint of the base and of the platform each leg joins, int64, shape (6, 2).
+    /// The indices of base joint and platform joint of each leg, int64, shape (6, 2).
     fn legs<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
         let pairs = self.design.manipulator().pairs().map(|(a, b)| [a as i64, b as i64]);
         Array2::from_shape_fn((6, 2), |(i, k)| pairs[i][k]).into_pyarray(py)
     }
 
-    /// What is allowed in the file but often a slip.
+    /// Valid but suspicious entries of the file.
     fn warnings(&self) -> Vec<String> {
         self.design.warnings().iter().map(ToString::to_string).collect()
     }
@@ -226,8 +226,8 @@ impl NativeDesign {
         self.design.save(path).map_err(|e| raised(py, e))
     }
 
-    /// Leg lengths, or angles of cranks, float64, shape (.., 6), of poses (.., 4, 4); `None`: the poses are no array of
-    /// doubles, row by row, of this shape. NaN where a rod does not reach.
+    /// Leg lengths or crank angles, float64, shape (.., 6), at poses (.., 4, 4). `None`: the poses are no array of
+    /// doubles, row by row, of this shape. NaN: a rod does not reach.
     fn ik<'py>(
         &self,
         py: Python<'py>,
@@ -254,7 +254,7 @@ impl NativeDesign {
         Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)))
     }
 
-    /// What is known of the cranks at poses (.., 4, 4); `None` as for `ik`.
+    /// Angles, transmissions and margins of the cranks at poses (.., 4, 4); `None` as for `ik`.
     fn crank_angles<'py>(
         &self,
         py: Python<'py>,
@@ -288,8 +288,8 @@ impl NativeDesign {
         Ok(Some([kept?, other?, transmission?, left?]))
     }
 
-    /// Speeds of legs, or of cranks in radians per second, by velocity and angular velocity, float64, shape (.., 6, 6),
-    /// at poses (.., 4, 4); `None` as for `ik`. NaN where a rod does not reach or a crank is singular.
+    /// Speeds of legs, or of cranks in radians per second, from velocity and angular velocity, float64, shape (.., 6,
+    /// 6), at poses (.., 4, 4). `None` as for `ik`. NaN: a rod does not reach, or a crank is singular.
     fn jacobian<'py>(
         &self,
         py: Python<'py>,
@@ -314,7 +314,7 @@ impl NativeDesign {
             return Ok(Some(shaped([before, &[6, 6]].concat(), rows)?.into_pyarray(py)));
         }
         at_poses(py, entries, |pose| {
-            // row by row: the columns of the transposed
+            // row by row: the columns of the transposed matrix
             rows.extend_from_slice(
                 jacobian_of_legs(&legs, &pose, characteristic_length).transpose().as_slice(),
             );
@@ -323,12 +323,12 @@ impl NativeDesign {
         Ok(Some(shaped([before, &[6, 6]].concat(), rows)?.into_pyarray(py)))
     }
 
-    /// The length that moments are divided by in conditioning numbers.
+    /// The characteristic length, by which moments are divided in condition numbers.
     fn characteristic_length(&self) -> f64 {
         self.design.characteristic_length()
     }
 
-    /// All finite poses with six lengths, or with six angles of cranks.
+    /// All finite poses for six lengths, or for six crank angles.
     fn fk(
         &self,
         py: Python<'_>,
@@ -348,7 +348,7 @@ impl NativeDesign {
         Ok(NativeSolutions::new(found, SolvedFor::Lengths(Arc::clone(&self.design))))
     }
 
-    /// All finite poses with each row of lengths, or of angles of cranks (n, 6).
+    /// All finite poses for each row of lengths, or of crank angles (n, 6).
     fn fk_batch<'py>(
         &self,
         py: Python<'py>,
@@ -379,7 +379,7 @@ impl NativeDesign {
         found.map_err(|e| raised(py, e))?.into_arrays(py)
     }
 
-    /// Real poses followed from `start` (1, 4, 4).
+    /// Tracks real poses from `start` (1, 4, 4).
     fn tracker(&self, py: Python<'_>, start: PyReadonlyArray3<'_, f64>) -> PyResult<NativeTracker> {
         let start = poses_in(py, &start.as_array())?;
         let first = start.first().ok_or_else(|| refused(py, "shape", "a tracker starts at one pose"))?;
@@ -400,8 +400,8 @@ impl NativeDesign {
         Ok(NativeTracker(TrackerKind::Legs(Box::new(self.design.tracker(*first)))))
     }
 
-    /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64
-    /// of shape (n, columns).
+    /// The margins of all requirements at poses (n, 4, 4). Returns names, units, and legs or joints of the columns, and
+    /// float64 of shape (n, columns).
     #[allow(clippy::type_complexity)]
     fn margins<'py>(
         &self,
@@ -454,8 +454,8 @@ impl NativeDesign {
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 
-    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and
-    /// `c`.
+    /// An equivalent of the class, given by the name of a pattern (`None`: separate joints) and offsets. Returns the
+    /// design, `A` and `c`.
     fn equivalent<'py>(
         &self,
         py: Python<'py>,
@@ -487,7 +487,7 @@ impl NativeDesign {
         Ok(found.map_err(|e| raised(py, e.into()))?.is_singular())
     }
 
-    /// The files of a format: names and texts.
+    /// The files of a format, as names and texts.
     fn export(&self, py: Python<'_>, format: &str) -> PyResult<Vec<(String, String)>> {
         let format = format.parse().map_err(|e: num::names::UnknownName| raised(py, e.into()))?;
         let files = py.detach(|| self.design.export(format)).map_err(|e| raised(py, e))?;

@@ -1,4 +1,4 @@
-//! Errors of the library as Python exceptions, with code, place and help, and interrupts.
+//! Errors of the library as Python exceptions with code, place and help; interrupts.
 
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
@@ -11,11 +11,10 @@ use pyo3::types::PyDict;
 use ask::Error;
 use files::design::Code;
 
-/// What is wrong with one place of a design.
+/// A fault at one place of a design.
 type TextFault = (String, usize, usize, String, String);
 
-/// The exception for an error: `DesignError` for bad input, `OSError` for files, `KeyboardInterrupt` for what was
-/// interrupted.
+/// The exception for an error: `DesignError` for bad input, `OSError` for files, `KeyboardInterrupt` for an interrupt.
 pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
     match error {
         Error::Cancelled => PyKeyboardInterrupt::new_err("interrupted"),
@@ -35,17 +34,17 @@ pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
     }
 }
 
-/// Whether a signal asks for an end; without the lock of the interpreter.
+/// Whether a signal requests the end; runs without the lock of the interpreter.
 #[allow(clippy::redundant_closure_for_method_calls, reason = "the method itself is not general enough")]
 pub(super) fn interrupted() -> bool {
     Python::attach(|py| py.check_signals()).is_err()
 }
 
-/// How often a long computation looks for signals.
+/// The interval at which a long computation checks for signals.
 const SIGNALS: Duration = Duration::from_millis(100);
 
-/// Computes on a thread of its own while the caller looks for signals. After an interrupt the computation goes on
-/// unheard until it ends: it has no place where it could be stopped.
+/// Computes on a separate thread while the caller checks for signals. After an interrupt the computation continues
+/// unobserved until it ends, since it cannot be stopped.
 pub(super) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Error> + Send + 'static,
@@ -58,7 +57,7 @@ pub(super) fn interruptible<T: Send + 'static>(
                 Ok(found) => return found,
                 Err(RecvTimeoutError::Timeout) if interrupted() => return Err(Error::Cancelled),
                 Err(RecvTimeoutError::Timeout) => {}
-                // it ended without an answer: with a panic, which is the caller's
+                // a panic ended it without an answer; the caller gets the panic
                 Err(RecvTimeoutError::Disconnected) => break,
             }
         }
@@ -70,12 +69,12 @@ pub(super) fn interruptible<T: Send + 'static>(
     found.map_err(|e| raised(py, e))
 }
 
-/// Bad input that the library does not see: shapes and names of arguments.
+/// Bad input that the library does not check: shapes and names of arguments.
 pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
     design_error(py, code, message, &[])
 }
 
-/// Cranks where what is asked for is about legs that change their lengths; with what is asked instead.
+/// The refusal of cranks for questions about legs that change their lengths, with the question to ask instead.
 pub(super) fn refused_for_cranks(py: Python<'_>, instead: &str) -> PyErr {
     let message = format!(
         "the legs are rods on cranks, and what is asked for is about legs that change their lengths: {instead}"
@@ -94,7 +93,7 @@ fn design_error(py: Python<'_>, code: &str, message: &str, faults: &[TextFault])
     made().unwrap_or_else(|_| PyRuntimeError::new_err(message.to_owned()))
 }
 
-/// A stable name of the kind of error.
+/// A stable code for the kind of error.
 fn code_of(error: &Error) -> &'static str {
     match error {
         Error::Design { violations, .. } => violations.first().map_or("design", |v| v.code.name()),

@@ -1,8 +1,8 @@
 //! The native module of the Python package: arrays in, arrays and answers out.
 //!
-//! Nothing is computed here. Arrays become poses and lengths. Questions go to the front page of the library or
-//! to the program. Answers leave as arrays or, where they are records, as the JSON that the command line prints.
-//! The Python sources beside this folder's Rust ones make typed objects of both.
+//! Nothing is computed here. Arrays become poses and lengths. Questions go to the front page of the library or to the
+//! program. Answers leave as arrays or, for records, as the JSON of the command line. The Python sources in this folder
+//! make typed objects of both.
 
 #![cfg(feature = "module")]
 #![allow(clippy::needless_pass_by_value, reason = "arguments of functions that Python calls are handed over")]

@@ -17,7 +17,7 @@ use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use machine::rotary::RotaryPlatform;
 use records::{FkOneAnswer, SolvedRecord};
 
-/// 1 for a real pose, 0 for one that is not, -1 where it is not decided.
+/// Code of reality: 1 for a real pose, 0 for a complex one, -1 if undecided.
 fn reality(root: &FkRoot) -> i8 {
     match root.reality {
         Reality::Real => 1,
@@ -26,7 +26,7 @@ fn reality(root: &FkRoot) -> i8 {
     }
 }
 
-/// 3 proved up to a distance, 2 proved, 1 modular, 0 unproved.
+/// Code of completeness: 3 proved up to a distance, 2 proved, 1 counted modulo primes, 0 unproved.
 fn completeness(found: &FkSolutions) -> i8 {
     match found.completeness {
         Completeness::Proved { .. } => 2,
@@ -36,15 +36,15 @@ fn completeness(found: &FkSolutions) -> i8 {
     }
 }
 
-/// What poses were computed for.
+/// The input of the solved poses.
 pub(super) enum SolvedFor {
     /// Leg lengths.
     Lengths(Arc<Design>),
-    /// Angles of cranks, radians.
+    /// Crank angles, radians.
     Angles(Arc<Design>, Box<RotaryPlatform>, [f64; 6]),
 }
 
-/// All finite poses, real and complex, with one set of leg lengths or of angles.
+/// All finite poses, real and complex, for one set of leg lengths or crank angles.
 #[pyclass(frozen, name = "Solutions", module = "equipod._core")]
 pub(super) struct NativeSolutions {
     found: FkSolutions,
@@ -68,7 +68,7 @@ impl NativeSolutions {
         complex_matrices(self.found.roots.iter().map(|r| &r.pose)).into_pyarray(py)
     }
 
-    /// 1 real, 0 not real, -1 undecided; int8, shape (n,).
+    /// Code of reality: 1 real, 0 not real, -1 undecided; int8, shape (n,).
     fn reality<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i8>> {
         self.column(py, reality)
     }
@@ -78,22 +78,22 @@ impl NativeSolutions {
         self.column(py, FkRoot::certified)
     }
 
-    /// Largest errors of the leg equations over the squared size; float64, shape (n,).
+    /// Largest errors of the leg equations divided by the squared size; float64, shape (n,).
     fn residual<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |r| r.residual)
     }
 
-    /// How often each pose counts; uint32, shape (n,).
+    /// The multiplicity of each pose; uint32, shape (n,).
     fn multiplicity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
         self.column(py, |r| r.multiplicity)
     }
 
-    /// `proved`, `proved_bounded`, `modular` or `unproved`.
+    /// The level of completeness: `proved`, `proved_bounded`, `modular` or `unproved`.
     fn completeness(&self) -> &'static str {
         self.found.completeness.name()
     }
 
-    /// One sentence on what is known of completeness.
+    /// The evidence for completeness in one sentence.
     fn reason(&self) -> String {
         self.found.completeness.to_string()
     }
@@ -103,7 +103,7 @@ impl NativeSolutions {
         self.found.is_complete()
     }
 
-    /// Dimension of the set that poses form, as it was seen; 0 where they are isolated.
+    /// Dimension of the set of poses, found numerically; 0 for isolated poses.
     fn dimension(&self) -> usize {
         match &self.found.solution_set {
             SolutionSet::PositiveDimensional { dimension, .. } => *dimension,
@@ -147,26 +147,26 @@ impl NativeSolutions {
     }
 }
 
-/// The poses with many sets of leg lengths, one after the other, as columns.
+/// The poses of many sets of leg lengths, one after the other, as columns.
 #[derive(Default)]
 pub(super) struct SolutionColumns {
-    /// Row by row, complex 4 x 4.
+    /// The transforms row by row, complex 4 x 4.
     transforms: Vec<Complex64>,
     reality: Vec<i8>,
     certified: Vec<bool>,
     residual: Vec<f64>,
     multiplicity: Vec<u32>,
-    /// Where the poses of each row end.
+    /// The end index of the poses of each row.
     ends: Vec<i64>,
     completeness: Vec<i8>,
-    /// Which of the reasons each row has.
+    /// The index of each row's reason.
     reason: Vec<i64>,
     reasons: Vec<String>,
-    /// What was known of completeness in the row before, and its reason.
+    /// The completeness of the previous row, with the index of its reason.
     last: Option<(Completeness, usize)>,
 }
 
-/// Transforms, reality, certified, residual, multiplicity; offsets, completeness, reason of each row; the reasons.
+/// Transforms, reality, certified, residual, multiplicity; offsets, completeness and reason of each row; the reasons.
 pub(super) type SolutionArrays<'py> = (
     Bound<'py, PyArray3<Complex64>>,
     Bound<'py, PyArray1<i8>>,
@@ -180,7 +180,7 @@ pub(super) type SolutionArrays<'py> = (
 );
 
 impl SolutionColumns {
-    /// Takes in the answer of the next row; certificates are dropped.
+    /// Appends the answer of the next row; certificates are dropped.
     pub(super) fn push(&mut self, row: &Result<FkSolutions, Error>) {
         let word = match row {
             Ok(found) => {
@@ -197,7 +197,8 @@ impl SolutionColumns {
         self.reason.push(place as i64);
     }
 
-    /// Which of the reasons a row has; most rows have that of the row before, whose words are not written again.
+    /// The index of a row's reason. Most rows share the reason of the previous row, and its words are not written
+    /// again.
     fn place_of_reason(&mut self, row: &Result<FkSolutions, Error>) -> usize {
         let known = row.as_ref().ok().map(|found| &found.completeness);
         if let (Some(known), Some((last, place))) = (known, &self.last)

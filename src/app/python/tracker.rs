@@ -1,4 +1,4 @@
-//! One real pose followed from lengths to lengths, or from angles of cranks to angles.
+//! Tracks one real pose from lengths to lengths, or from crank angles to crank angles.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -11,20 +11,20 @@ use machine::rotary::RotaryTracker;
 use platform::geom::Pose;
 use platform::manipulator::LegLengths;
 
-/// Rows between two looks for signals: some milliseconds.
+/// Number of rows between two checks for signals: some milliseconds.
 const SIGNALS: usize = 1024;
 
-/// Follows one real pose, never to another assembly mode.
+/// Tracks one real pose without changing the assembly mode.
 #[pyclass(name = "Tracker", module = "equipod._core")]
 #[derive(Clone)]
 pub(super) struct NativeTracker(pub(super) TrackerKind);
 
-/// What a pose is followed by.
+/// The input of tracking.
 #[derive(Clone)]
 pub(super) enum TrackerKind {
-    /// Six lengths.
+    /// Six leg lengths.
     Legs(Box<ask::Tracker>),
-    /// Six angles, radians.
+    /// Six crank angles, radians.
     Cranks(Box<RotaryTracker>),
 }
 
@@ -36,7 +36,7 @@ impl TrackerKind {
         }
     }
 
-    /// Whether these can be followed at all; angles are looked at when they are followed.
+    /// Whether these inputs can be tracked at all; angles are checked during tracking.
     fn check(&self, row: [f64; 6]) -> Result<(), Error> {
         match self {
             Self::Legs(_) => LegLengths::try_new(row).map(|_| ()).map_err(Error::from),
@@ -52,7 +52,8 @@ impl TrackerKind {
     }
 }
 
-/// `tracked`, `near_singularity` or `lost`, and how far on the straight line of squared lengths.
+/// The outcome `tracked`, `near_singularity` or `lost`, the fraction of the straight line of squared lengths, and the
+/// reason.
 fn said(outcome: &NearOutcome) -> (&'static str, f64, Option<String>) {
     match outcome {
         NearOutcome::Tracked { .. } => (outcome.name(), 1.0, None),
@@ -63,12 +64,12 @@ fn said(outcome: &NearOutcome) -> (&'static str, f64, Option<String>) {
 
 #[pymethods]
 impl NativeTracker {
-    /// Another tracker at the same place.
+    /// Another tracker at the same pose.
     fn __copy__(&self) -> Self {
         self.clone()
     }
 
-    /// The pose where the platform is, float64, shape (4, 4).
+    /// The current pose of the platform, float64, shape (4, 4).
     fn transform<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
     }
@@ -91,7 +92,7 @@ impl NativeTracker {
         Ok(Some((status, pose, evidence.residual, evidence.frobenius_ratio, fraction, reason)))
     }
 
-    /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the
+    /// Continues through rows of lengths until one fails: the poses of the successful rows, and the outcome of the
     /// next.
     #[allow(clippy::type_complexity)]
     fn follow<'py>(

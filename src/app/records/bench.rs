@@ -15,11 +15,11 @@ use ask::bench::{
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum BenchAnswer {
-    /// One class.
+    /// The answer about one class.
     One(Box<BenchOneAnswer>),
-    /// Several.
+    /// The answer about several classes.
     Several(BenchSumsAnswer),
-    /// With --noise.
+    /// The answer with `--noise`.
     Noise(NoiseAnswer),
 }
 
@@ -29,29 +29,29 @@ pub struct BenchOneAnswer {
     /// The class.
     #[serde(flatten)]
     pub class: BenchClassRecord,
-    /// The method asked for.
+    /// The method requested with `--method`.
     #[schemars(extend("enum" = METHODS))]
     pub method: String,
 }
 
-/// What `--method` takes.
+/// The methods that `--method` accepts.
 const METHODS: [&str; 6] = ["auto", "octic", "homotopy", "sylvester", "template", "trilateration"];
 
 /// The runs of several classes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchSumsAnswer {
-    /// Sums; times and residual: the worst.
+    /// Sums over the classes; of times and residual the greatest value.
     #[serde(flatten)]
     pub sums: BenchCountsRecord,
     /// The classes.
     pub rows: Vec<BenchClassRecord>,
-    /// The method asked for.
+    /// The method requested with `--method`.
     #[schemars(extend("enum" = METHODS))]
     pub method: String,
 }
 
 impl BenchAnswer {
-    /// The answer of runs: that of the only one, or sums over several.
+    /// The answer of runs: the record of the only run, or the sums over several.
     #[must_use]
     pub fn new(asked: &str, method: &str, rows: Vec<BenchClassRecord>, references: &ReferenceTimes) -> Self {
         let method = method.to_owned();
@@ -68,27 +68,27 @@ impl BenchAnswer {
 /// Problems counted and timed.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchCountsRecord {
-    /// The class, or what was asked for.
+    /// The class, or the argument that named several classes.
     pub class: String,
-    /// Problems.
+    /// Number of problems.
     pub count: u64,
-    /// Problems whose set of roots is right and complete.
+    /// Number of problems with a correct and complete set of roots.
     pub complete: u64,
-    /// Problems in which every root has a certificate.
+    /// Number of problems in which every root has a certificate.
     pub certified: u64,
-    /// True roots not found.
+    /// Number of true roots that the solver missed.
     pub missed_roots: u64,
-    /// Claims that are no root, or a second time the same.
+    /// Number of claimed roots that are wrong or listed twice.
     pub spurious_roots: u64,
-    /// Certificates, of roots or of completeness, that are wrong.
+    /// Number of wrong certificates, of roots or of completeness.
     pub false_certificates: u64,
-    /// Median time of a solver call.
+    /// Median time of a solver call, microseconds.
     pub median_us: Number,
-    /// 99th percentile of the same.
+    /// 99th percentile of the time of a solver call, microseconds.
     pub p99_us: Number,
-    /// Largest residual of a claim, in twice the precision.
+    /// Largest residual of a claimed root, evaluated in twice the precision.
     pub worst_residual: Number,
-    /// Times of known computations on this machine.
+    /// Two reference timings on this machine, microseconds.
     pub reference_us: ReferenceTimes,
 }
 
@@ -135,44 +135,44 @@ pub struct BenchClassRecord {
     /// Counts and times.
     #[serde(flatten)]
     pub counts: BenchCountsRecord,
-    /// The median over the references.
+    /// The median time as a multiple of each reference time.
     pub ratio_to_reference: ReferenceTimes,
-    /// Index of the first problem.
+    /// Index of the first problem, from 0.
     pub first: u64,
-    /// Threads; each problem was solved on one.
+    /// Number of threads; each problem is solved on one thread.
     pub threads: usize,
-    /// Where lengths come from.
+    /// The source of the leg lengths: a random pose or random numbers.
     pub lengths_from: LengthsFrom,
-    /// Poses of the class.
+    /// Number of poses that the class has in general.
     pub expected_count: usize,
-    /// Right finite roots.
+    /// Number of problems by their number of correct finite roots.
     pub finite_counts: Histogram,
-    /// Real ones among them.
+    /// Number of problems by their number of correct real roots.
     pub real_counts: Histogram,
-    /// Claimed roots.
+    /// Number of claimed roots.
     pub roots: u64,
-    /// Claimed roots with a certificate.
+    /// Number of claimed roots with a certificate.
     pub certified_roots: u64,
-    /// Problems with a proof of completeness.
+    /// Number of problems with a proof of completeness.
     pub proved: u64,
-    /// Problems for which the solver itself says that roots may be missing.
+    /// Number of problems for which the solver itself warns that roots may be missing.
     pub doubted: u64,
-    /// Problems that look complete to the solver but are not.
+    /// Number of problems that look complete to the solver but lack roots.
     pub silent_failures: u64,
-    /// Problems solved again from two other starts.
+    /// Number of problems solved again from two other starts.
     pub rechecked: u64,
-    /// Mean time of a solver call.
+    /// Mean time of a solver call, microseconds.
     pub mean_us: Number,
-    /// Medians of its parts.
+    /// Median times of the parts of a solver call, microseconds.
     pub split_us: TimeSplit,
-    /// Of the whole run.
+    /// Time of the whole run, seconds.
     pub total_s: Number,
-    /// Error measure of the roots as listed (Martyushev, eq. 19), decimal logarithm.
+    /// Decimal logarithm of the error of the listed roots (Martyushev, eq. 19).
     pub epsilon: ErrorStatistics,
-    /// Candidates before refinement, with the methods `sylvester` and `template`.
+    /// Errors of the candidates before refinement, with the methods `sylvester` and `template`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub raw: Option<RawReport>,
-    /// Problems whose answer is not right.
+    /// Problems with a wrong answer.
     pub failures: Vec<BenchFailureRecord>,
 }
 
@@ -208,7 +208,7 @@ impl BenchClassRecord {
     }
 }
 
-/// Number of poses = how many problems.
+/// Number of problems for each number of poses.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[serde(transparent)]
 pub struct Histogram(pub BTreeMap<usize, u64>);
@@ -229,28 +229,28 @@ impl JsonSchema for Histogram {
     }
 }
 
-/// A problem whose answer is not right, written out so that it can be solved elsewhere.
+/// A problem with a wrong answer, written out so that another program can solve it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchFailureRecord {
     /// Index of the problem.
     pub problem: u64,
-    /// Roots that are missing.
+    /// Number of missing roots.
     pub missed: usize,
-    /// Claims that are no roots.
+    /// Number of claims that are no roots.
     pub spurious: usize,
-    /// Certificates that are wrong.
+    /// Number of wrong certificates.
     pub false_certificates: usize,
-    /// Distinct right roots.
+    /// Number of distinct correct roots.
     pub found: usize,
-    /// What the solver said of its own answer.
+    /// The solver's own statement about its answer.
     pub solver: String,
-    /// Base ends of the legs, in their order.
+    /// Base ends of the legs in leg order, base frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base: Option<[[Number; 3]; 6]>,
-    /// Platform ends of the legs.
+    /// Platform ends of the legs in leg order, platform frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub platform: Option<[[Number; 3]; 6]>,
-    /// Their squared lengths.
+    /// Squared leg lengths in leg order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub squared_lengths: Option<[Number; 6]>,
 }
@@ -273,25 +273,25 @@ impl BenchFailureRecord {
     }
 }
 
-/// How far poses move when leg lengths are disturbed.
+/// Displacements of poses caused by noise in the leg lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseAnswer {
-    /// What was asked for.
+    /// The class, or the argument that named several classes.
     pub class: String,
-    /// Problems of each class.
+    /// Number of problems of each class.
     pub count: u64,
-    /// Threads.
+    /// Number of threads.
     pub threads: u64,
     /// The classes.
     pub rows: Vec<NoiseRowRecord>,
 }
 
-/// What noise does to a class.
+/// The effect of noise on one class.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseRowRecord {
     /// The class.
     pub class: String,
-    /// From little noise to much.
+    /// The levels of noise, the smallest first.
     pub levels: Vec<NoiseLevel>,
 }
 

@@ -22,31 +22,31 @@ pub struct CalibrateAnswer {
     pub name: String,
     /// The unit of lengths.
     pub units: String,
-    /// How it ended.
+    /// The outcome of the calibration.
     pub outcome: CalibrateOutcome,
-    /// Why it ended so, in a sentence.
+    /// The reason of the outcome, one sentence.
     pub reason: String,
-    /// What was found; null: nothing was measured, and poses to measure were asked for.
+    /// The calibration; null: nothing was measured, and poses to measure were asked for.
     pub calibration: Option<CalibrationRecord>,
-    /// The poses at which another measurement says most, the best first.
+    /// The poses to measure next, the most informative first.
     pub next_poses: Vec<NextPoseRecord>,
-    /// The design that was written; null: none.
+    /// The design file written; null: none.
     pub path: Option<String>,
 }
 
-/// How a calibration ended.
+/// The outcome of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibrateOutcome {
-    /// All unknowns are identified, and nothing speaks against the model.
+    /// All unknowns are identified, and the residuals agree with the model.
     Calibrated,
-    /// Some changes of the machine are not seen by the measurements.
+    /// Some changes of the machine do not affect the measurements.
     NotIdentifiable,
-    /// The residuals are too large for the noise given: the model, the noise or a measurement is wrong.
+    /// The residuals are too large for the given noise: the model, the noise or a measurement is wrong.
     Refuted,
-    /// The fit did not converge, or there are no more numbers than unknowns.
+    /// The fit did not converge, or there are no more readings than unknowns.
     Undecided,
-    /// Nothing was measured yet.
+    /// No measurement exists yet.
     Planned,
 }
 
@@ -61,55 +61,56 @@ impl From<CalibrationStatus> for CalibrateOutcome {
     }
 }
 
-/// What was found.
+/// The calibrated machine with its residuals and deviations.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibrationRecord {
-    /// Poses measured.
+    /// Number of measured poses.
     pub poses: usize,
-    /// Coordinates and offsets sought.
+    /// Number of unknown coordinates and offsets.
     pub unknowns: usize,
     /// The frames of joints, deviations and covariance.
     pub frames: CalibrationFrames,
-    /// The motions from the frames of the measurements to those of the design; null: joints are in the frames of the
-    /// measurements.
+    /// The motions from the frames of the measurements to the design frames; null: joints are given in the frames of
+    /// the measurements.
     pub motions: Option<CarriedFrames>,
-    /// How uncertain measurements are.
+    /// Standard deviations of the measurements.
     pub noise: NoiseRecord,
-    /// How far measurements cost.
+    /// The loss function of the fit.
     pub loss: LossRecord,
-    /// Where the fit began.
+    /// The starting point of the fit.
     pub start: Starts,
-    /// Whether its steps ended where they must.
+    /// Whether the fit converged.
     pub converged: bool,
-    /// Steps in all.
+    /// Number of steps in all.
     pub steps: usize,
-    /// The joints that carry legs.
+    /// The calibrated joints: all joints that carry legs.
     pub joints: Vec<CalibratedJointRecord>,
-    /// Leg offsets in leg order: shown length less distance of the joints.
+    /// Leg offsets in leg order: shown length minus distance of the joints, design units.
     pub offsets: Vec<CalibratedOffsetRecord>,
-    /// Covariance of the unknowns, squared design units; directions that are not identified have none.
+    /// Covariance of the unknowns, squared design units; directions that are not identified contribute no variance.
     pub covariance: CovarianceRecord,
-    /// How uncertain poses are that are computed with the machine; null: not all unknowns are identified, or the design
-    /// has no pose to look at.
+    /// Uncertainty of poses computed with the machine; null: not all unknowns are identified, or the design has no pose
+    /// to evaluate.
     pub computed_poses: Option<ComputedPosesRecord>,
-    /// Which changes of the machine the measurements see, and how well.
+    /// Observability of the machine's parameters by these measurements.
     pub observability: ObservabilityRecord,
-    /// Residuals of the design as it is.
+    /// Residuals of the design before calibration.
     pub before: ResidualsRecord,
     /// Residuals of the calibrated machine, without outliers.
     pub after: ResidualsRecord,
-    /// Residuals of each pose for the machine that the other poses give, to first order, without outliers.
+    /// Leave-one-out residuals to first order, without outliers: each pose against the machine fitted to the other
+    /// poses.
     pub left_out: ResidualsRecord,
     /// Residuals of the measurements of `--check`; null: there are none.
     pub check: Option<ResidualsRecord>,
-    /// Lines of measurements without which the unknowns are not determined.
+    /// Lines of the measurements that the unknowns depend on: without one of them, the unknowns are not determined.
     pub indispensable: Vec<usize>,
-    /// Agreement of the residuals with the noise.
+    /// Test of the residuals against the noise.
     pub chi_square: ChiSquare,
-    /// Measurements that do not belong to the others, the farthest first.
+    /// Measurements that contradict the others, the farthest first.
     pub outliers: Vec<OutlierRecord>,
-    /// Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design when they
-    /// change places; null: none do.
+    /// Two legs, from 1, with measured lengths probably exchanged: swapped, they are five times nearer to the design.
+    /// Null: none.
     pub exchanged_legs: Option<[usize; 2]>,
 }
 
@@ -117,22 +118,22 @@ pub struct CalibrationRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibrationFrames {
-    /// Those of the measured poses.
+    /// The frames of the measured poses.
     Measured,
-    /// Those of the design.
+    /// The frames of the design.
     Design,
 }
 
 /// Standard deviations of measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseRecord {
-    /// Where they come from.
+    /// The source of the values.
     pub source: NoiseSource,
-    /// Of a length, design units.
+    /// Standard deviation of a length, design units.
     pub length: Number,
-    /// Of each coordinate of the platform origin, design units.
+    /// Standard deviation of each coordinate of the platform origin, design units.
     pub position: Number,
-    /// Of each component of the rotation vector, degrees.
+    /// Standard deviation of each component of the rotation vector, degrees.
     pub rotation_deg: Number,
 }
 
@@ -147,71 +148,70 @@ impl NoiseRecord {
     }
 }
 
-/// How much far measurements cost.
+/// The loss function of the fit, which limits the weight of outliers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LossRecord {
-    /// The loss.
+    /// The kind of loss.
     pub loss: Loss,
-    /// What is doubted together.
+    /// The unit that is rejected together: a pose or a single leg length.
     pub of: LossUnit,
 }
 
-/// A joint.
+/// A calibrated joint.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedJointRecord {
-    /// Its body.
+    /// The body of the joint.
     pub body: Body,
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
-    /// Where it is, frame of the body.
+    /// The position, design units, body frame.
     pub position: [Number; 3],
-    /// Standard deviations of the coordinates; null: it was held.
+    /// Standard deviations of the coordinates, design units; null: the joint was held.
     pub deviations: Option<[Number; 3]>,
-    /// From where the design has it.
+    /// The displacement from the position in the design, design units.
     pub moved: [Number; 3],
 }
 
 /// The offset of a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct CalibratedOffsetRecord {
-    /// From 1.
+    /// The leg, from 1.
     pub leg: usize,
-    /// What the length shown is longer than the distance of the joints, design units.
+    /// The shown length minus the distance of the joints, design units.
     pub offset: Number,
-    /// Its standard deviation; null: it was held.
+    /// The standard deviation of the offset, design units; null: the offset was held.
     pub deviation: Option<Number>,
 }
 
-/// A covariance matrix.
+/// The covariance matrix of the unknowns.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CovarianceRecord {
     /// Names of rows and columns: `base.A1.x`, `offset.3`.
     pub unknowns: Vec<String>,
-    /// Rows.
+    /// The rows of the matrix.
     pub matrix: Vec<Vec<Number>>,
 }
 
-/// Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations;
-/// the noise of these lengths comes on top.
+/// Standard deviations of poses computed from lengths, caused by the errors of the calibration with all correlations.
+/// The noise of the lengths adds to them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComputedPosesRecord {
-    /// Poses looked at: those of the workspace at which the requirements of the design are met.
+    /// Number of poses evaluated: the poses of the workspace at which the requirements of the design are met.
     pub poses: usize,
-    /// Root mean square of the distance by which the platform origin of the measurements is off, design units: the
-    /// median over the poses.
+    /// Root mean square error of the platform origin of the measurements, design units: the median over the poses.
     pub position_median: Number,
-    /// The greatest of them.
+    /// Root mean square error of the platform origin, design units: the greatest over the poses.
     pub position_greatest: Number,
-    /// Root mean square of the angle by which the orientation is off, degrees: the median over the poses.
+    /// Root mean square error of the orientation, degrees: the median over the poses.
     pub rotation_deg_median: Number,
-    /// The greatest of them.
+    /// Root mean square error of the orientation, degrees: the greatest over the poses.
     pub rotation_deg_greatest: Number,
-    /// The pose with the greatest deviation of the position.
+    /// The pose with the greatest error of position.
     pub pose: PoseQuaternionRecord,
 }
 
 impl ComputedPosesRecord {
-    /// Of a machine at poses in the frames of its measurements; `None` without a pose that is not singular.
+    /// The deviations of a machine at poses in the frames of its measurements; `None` if all poses are singular.
     #[must_use]
     pub fn new(found: &Calibration, poses: &[Pose]) -> Option<Self> {
         let at =
@@ -235,14 +235,15 @@ impl ComputedPosesRecord {
     }
 }
 
-/// Which changes of the machine the measurements see, and how well.
+/// Observability of the machine's parameters by the measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ObservabilityRecord {
-    /// Directions identified.
+    /// Number of identified directions.
     pub rank: usize,
-    /// Of the identification matrix, whitened and multiplied by the deviation of a length; largest first, without unit.
+    /// Singular values of the identification matrix, whitened and multiplied by the deviation of a length, largest
+    /// first; no unit.
     pub singular_values: Vec<Number>,
-    /// Smaller values are directions that are not identified.
+    /// The threshold: smaller singular values count as not identified.
     pub tolerance: Number,
     /// `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
     pub volume_index: Number,
@@ -252,36 +253,36 @@ pub struct ObservabilityRecord {
     pub noise_amplification: Number,
     /// `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
     pub harmonic_index: Number,
-    /// Changes of the machine that are not identified, each of norm 1 over all unknowns.
+    /// Changes of the machine that are not identified, each normalised to 1 over all unknowns.
     pub unobservable: Vec<UnobservableRecord>,
 }
 
-/// A change of joints and offsets that changes no measured length, or hardly.
+/// A change of joints and offsets that leaves all measured lengths almost unchanged.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct UnobservableRecord {
-    /// Joints that move, the farthest first.
+    /// The displaced joints, the farthest first.
     pub joints: Vec<JointShiftRecord>,
-    /// Offsets that change.
+    /// The changed offsets.
     pub offsets: Vec<OffsetShiftRecord>,
 }
 
-/// How a joint moves.
+/// The displacement of a joint.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointShiftRecord {
-    /// Its body.
+    /// The body of the joint.
     pub body: Body,
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
-    /// The shift, frame of the body in which the poses were measured.
+    /// The displacement in the body frame of the measured poses; relative, the whole change has norm 1.
     pub shift: [Number; 3],
 }
 
-/// How an offset changes.
+/// The change of an offset.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OffsetShiftRecord {
-    /// From 1.
+    /// The leg, from 1.
     pub leg: usize,
-    /// The change.
+    /// The change of the offset; relative, the whole change has norm 1.
     pub change: Number,
 }
 
@@ -312,32 +313,32 @@ impl UnobservableRecord {
     }
 }
 
-/// Sizes of residuals, design units.
+/// Statistics of residuals, design units.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualsRecord {
-    /// Root mean square.
+    /// Root mean square of the residuals.
     pub rms: Number,
-    /// Of each leg.
+    /// Root mean square of the residuals of each leg.
     pub legs: [Number; 6],
-    /// The one of the largest size; null: none was counted.
+    /// The residual of greatest size; null: none was counted.
     pub greatest: Option<GreatestResidualRecord>,
-    /// Lengths counted.
+    /// Number of lengths counted.
     pub count: usize,
 }
 
-/// The largest residual.
+/// The residual of greatest size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct GreatestResidualRecord {
     /// Line of the table of measurements.
     pub line: usize,
-    /// From 1.
+    /// The leg, from 1.
     pub leg: usize,
-    /// Length measured less that of the model.
+    /// The measured length minus the length of the model, design units.
     pub value: Number,
 }
 
 impl ResidualsRecord {
-    /// Those of measurements that stand on these lines.
+    /// The statistics of measurements that stand on these lines.
     #[must_use]
     pub fn new(spread: &ResidualSpread, lines: &[usize]) -> Self {
         Self {
@@ -353,23 +354,23 @@ impl ResidualsRecord {
     }
 }
 
-/// The line of a measurement; its number where lines are not known.
+/// The line of a measurement, or its index if the lines are unknown.
 fn line(lines: &[usize], measurement: usize) -> usize {
     lines.get(measurement).copied().unwrap_or(measurement + 1)
 }
 
-/// A measurement that does not belong to the others.
+/// A measurement that contradicts the others.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OutlierRecord {
     /// Line of the table of measurements.
     pub line: usize,
-    /// From 1; null: the whole pose.
+    /// The leg, from 1; null: the whole pose.
     pub leg: Option<usize>,
-    /// How far it is from the model, standard deviations.
+    /// Distance of the measurement from the model, standard deviations.
     pub distance: Number,
-    /// Right measurements are all nearer with a probability of 99 %.
+    /// The rejection threshold, standard deviations: correct measurements all stay below it with a probability of 99 %.
     pub threshold: Number,
-    /// Its weight in the fit.
+    /// The weight of the measurement in the fit.
     pub weight: Number,
 }
 
@@ -388,19 +389,20 @@ impl OutlierRecord {
 /// A pose to measure next.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NextPoseRecord {
-    /// The pose, in the frames of the design where joints are carried to them, else in those of the measurements.
+    /// The pose, in the design frames if joints are carried to them, else in the frames of the measurements.
     pub pose: PoseQuaternionRecord,
-    /// Roll, pitch and yaw of it, degrees.
+    /// Roll, pitch and yaw of the pose, degrees.
     pub rpy_deg: [Number; 3],
-    /// By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes smaller with
-    /// it.
+    /// The factor by which this measurement shrinks the error ellipsoid: the geometric mean of the deviations along its
+    /// axes.
     pub shrinks: Number,
-    /// The greatest standard deviation of a coordinate or offset after it and those before it, design units.
+    /// The greatest standard deviation of a coordinate or offset after this pose and those before it, design units.
     pub greatest_deviation: Number,
 }
 
 impl CalibrationRecord {
-    /// What was found from measurements on these lines, carried to the frames of the design where `frames` say how.
+    /// The record of a calibration from measurements on these lines, carried to the design frames if `frames` holds the
+    /// motions.
     #[must_use]
     pub fn new(
         design: &Design,

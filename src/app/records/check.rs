@@ -1,4 +1,4 @@
-//! Answers on whether a design is architecturally singular, why, and how far from a singular one it is.
+//! Answers on whether a design is architecturally singular, with reasons and the distance to a singular design.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -23,74 +23,74 @@ use synthesis::singularity::{
 pub struct CheckAnswer {
     /// The name of the design.
     pub name: String,
-    /// How exactly its joints are known.
+    /// The exactness of the design's joints.
     pub joints: JointsRecord,
-    /// Null: the design as written is regular, and a singular one lies within rounding of it or within the digits
-    /// given; or joints are known between bounds only.
+    /// Whether every pose is singular. Null: undecided, since a singular design lies within rounding or the digits
+    /// given, or some joints are known only between bounds.
     pub architecturally_singular: Option<bool>,
-    /// What the answer is proved about; within rounding: a singular design may have been meant. Null: not decided.
+    /// The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
     pub level: Option<Level>,
-    /// Decided exactly, for the joints as the numbers they are; null where they are known between bounds only.
+    /// The exact decision for the joints as numbers; null: some joints are known only between bounds.
     pub singular_as_written: Option<bool>,
-    /// What shows that the home pose of the design is singular; null: it is regular, or the design states none.
+    /// The evidence that the home pose is singular; null: it is regular, or the design states none.
     pub singular_home: Option<SingularEvidence>,
     /// A short code of the reason; null: regular.
     pub reason: Option<String>,
-    /// One sentence.
+    /// The verdict in one sentence.
     pub explanation: String,
-    /// What proves the answer for the joints as written.
+    /// The proof of the answer for the joints as written.
     pub proof: ProofWord,
-    /// One sentence on the proof.
+    /// The proof in one sentence.
     pub proof_explanation: String,
     /// Rank of the leg vectors.
     pub leg_rank: usize,
-    /// Rank of the leg lines at almost every pose.
+    /// Generic rank of the Jacobian: the rank of the leg lines at almost every pose.
     pub jacobian_rank: usize,
-    /// A pose with that rank.
+    /// A pose at which the leg lines have this rank.
     pub witness: WitnessRecord,
-    /// The first of the dependencies.
+    /// The first linear dependency of the leg vectors; null: there is none.
     pub dependency: Option<DependencyRecord>,
-    /// Dependencies of leg vectors.
+    /// All linear dependencies of the leg vectors.
     pub dependencies: Vec<DependencyRecord>,
-    /// The legs of the first case.
+    /// The legs of the first known case, from 1.
     pub guilty_legs: Option<Vec<usize>>,
-    /// The cases that apply, most telling first.
+    /// The known cases that apply, the most specific first.
     pub cases: Vec<CaseRecord>,
-    /// The Griffis-Duffy type, where the joints lie on the sides of two triangles.
+    /// The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
     pub griffis_duffy: Option<GriffisDuffyRecord>,
-    /// The nearest singular design that was found; null for a singular one.
+    /// The nearest singular design found; null: the design itself is singular.
     pub nearest_singular: Option<NearestSingularRecord>,
-    /// Finite poses, real and complex, for generic leg lengths.
+    /// Number of finite poses, real and complex, for generic leg lengths.
     pub pose_count: PoseCountRecord,
-    /// The points that six legs have in common, for generic lengths, by where they are; null where the poses are not
-    /// isolated or not counted.
+    /// Points common to the equations of six legs for generic lengths, by kind. Null: the poses are not isolated, or
+    /// not counted.
     pub common_points: Option<CommonPoints>,
-    /// How many isolated finite poses no lengths exceed, by a theorem.
+    /// An upper bound on the number of isolated finite poses, by a theorem.
     pub pose_bound: PoseBoundRecord,
-    /// In which steps the poses can be found: whether by quadratic equations alone, and which part of the platform can
-    /// be placed before the rest.
+    /// The steps in which the poses can be computed: by quadratic equations alone, or with one part of the platform
+    /// first.
     pub solvability: Solvability,
-    /// The line that fits the joints of each body best, base first: a body whose joints all lie on one turns about it.
-    /// A body with its joints in one place has none.
+    /// The best-fitting line through the joints of each body, base first. A body whose joints all lie on one line can
+    /// rotate about it. A body with all joints at one point has no line.
     pub best_lines: Vec<BestLineRecord>,
-    /// Singular values of the normalised leg vectors.
+    /// Singular values of the matrix of normalised leg vectors.
     pub singular_values: [Number; 6],
-    /// How well conditioned the Jacobian is at random poses.
+    /// Inverse condition number of the Jacobian at random poses.
     pub jacobian_inverse_condition: Conditioning,
 }
 
-/// A line that joints of a body lie nearly on, in the frame of the body, design units.
+/// A line that joints of a body lie nearly on, body frame, design units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct BestLineRecord {
     /// The body.
     pub body: Body,
-    /// A point of the line, the centroid of the joints.
+    /// A point of the line: the centroid of the joints.
     pub point: [Number; 3],
-    /// A unit vector along it.
+    /// A unit vector along the line.
     pub direction: [Number; 3],
-    /// The greatest distance of a joint from the line.
+    /// The greatest distance of a joint from the line, design units.
     pub distance: Number,
-    /// The greatest distance of a joint from the centroid along the line.
+    /// The greatest distance of a joint from the centroid along the line, design units.
     pub reach: Number,
 }
 
@@ -151,7 +151,7 @@ impl From<&CheckReport> for CheckAnswer {
 pub struct PoseBoundRecord {
     /// The bound.
     pub poses: usize,
-    /// Why there are not more.
+    /// The theorem that gives the bound.
     pub theorem: String,
 }
 
@@ -161,7 +161,7 @@ impl From<Theorem> for PoseBoundRecord {
     }
 }
 
-/// What proves the answer for the joints as written.
+/// The proof of the answer for the joints as written.
 fn proof(a: &Architecture) -> ProofWord {
     match a.jacobian.bound {
         _ if a.is_singular().is_none() => ProofWord::None,
@@ -171,7 +171,7 @@ fn proof(a: &Architecture) -> ProofWord {
     }
 }
 
-/// Which design it is, in one sentence.
+/// The kind of singular design, in one sentence.
 fn explanation(c: &CheckReport) -> String {
     if let Some(n) = &c.verdict.meant {
         let units = &c.design.units;
@@ -195,7 +195,7 @@ fn explanation(c: &CheckReport) -> String {
     }
 }
 
-/// The same about the proof.
+/// The proof in one sentence.
 fn proof_explanation(a: &Architecture) -> String {
     let j = &a.jacobian;
     let pose = format!(
@@ -218,19 +218,19 @@ fn proof_explanation(a: &Architecture) -> String {
     }
 }
 
-/// How exactly the joints of a design are known, all together.
+/// The exactness of all joints of a design together.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointsRecord {
-    /// The least exact of the joints decides.
+    /// The exactness of the least exact joint.
     pub exactness: ExactnessWord,
-    /// The integers whose square roots generate the field of the exact coordinates, beside the cosines of `divisions`;
-    /// empty for fractions.
+    /// The integers with square roots in the field of the exact coordinates, beside the cosines of `divisions`; empty
+    /// for fractions.
     pub radicands: Vec<u64>,
-    /// Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
+    /// Numbers `n` with `cos(360 / n)` degrees among the generators of the field: some of 9, 16, 20 and 32.
     pub divisions: Vec<u32>,
-    /// Joints known between bounds only, with their bodies: `base.A2`.
+    /// Joints known only between bounds, with their bodies: `base.A2`.
     pub enclosed: Vec<String>,
-    /// The same in words.
+    /// The exactness in words.
     pub explanation: String,
 }
 
@@ -251,21 +251,21 @@ impl From<&DesignExactness> for JointsRecord {
     }
 }
 
-/// How exactly the joints of a design are known.
+/// The exactness of joint coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExactnessWord {
-    /// All are three plain numbers: the doubles nearest to what is written.
+    /// All joints are three plain numbers, read as the nearest doubles.
     Doubles,
-    /// Fractions.
+    /// All coordinates are fractions.
     Rational,
-    /// Sums of rational multiples of square roots of integers and of cosines.
+    /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
     Field,
-    /// At least one is known between two close bounds only.
+    /// At least one joint is known only between two close bounds.
     Interval,
 }
 
-/// What proves a design regular or singular.
+/// The proof that a design is regular or singular.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ProofWord {
@@ -275,7 +275,7 @@ pub enum ProofWord {
     LegVectors,
     /// Ranks at the poses of a lattice that decide all poses.
     PoseLattice,
-    /// Nothing: joints are known between bounds only, and no pose is proved to hold the platform.
+    /// No proof: some joints are known only between bounds, and no pose is proved to hold the platform.
     None,
 }
 
@@ -285,7 +285,7 @@ pub struct WitnessRecord {
     /// The pose.
     #[serde(flatten)]
     pub pose: PoseRecord,
-    /// A quaternion of any norm, scalar part first.
+    /// The orientation as a quaternion of any norm, scalar part first.
     pub quaternion: [i64; 4],
 }
 
@@ -295,20 +295,20 @@ impl From<&RationalPose> for WitnessRecord {
     }
 }
 
-/// A dependency of leg vectors: `sum c_i v_i = 0`.
+/// A linear dependency of leg vectors: `sum c_i v_i = 0`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DependencyRecord {
-    /// The legs in it, from 1.
+    /// The legs with nonzero coefficients, from 1.
     pub legs: Vec<usize>,
     /// The numbers `c_i`.
     pub coefficients: [Number; 6],
-    /// `sum c_i s_i` of the squared lengths of every pose.
+    /// The value of `sum c_i s_i` at every pose, with the squared lengths s_i; design units squared.
     pub constant: Number,
     /// Dimension of the span of the base ends.
     pub base_dimension: usize,
     /// Dimension of the span of the platform ends.
     pub platform_dimension: usize,
-    /// By how much the lengths of the design miss the constant, relative; null without lengths.
+    /// Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null without lengths.
     pub lengths_defect: Option<Number>,
 }
 
@@ -328,13 +328,13 @@ impl DependencyRecord {
 /// A known kind of singular design.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CaseRecord {
-    /// Which.
+    /// The name of the case.
     pub case: String,
     /// The short code of the reason.
     pub reason: String,
-    /// The legs it is about, from 1.
+    /// The legs of the case, from 1.
     pub legs: Vec<usize>,
-    /// One sentence.
+    /// The case in one sentence.
     pub explanation: String,
 }
 
@@ -352,25 +352,25 @@ impl From<&Finding> for CaseRecord {
 /// Joints on the sides of two triangles.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GriffisDuffyRecord {
-    /// The legs going round the hexagon, from 1.
+    /// The legs in order around the hexagon, from 1.
     pub order: Vec<usize>,
-    /// Where each joint lies on its side, from 0 to 1.
+    /// The position of each joint on its side, as a fraction from 0 to 1.
     pub t: [Number; 6],
     /// Lengths of the sides, design units.
     pub side_lengths: [Number; 6],
-    /// prod (1 - t) - prod t: singular where it is zero.
+    /// `prod (1 - t) - prod t`; zero means singular.
     pub det: Number,
-    /// It is zero, exactly.
+    /// Whether `det` is exactly zero.
     pub exactly_singular: bool,
-    /// How far joints are off their sides, relative.
+    /// The greatest distance of a joint from its side, relative to the size.
     pub deviation: Number,
-    /// Up to which deviation the type is recognised.
+    /// The greatest deviation at which the type is recognised.
     pub deviation_limit: Number,
-    /// The dependency of the legs where `det` is zero.
+    /// The coefficients of the dependency of the legs for `det = 0`.
     pub coefficients: [Number; 6],
-    /// `sum c_i s_i` of the squared lengths of every pose.
+    /// The value of `sum c_i s_i` at every pose, with the squared lengths s_i; design units squared.
     pub constant: Number,
-    /// By how much the lengths of the design miss the constant, relative; null without lengths.
+    /// Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null without lengths.
     pub lengths_defect: Option<Number>,
     /// Whether the platform can be assembled with the lengths of the design.
     pub assembly: Option<Assembly>,
@@ -394,31 +394,31 @@ impl GriffisDuffyRecord {
     }
 }
 
-/// The nearest singular design that was found.
+/// The nearest singular design found.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestSingularRecord {
     /// Norm of the change of all joints, design units.
     pub distance: Number,
-    /// The distance found is an upper bound of the least one.
+    /// Always `upper`: the distance is an upper bound of the least distance.
     #[schemars(extend("const" = "upper"))]
     pub bound: String,
-    /// No singular design is nearer.
+    /// A lower bound: no singular design is nearer, design units.
     pub distance_at_least: Number,
-    /// What becomes singular.
+    /// The kind of singularity.
     pub kind: String,
-    /// The legs in it, from 1.
+    /// The dependent legs, from 1.
     pub legs: Vec<usize>,
-    /// The dependency of their leg vectors.
+    /// The coefficients of the dependency of the leg vectors.
     pub coefficients: Option<[Number; 6]>,
-    /// What is left of the dependency.
+    /// The residual of the dependency.
     pub residual: Number,
-    /// Rounding of the file may be the only difference.
+    /// Whether the two designs differ by no more than rounding of the file.
     pub within_rounding: bool,
-    /// Half a unit of the last digit given, design units, where no coordinate differs by more; null otherwise.
+    /// Half a unit of the last digit given, design units; null: some coordinate differs by more.
     pub within_digits: Option<Number>,
-    /// Its base joints by name, base frame.
+    /// The base joints of the singular design by name, base frame.
     pub base: NamedPoints,
-    /// Its platform joints by name, platform frame.
+    /// The platform joints of the singular design by name, platform frame.
     pub platform: NamedPoints,
 }
 

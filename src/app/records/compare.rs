@@ -12,61 +12,62 @@ use files::design::JudgedForces;
 /// The answer of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompareAnswer {
-    /// Of all designs.
+    /// The unit of lengths for all designs.
     pub length_unit: String,
-    /// Of all designs.
+    /// The unit of forces for all designs.
     pub force_unit: String,
-    /// The manoeuvres about home along which forces, speeds and powers are taken.
+    /// The manoeuvres about home; forces, speeds and powers are computed along them.
     pub manoeuvres: Vec<String>,
-    /// The accuracy for which joints are toleranced; null: none was asked for.
+    /// The accuracy for the joint tolerances; null: none was requested.
     pub accuracy: Option<AccuracyRecord>,
-    /// Characteristic length of every conditioning in this answer: that of the first design.
+    /// Characteristic length of every conditioning in this answer: the value of the first design, design units.
     pub characteristic_length: f64,
-    /// In the order in which they were given.
+    /// The designs in the order given.
     pub designs: Vec<FiguresRecord>,
-    /// The table and the page that were written.
+    /// The files written: the table and the page.
     pub paths: Vec<String>,
 }
 
-/// How far the pose may be off.
+/// The allowed error of the pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AccuracyRecord {
-    /// Of the platform origin, design units.
+    /// Error of the platform origin, design units.
     pub position: f64,
-    /// Angle of rotation.
+    /// Error of the orientation, degrees.
     pub rotation_deg: f64,
 }
 
-/// The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing
-/// about it, or the value is not finite.
+/// The figures of a design over the poses of its workspace, or at home if it states none. Null: the design does not
+/// specify the quantity, or the value is infinite.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FiguresRecord {
     /// Name of the design.
     pub name: String,
-    /// Its file.
+    /// The design file.
     pub path: String,
-    /// The judgement of `assess`; null: it requires nothing.
+    /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none.
+    /// The lightest drive that meets the requirements, from the table that the design names; null: it names none.
     pub lightest_drive: Option<LightestDriveRecord>,
     /// The poses of all figures.
     pub judged: JudgedPosesRecord,
-    /// Poses looked at for the figures besides the judgement and the conditioning.
+    /// Number of poses evaluated for the figures; the assessment and the conditioning use poses of their own.
     pub poses: usize,
-    /// Least leg length; null where the legs are rods on cranks.
+    /// Least leg length; null: the legs are rods on cranks.
     pub shortest: Number,
-    /// Greatest leg length; null where the legs are rods on cranks.
+    /// Greatest leg length; null: the legs are rods on cranks.
     pub longest: Number,
-    /// The difference.
+    /// Greatest minus least leg length.
     pub stroke: Number,
-    /// What the cranks do, where the legs are rods on cranks.
+    /// The angles, torques and speeds of the cranks; null: the legs change their lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<CrankFiguresRecord>,
-    /// Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of the rods.
+    /// Number of different leg lengths at home, or rod lengths on cranks; a difference counts above a millionth of the
+    /// size.
     pub different_legs: usize,
-    /// Greatest leg force under the weight of all that moves and under each load, one at a time.
+    /// Greatest leg force under the weight of all moving parts and each load, one at a time.
     pub force: Option<Number>,
-    /// Greatest leg speed under the speed that the platform has to have.
+    /// Greatest leg speed at the platform speed that the design requires.
     pub speed: Option<Number>,
     /// Greatest leg force along the manoeuvres.
     pub motion_force: Option<Number>,
@@ -74,43 +75,43 @@ pub struct FiguresRecord {
     pub motion_speed: Option<Number>,
     /// Greatest power of a drive along the manoeuvres, watts.
     pub motion_power_w: Option<Number>,
-    /// The worst conditioning of `assess`: the least inverse condition number found.
+    /// The worst conditioning found by `assess`: the least inverse condition number.
     pub conditioning: Number,
     /// Least stiffness against a force through the platform origin, force units per design unit.
     pub stiffness: Option<Number>,
-    /// Lowest natural frequency.
+    /// Lowest natural frequency, hertz.
     pub frequency_hz: Option<Number>,
-    /// Least distance of two joint centres of the base.
+    /// Least distance of two joint centres of the base, design units.
     pub base_spacing: Option<Number>,
-    /// The same on the platform.
+    /// Least distance of two joint centres of the platform, design units.
     pub platform_spacing: Option<Number>,
-    /// Least gap between two legs.
+    /// Least clearance between two legs, design units.
     pub clearance: Option<Number>,
-    /// Greatest distance of a joint of the base from their centroid.
+    /// Greatest distance of a base joint from the centroid of the base joints, design units.
     pub base_radius: Number,
-    /// The same on the platform.
+    /// Greatest distance of a platform joint from the centroid of the platform joints, design units.
     pub platform_radius: Number,
-    /// How far every joint may be off, in any direction, for the accuracy to be kept to first order.
+    /// The greatest error of every joint in any direction that keeps the accuracy to first order, design units.
     pub joint_tolerance: Option<Number>,
-    /// Why there is no such tolerance; null: there is one, or none was asked for.
+    /// The reason for a missing tolerance; null: there is one, or none was requested.
     pub no_tolerance: Option<String>,
-    /// Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a force,
-    /// a torque or a natural frequency.
+    /// Assumptions about masses that the file leaves open, one sentence each. Empty: no figure is a force, a torque or
+    /// a natural frequency.
     pub assumptions: Vec<String>,
 }
 
-/// What cranks do over the poses that all rods reach.
+/// The figures of the cranks over the poses that all rods reach.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankFiguresRecord {
-    /// Least angle; null: no pose is reached.
+    /// Least crank angle, degrees; null: no pose is reached.
     pub least_deg: Option<Number>,
-    /// Greatest angle.
+    /// Greatest crank angle, degrees.
     pub greatest_deg: Option<Number>,
-    /// Least transmission angle: 0 at a singular crank.
+    /// Least transmission angle, degrees: 0 at a singular crank.
     pub transmission_deg: Option<Number>,
     /// Greatest torque under the payload and the loads, one at a time, force units times design units.
     pub torque: Option<Number>,
-    /// Greatest speed under the speed that the platform has to have, degrees per second.
+    /// Greatest crank speed at the platform speed that the design requires, degrees per second.
     pub speed_deg: Option<Number>,
     /// Greatest torque along the manoeuvres.
     pub motion_torque: Option<Number>,
@@ -178,11 +179,11 @@ impl FiguresRecord {
 /// A column of the table: a figure of every design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FigureColumn {
-    /// What it is.
+    /// The title of the column.
     pub title: String,
-    /// Its unit; empty for numbers without one.
+    /// The unit; empty for pure numbers.
     pub unit: String,
-    /// By design; `None` where a design has none.
+    /// The cells by design; `None` for a design without the figure.
     pub cells: Vec<Option<FigureCell>>,
 }
 
@@ -196,7 +197,7 @@ impl FigureColumn {
 /// A cell of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FigureCell {
-    /// A number; `true`: it violates a limit.
+    /// A number; `true` marks a violated limit.
     Number(f64, bool),
     /// A word.
     Word(String),
@@ -265,7 +266,7 @@ impl CompareAnswer {
         FigureColumn { title: title.into(), unit: String::new(), cells }
     }
 
-    /// A sentence for every design: its verdict with the poses judged.
+    /// A sentence for every design: its verdict with the poses assessed.
     pub fn verdicts(&self) -> Vec<String> {
         let sentence = |d: &FiguresRecord| match &d.assessment {
             Some(a) => format!("{} {}", d.name, a.explanation),
@@ -275,7 +276,7 @@ impl CompareAnswer {
         self.designs.iter().map(sentence).collect()
     }
 
-    /// The length by which every conditioning is computed, in a sentence.
+    /// The characteristic length of every conditioning, in a sentence.
     pub fn yardstick(&self) -> String {
         let (length, unit) = (short(self.characteristic_length), &self.length_unit);
         format!(
@@ -283,8 +284,7 @@ impl CompareAnswer {
         )
     }
 
-    /// The assumptions about masses, a line for each sentence, with the names of the designs where it does not hold for
-    /// all.
+    /// The assumptions about masses, one line each; an assumption of some designs only carries their names.
     pub fn assumptions(&self) -> Vec<String> {
         let mut sentences: Vec<&String> = Vec::new();
         for sentence in self.designs.iter().flat_map(|d| &d.assumptions) {

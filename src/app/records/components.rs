@@ -17,30 +17,30 @@ use synthesis::components::{
 pub struct ComponentsAnswer {
     /// The name of the design.
     pub name: String,
-    /// What counts as zero, relative to the size of the body.
+    /// The threshold for zero, relative to the size of the body.
     pub tolerance: f64,
     /// Rank of the leg vectors.
     pub leg_rank: usize,
-    /// How that was decided.
+    /// The decision about this rank.
     pub leg_rank_decision: DecisionRecord,
-    /// How many families there are.
+    /// Number of families.
     pub count: usize,
-    /// There are no others.
+    /// Whether the list of families is complete.
     pub complete: bool,
-    /// Why there may be others.
+    /// Reasons for doubting that the list is complete.
     pub doubts: Vec<String>,
-    /// Pairs of flats that their legs span.
+    /// Pairs of flats spanned by their legs.
     pub pairs: Vec<FlatPairRecord>,
-    /// Pairs of planes with their curves.
+    /// Pairs of planes with their curves of replaceable joints.
     pub planes: Vec<PlanePairRecord>,
     /// The families.
     pub components: Vec<ComponentRecord>,
 }
 
-/// A dimension or rank and how it was decided.
+/// A dimension or rank, with the evidence for its value.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DecisionRecord {
-    /// What was asked.
+    /// The quantity decided.
     #[schemars(extend("enum" = [
         "base_dimension", "platform_dimension", "leg_rank", "rank_over_base", "rank_over_platform", "common_factor", "line_factor",
         "conic_rank", "singular_point"
@@ -48,17 +48,17 @@ pub struct DecisionRecord {
     pub question: String,
     /// The value used.
     pub value: usize,
-    /// By the tolerance.
+    /// The value by the tolerance.
     pub numerical: usize,
-    /// In exact arithmetic; null: not asked.
+    /// The value in exact arithmetic; null: not computed.
     pub exact: Option<usize>,
-    /// Exact arithmetic gives the value used; null: not asked.
+    /// Whether exact arithmetic gives the value used; null: not computed.
     pub agrees: Option<bool>,
-    /// The smallest number not counted as zero.
+    /// The smallest number that counts as nonzero.
     pub above: Option<Number>,
-    /// The largest number counted as zero.
+    /// The largest number that counts as zero.
     pub below: Option<Number>,
-    /// The limit between them.
+    /// The threshold between these two numbers.
     pub tolerance: Number,
 }
 
@@ -93,24 +93,24 @@ fn point(p: &Point3<f64>) -> [Number; 3] {
     [p.x, p.y, p.z].map(Number)
 }
 
-/// A pair of flats that its legs span.
+/// A pair of flats spanned by its legs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FlatPairRecord {
     /// The legs, from 1.
     pub legs: Vec<usize>,
     /// The flat of the base: point, line, plane or space.
     pub base: String,
-    /// The flat of the platform.
+    /// The flat of the platform: point, line, plane or space.
     pub platform: String,
-    /// Rank of its legs.
+    /// Rank of the leg vectors of these legs.
     pub rank: usize,
-    /// Dimension of the family by counting equations; may be negative.
+    /// Dimension of the family expected from counting equations; may be negative.
     pub expected_dimension: isize,
-    /// Dimension found.
+    /// Dimension of the family found.
     pub dimension: usize,
-    /// Whether the flats are those of the joints as written, or within the tolerance.
+    /// Whether the flats fit the joints as written, or only within the tolerance.
     pub reading: String,
-    /// What was decided.
+    /// Dimensions and ranks of the pair with their evidence.
     pub decisions: Vec<DecisionRecord>,
 }
 
@@ -135,19 +135,19 @@ pub type Bilinear = Vec<[[Number; 3]; 3]>;
 /// A pair of planes with the curves of points that carry replaceable legs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlanePairRecord {
-    /// Its number in `pairs`, from 1.
+    /// The number of the pair in `pairs`, from 1.
     pub pair: usize,
     /// The legs in the planes, from 1.
     pub legs: Vec<usize>,
-    /// Whether the flats are those of the joints as written, or within the tolerance.
+    /// Whether the flats fit the joints as written, or only within the tolerance.
     pub reading: String,
-    /// Both curves are smooth; null: not decided.
+    /// Whether both curves are smooth; null: not decided.
     pub smooth: Option<bool>,
     /// The curve of the base.
     pub base: PlaneCurveRecord,
     /// The curve of the platform.
     pub platform: PlaneCurveRecord,
-    /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
+    /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
     /// `beta` on the platform.
     pub equations: Bilinear,
 }
@@ -155,25 +155,25 @@ pub struct PlanePairRecord {
 /// A plane curve of points that carry replaceable legs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlaneCurveRecord {
-    /// The origin of plane coordinates, frame of the body.
+    /// The origin of plane coordinates, body frame.
     pub origin: [Number; 3],
     /// The point `(x, y)` is `origin + x axes[0] + y axes[1]`.
     pub axes: [[Number; 3]; 2],
-    /// Its degree.
+    /// The degree of the curve.
     pub degree: usize,
-    /// In the order of the monomials.
+    /// The coefficients in the order of the monomials.
     pub coefficients: Vec<Number>,
     /// Names of the monomials.
     pub monomials: Vec<String>,
     /// Rank of the equations at a generic point.
     pub generic_rank: usize,
-    /// What it splits into.
+    /// The components of the curve.
     pub parts: Vec<CurvePart>,
-    /// Its singular points.
+    /// The singular points of the curve.
     pub singular_points: Vec<SingularPointRecord>,
-    /// What was decided.
+    /// Dimensions and ranks of the curve with their evidence.
     pub decisions: Vec<DecisionRecord>,
-    /// The curve of the joints as rational numbers, or why there is none.
+    /// The curve for the joints as rational numbers, or the reason why there is none.
     pub exact: ExactCurveOutcome,
 }
 
@@ -222,28 +222,28 @@ fn monomials(degree: usize) -> Vec<String> {
 /// A singular point of a plane curve.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SingularPointRecord {
-    /// In the frame of the body; null: at infinity.
+    /// The point, body frame; null: at infinity.
     pub point: Option<[Number; 3]>,
     /// Homogeneous plane coordinates.
     pub coordinates: [Number; 3],
-    /// What it is.
+    /// The type of the singular point.
     #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
     pub kind: String,
-    /// The gradient there.
+    /// The gradient of the curve's equation at the point.
     pub gradient: Number,
-    /// A whole line of the other plane corresponds to it.
+    /// Whether a whole line of the other plane corresponds to it.
     pub line_of_partners: bool,
 }
 
-/// The curve of the joints as rational numbers, or why there is none.
+/// The curve for the joints as rational numbers, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactCurveOutcome {
     /// The curve.
     Curve(ExactCurveRecord),
-    /// None.
+    /// There is no exact curve.
     None {
-        /// Why not.
+        /// The reason.
         reason: String,
     },
 }
@@ -255,15 +255,15 @@ pub struct ExactCurveRecord {
     pub axes: [String; 2],
     /// Rank of the equations at a generic point.
     pub generic_rank: usize,
-    /// Its degree.
+    /// The degree of the curve.
     pub degree: usize,
-    /// Integers as text.
+    /// The coefficients, integers as text.
     pub coefficients: Vec<String>,
-    /// What it splits into over the complex numbers.
+    /// The components of the curve over the complex numbers.
     pub parts: Vec<ExactPart>,
-    /// It has no singular point; null: not decided.
+    /// Whether the curve has no singular point; null: not decided.
     pub smooth: Option<bool>,
-    /// A singular point.
+    /// A singular point of the curve; null: none is known.
     pub singular_point: Option<ExactPoint>,
 }
 
@@ -288,35 +288,35 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
 /// A family of replaceable legs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComponentRecord {
-    /// Its number, from 1.
+    /// The number of the family, from 1.
     pub component: usize,
-    /// point-line, for example.
+    /// The type, for example point-line.
     #[serde(rename = "type")]
     pub type_name: String,
-    /// What its legs form.
+    /// The set that its legs form.
     #[schemars(extend("enum" = ["all_pairs", "over_line", "over_conic", "over_plane", "over_cubic"]))]
     pub kind: String,
-    /// The flat its base ends span.
+    /// The flat spanned by its base ends.
     pub base: String,
-    /// The flat its platform ends span.
+    /// The flat spanned by its platform ends.
     pub platform: String,
-    /// Its dimension.
+    /// The dimension of the family.
     pub dimension: usize,
-    /// Legs of the design on it, from 1.
+    /// Legs of the design in the family, from 1.
     pub legs: Vec<usize>,
-    /// Legs its legs are combinations of, from 1.
+    /// Legs of the design, from 1; every leg vector of the family is a combination of theirs.
     pub support: Vec<usize>,
-    /// False: within the tolerance only; null: not decided exactly.
+    /// Whether the family is exact. False: it exists only within the tolerance; null: not decided exactly.
     pub exact: Option<bool>,
-    /// Numbers of larger families, from 1.
+    /// Numbers of the larger families that contain it, from 1.
     pub contained_in: Vec<usize>,
     /// Formulas of its legs.
     pub parametrisation: ParametrisationRecord,
-    /// Parameters without a finite leg.
+    /// Parameter values without a finite leg.
     pub at_infinity: Vec<Number>,
-    /// What was decided.
+    /// Dimensions and ranks of the family with their evidence.
     pub decisions: Vec<DecisionRecord>,
-    /// Random legs of it.
+    /// Random legs of the family.
     pub samples: Vec<SampledLegRecord>,
 }
 
@@ -326,38 +326,39 @@ pub struct ComponentRecord {
 pub enum ParametrisationRecord {
     /// Both ends are rational functions of the parameters.
     Rational {
-        /// How many parameters.
+        /// Number of parameters.
         parameters: usize,
-        /// Terms of homogeneous coordinates (c0, c1, c2, c3) of the base end, the point (c1, c2, c3) / c0.
+        /// Terms of the homogeneous coordinates (c0, c1, c2, c3) of the base end, the point (c1, c2, c3) / c0, base
+        /// frame.
         base: Vec<MovingTermRecord>,
-        /// The same of the platform end.
+        /// Terms of the homogeneous coordinates of the platform end, platform frame.
         platform: Vec<MovingTermRecord>,
     },
-    /// A plane cubic, by a pencil of lines through one of its points.
+    /// A plane cubic, parametrised by a pencil of lines through one of its points.
     Cubic {
-        /// One.
+        /// Number of parameters: 1.
         #[schemars(extend("const" = 1))]
         parameters: usize,
-        /// The point of the cubic, homogeneous plane coordinates.
+        /// The centre of the pencil on the cubic, homogeneous plane coordinates.
         centre: Vec<Number>,
-        /// The cubic.
+        /// The coefficients of the cubic.
         cubic: Vec<Number>,
-        /// Origin and axes of the plane of the base.
+        /// Origin and axes of the plane of the base, base frame.
         base_frame: Vec<[Number; 3]>,
-        /// Origin and axes of the plane of the platform.
+        /// Origin and axes of the plane of the platform, platform frame.
         platform_frame: Vec<[Number; 3]>,
-        /// Which points belong together: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
+        /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
         /// `beta` on the platform.
         equations: Bilinear,
     },
 }
 
-/// A term of homogeneous coordinates.
+/// A term of the homogeneous coordinates of a leg end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MovingTermRecord {
-    /// Of the parameters.
+    /// The exponents of the parameters.
     pub exponents: [u8; 3],
-    /// Of (c0, c1, c2, c3).
+    /// The coefficients of (c0, c1, c2, c3).
     pub coefficient: [Number; 4],
 }
 
@@ -400,9 +401,9 @@ impl From<&CubicPencil> for ParametrisationRecord {
 /// The ends of a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LegEndsRecord {
-    /// Base frame.
+    /// The base end, base frame, design units.
     pub base: [Number; 3],
-    /// Platform frame.
+    /// The platform end, platform frame, design units.
     pub platform: [Number; 3],
 }
 
@@ -415,14 +416,14 @@ impl From<&Leg> for LegEndsRecord {
 /// A leg drawn from a family.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SampledLegRecord {
-    /// Its parameters.
+    /// The parameters of the leg.
     pub parameters: Vec<Number>,
-    /// Its ends.
+    /// The ends of the leg.
     #[serde(flatten)]
     pub ends: LegEndsRecord,
-    /// Its squared length in the squared lengths of the six legs.
+    /// The coefficients of the six squared leg lengths in the squared length of this leg.
     pub coefficients: [Number; 6],
-    /// What is left of its leg vector.
+    /// The residual of the leg vector after subtracting this combination.
     pub residual: Number,
 }
 
@@ -461,7 +462,7 @@ impl ComponentRecord {
 }
 
 impl ComponentsAnswer {
-    /// The answer about a design of this name: everything found, and the families asked for.
+    /// The answer about the design of this name: all results, and the requested families.
     #[must_use]
     pub fn new(name: &str, replaceable: &ReplaceableLegs) -> Self {
         let ReplaceableLegs { found, families, search } = replaceable;

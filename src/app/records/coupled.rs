@@ -1,4 +1,4 @@
-//! What joints that are not ideal add to answers: the lengths that drives have in place of distances of joints.
+//! Records of joints that are not ideal: drive lengths, as distinct from the distances of the joints.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -9,11 +9,11 @@ use machine::coupled::{CoupledOutcome, DriveSolutionWord, DriveState};
 /// The drives at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveLengthsRecord {
-    /// The lengths that a controller has to command, in leg order, design units.
+    /// The lengths for the controller to command, in leg order, design units.
     pub lengths: [f64; 6],
-    /// What of the difference from the distances of the joints is due to axes that do not meet.
+    /// The part of the difference from the joint distances caused by axes that do not meet, design units.
     pub of_offsets: [f64; 6],
-    /// The turns of the platform ends of the legs about them against the base ends, from home; 0 without a lead.
+    /// The twist of each leg since home, degrees: its platform end against its base end; 0 without a lead.
     pub twists_deg: [f64; 6],
 }
 
@@ -27,27 +27,26 @@ impl DriveLengthsRecord {
     }
 }
 
-/// How the pose for lengths of drives was found.
+/// The iteration for the pose with given drive lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveSolutionRecord {
-    /// What is known of it.
+    /// The status of the solution.
     pub status: DriveSolutionWord,
-    /// Why there is no pose.
+    /// The reason if there is no pose; null: there is one.
     pub reason: Option<String>,
-    /// The lengths that the drives show.
+    /// The lengths that the drives show, design units.
     pub lengths: [f64; 6],
-    /// The distances of the joints at the pose, to which it was followed.
+    /// The distances of the joints at the pose found, design units.
     pub distances: [f64; 6],
-    /// Steps of the fixed point.
+    /// Number of fixed-point steps.
     pub steps: u32,
-    /// The greatest ratio of two changes of the corrections, one after the other; 0 where there were none above
-    /// rounding.
+    /// The greatest ratio of two successive changes of the corrections; 0 if there were none above rounding.
     pub factor: Number,
-    /// Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
+    /// Proved bound on the distance from this platform origin to the one with exactly these lengths, design units.
     pub position_bound: Option<Number>,
-    /// Proved: its rotation is no farther away.
+    /// Proved bound on the angle to the rotation with exactly these lengths, degrees.
     pub angle_bound_deg: Option<Number>,
-    /// The factor by which the Newton map contracts around the pose; null: not proved.
+    /// The contraction factor of the Newton map around the pose; null: not proved.
     pub contraction: Option<Number>,
 }
 

@@ -8,45 +8,45 @@ use ask::equivalents::Original;
 use num::algebraic::Algebraic;
 use synthesis::{Derivation, LegSlide};
 
-/// How A, c and det A of one platform of the class follow from coplanar joints, and what forward kinematics says.
+/// The derivation of A, c and det A for one platform of the class from coplanar joints, with the forward kinematics as
+/// a check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DerivationRecord {
-    /// The numbers are those of exact joints, and each moved joint lies on its line exactly; otherwise they are those of
-    /// the doubles.
+    /// Whether the numbers are exact: the joints are exact, and each moved joint lies exactly on its line. Otherwise
+    /// the numbers are doubles.
     pub exact: bool,
-    /// One row of A for each moved leg, all offsets at once, from the legs of the octahedral platform.
+    /// One row of A for each moved leg, with all offsets at once, from the legs of the octahedral platform.
     pub moves: Vec<LegSlideRecord>,
-    /// The same one offset at a time, from the legs that are there before each move; det A is the product of their
-    /// `rest`. null: no order of single moves reaches
-    /// the platform without two legs on one another.
+    /// The moves one at a time, each from the legs before it; det A is the product of their `rest`. Null: every order
+    /// of single moves puts two legs on one another.
     pub sequence: Option<Vec<LegSlideRecord>>,
     /// The factors of det A.
     pub factors: Vec<FactorRecord>,
-    /// Products over all six offsets, whose difference det A is; null: some leg is not moved.
+    /// Products over all six offsets; det A is their difference. Null: some leg is not moved.
     pub products: Option<OffsetProductsRecord>,
     /// Forward kinematics of the octahedral platform and of this one, solved independently, and the leg map from one to
     /// the other.
     pub verification: VerifyAnswer,
 }
 
-/// One leg that moves along the line of two legs with a joint in common: X, Y, Q and F are in one plane at every pose.
+/// One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LegSlideRecord {
-    /// The leg that moves, from 1.
+    /// The moved leg, from 1.
     pub leg: usize,
     /// The legs X F and Y F, from 1.
     pub between: [usize; 2],
     /// The names of X and Y.
     pub ends: [String; 2],
-    /// The name of Q = X + t (Y - X), the joint that the leg gets.
+    /// The name of Q = X + t (Y - X), the new joint of the leg.
     pub moved: String,
-    /// The name of F, the joint that it keeps.
+    /// The name of F, the joint that the leg keeps.
     pub fixed: String,
-    /// t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
+    /// The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
     pub share: ExactNumberRecord,
-    /// 1 - t.
+    /// The number 1 - t.
     pub rest: ExactNumberRecord,
-    /// d^2 = |XY|^2, design units squared.
+    /// The squared edge d^2 = |XY|^2, design units squared.
     pub square: ExactNumberRecord,
     /// |XQ|^2 and |YQ|^2, design units squared.
     pub squares_to_ends: [ExactNumberRecord; 2],
@@ -57,29 +57,29 @@ pub struct LegSlideRecord {
 /// A factor of det A.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FactorRecord {
-    /// In the offsets, such as 1 - t1.
+    /// The formula in the offsets, such as 1 - t1.
     pub formula: String,
-    /// The equation of its zeros, where the platform is architecturally singular.
+    /// The equation of its zeros; the platform is architecturally singular there.
     pub zero: String,
-    /// Its value at the offsets.
+    /// The value of the factor at the offsets.
     pub value: ExactNumberRecord,
 }
 
 /// Products over the six offsets of the platform without shared joints.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OffsetProductsRecord {
-    /// (1 - t1) .. (1 - t6).
+    /// The product (1 - t1) .. (1 - t6).
     pub rest: ExactNumberRecord,
-    /// t1 .. t6.
+    /// The product t1 .. t6.
     pub own: ExactNumberRecord,
 }
 
-/// A number that is known exactly, or as the doubles say it.
+/// A number, exact or as a double.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ExactNumberRecord {
     /// The nearest double.
     pub value: Number,
-    /// The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null where it is known as doubles only.
+    /// The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null: known only as a double.
     pub exact: Option<String>,
 }
 

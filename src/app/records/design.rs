@@ -16,13 +16,13 @@ pub struct DesignRecord(pub Value);
 
 impl From<&Design> for DesignRecord {
     fn from(design: &Design) -> Self {
-        // what a design writes is JSON
+        // a design always writes valid JSON
         Self(serde_json::from_str(&design.to_json()).unwrap_or_default())
     }
 }
 
 impl DesignRecord {
-    /// Its name.
+    /// The name of the design.
     #[must_use]
     pub fn name(&self) -> &str {
         self.0.get("name").and_then(Value::as_str).unwrap_or_default()
@@ -36,7 +36,7 @@ impl JsonSchema for DesignRecord {
         "design".into()
     }
 
-    /// That of design files, its definitions under names that begin with `design_`.
+    /// The schema of design files, with names of definitions that begin with `design_`.
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let text = SCHEMA.replace(DEFINITIONS, &format!("{DEFINITIONS}design_"));
         let mut schema: Map<String, Value> = serde_json::from_str(&text).unwrap_or_default();
@@ -55,7 +55,7 @@ impl JsonSchema for DesignRecord {
     }
 }
 
-/// Answers may have more keys in later versions, also where a design file may not.
+/// Later versions may add keys to answers, even to objects that a design file keeps closed.
 fn open(schema: &mut Value) {
     match schema {
         Value::Object(fields) => {

@@ -11,22 +11,22 @@ use ask::driving::{DriveFit, LightestDrive};
 pub struct DrivesAnswer {
     /// The name of the design.
     pub name: String,
-    /// True: a drive is proved to fit; false: every drive is proved not to; null: neither.
+    /// Whether some drive fits: true and false are proved; null: undecided.
     pub met: Option<bool>,
-    /// The name of the drive to take: the cheapest that is proved to fit, the lightest of equally cheap ones; null:
+    /// The name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap ones; null:
     /// there is none.
     pub chosen: Option<String>,
-    /// All drives: those that fit, those that are undecided, those that do not; each by price, then mass.
+    /// All drives, in the order fitting, undecided, not fitting; within each group by price, then mass.
     pub drives: Vec<DriveRecord>,
-    /// Of prices, as the table names it; null: it does not.
+    /// The currency of prices from the table; null: the table names none.
     pub currency: Option<String>,
-    /// Of lengths; speeds are in it per second.
+    /// The unit of lengths; speeds are in this unit per second.
     pub length_unit: String,
-    /// Of forces.
+    /// The unit of forces.
     pub force_unit: String,
-    /// Of masses.
+    /// The unit of masses.
     pub mass_unit: String,
-    /// What neither the file nor the table says and was taken instead, a sentence each.
+    /// Assumed values that neither the file nor the table states, one sentence each.
     pub assumptions: Vec<String>,
     /// The design with the chosen drive; null: none fits.
     pub design: Option<DesignRecord>,
@@ -37,38 +37,38 @@ pub struct DrivesAnswer {
 /// A drive of the table, in the units of the design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveRecord {
-    /// Its name.
+    /// The name of the drive.
     pub name: String,
     /// Line of the table, from 1.
     pub line: usize,
-    /// It is proved to fit, proved not to, or neither (null).
+    /// Whether the drive fits: true and false are proved; null: undecided.
     pub fits: Option<bool>,
-    /// The reserve on every limit is kept too, likewise.
+    /// Whether the safety margin on every limit is kept too: true and false are proved; null: undecided.
     pub reserve_kept: Option<bool>,
-    /// The travel.
+    /// The travel, design units.
     pub stroke: Number,
-    /// Least and greatest length from joint centre to joint centre.
+    /// Least and greatest length from joint centre to joint centre, design units.
     pub leg_length: [Number; 2],
-    /// Greatest force; null: the table does not say it.
+    /// Greatest force; null: not in the table.
     pub force: Option<Number>,
-    /// Greatest speed; null: the table does not say it.
+    /// Greatest speed; null: not in the table.
     pub speed: Option<Number>,
-    /// Mass; null: the table does not say it.
+    /// Mass; null: not in the table.
     pub mass: Option<Number>,
-    /// Stiffness along the drive; null: the table does not say it.
+    /// Stiffness along the drive; null: not in the table.
     pub stiffness: Option<Number>,
-    /// Price; null: the table does not say it.
+    /// Price; null: not in the table.
     pub price: Option<Number>,
-    /// Where the numbers are from; null: the table does not say it.
+    /// The source of the numbers; null: not in the table.
     pub source: Option<String>,
-    /// What `assess` says of the design with the drive.
+    /// The result of `assess` for the design with the drive.
     pub assessment: AssessAnswer,
-    /// Along the motions asked for.
+    /// The results along the requested motions.
     pub motions: Vec<MotionRunRecord>,
 }
 
 impl DriveRecord {
-    /// What was found of a drive; `motions` are the names of the motions.
+    /// The record of a drive; `motions` are the names of the motions.
     #[must_use]
     pub fn new(fit: &DriveFit, motions: &[String]) -> Self {
         let (drive, design) = (&fit.drive, &fit.design);
@@ -93,23 +93,23 @@ impl DriveRecord {
     }
 }
 
-/// The lightest drive of the table that a design names with which its requirements are met.
+/// The lightest drive of the table with which the requirements of a design are met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LightestDriveRecord {
-    /// Its name; null: none is proved to suffice.
+    /// The name of the drive; null: no drive is proved to suffice.
     pub name: Option<String>,
-    /// Its mass; null: the table has none, or there is no such drive.
+    /// The mass of the drive; null: the table has none, or no drive is proved to suffice.
     pub mass: Option<Number>,
-    /// Of the mass.
+    /// The unit of the mass.
     pub mass_unit: String,
-    /// Drives that are lighter, or all where none is proved to suffice, of which neither is proved.
+    /// Undecided lighter drives; all undecided drives if none is proved to suffice.
     pub undecided: Vec<String>,
-    /// One sentence.
+    /// The result in one sentence.
     pub message: String,
 }
 
 impl LightestDriveRecord {
-    /// What was found.
+    /// The record of the lightest drive.
     #[must_use]
     pub fn new(found: &LightestDrive<'_>, mass_unit: &str) -> Self {
         let undecided: Vec<String> = found.undecided.iter().map(|d| d.name.clone()).collect();

@@ -13,12 +13,12 @@ use machine::manufacture::{NoRounding, RoundedJoint};
 use optimize::dimensional::ChosenVariable;
 use verify::Verification;
 
-/// The poses of the original, with the lengths they belong to.
+/// The poses of the original platform, with their leg lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRunRecord {
     /// Leg lengths, design units.
     pub lengths: [f64; 6],
-    /// Where the lengths come from.
+    /// The source of the lengths.
     pub lengths_from: LengthsOrigin,
     /// The poses.
     #[serde(flatten)]
@@ -29,24 +29,24 @@ pub struct FkRunRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExploreAnswer {
-    /// About an octahedral design.
+    /// The answer about an octahedral design.
     Octahedral(Box<ExploreOctahedralAnswer>),
-    /// About another design.
+    /// The answer about another design.
     General(Box<ExploreGeneralAnswer>),
 }
 
 /// The answer of `explore` about a design that is not octahedral.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreGeneralAnswer {
-    /// Of the whole run.
+    /// The verdict of the whole run.
     pub verdict: ExploreVerdict,
-    /// One sentence with the numbers that decided.
+    /// The verdict in one sentence, with the numbers that decided.
     pub explanation: String,
     /// The name of the design.
     pub name: String,
-    /// The files written.
+    /// The files written, in order.
     pub paths: Vec<String>,
-    /// What was done, in order.
+    /// The stages of the run, in order.
     pub stages: Vec<StageRecord>,
     /// The families of replaceable legs.
     pub components: FamiliesFoundRecord,
@@ -54,22 +54,22 @@ pub struct ExploreGeneralAnswer {
     pub moves: Option<MovesFoundRecord>,
     /// The nearest octahedral platform; null: none was found.
     pub nearest: Option<NearestErrorRecord>,
-    /// Whether the platform equivalent to the nearest octahedral one meets the requirements of the design: true and
-    /// false are proved; null: undecided, not looked at, or nothing is required.
+    /// Whether the platform equivalent to the nearest octahedral one meets the design's requirements: true and false
+    /// are proved. Null: undecided, not assessed, or nothing is required.
     pub nearest_meets_requirements: Option<bool>,
-    /// The comparison of the design with the equivalent found, else of the nearest octahedral platform with its
-    /// equivalent; null: there is neither.
+    /// The comparison of the design with its equivalent, or of the nearest octahedral platform with its equivalent.
+    /// Null: neither exists.
     pub verify: Option<ComparedRecord>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
 }
 
-/// What a stage of `explore` did.
+/// The result of one stage of `explore`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StageRecord {
-    /// Which.
+    /// The name of the stage.
     pub stage: StageWord,
-    /// What came out, a sentence.
+    /// The result in one sentence.
     pub explanation: String,
 }
 
@@ -79,20 +79,20 @@ pub struct StageRecord {
 pub enum StageWord {
     /// The families of replaceable legs.
     Components,
-    /// The search for equivalent platforms by moves of legs.
+    /// The search for equivalent platforms by moving legs.
     Moves,
     /// The nearest octahedral platform.
     Nearest,
-    /// Its equivalent under the requirements of the design.
+    /// The assessment of its equivalent against the requirements of the design.
     Assess,
-    /// Two designs compared.
+    /// The comparison of two designs.
     Verify,
     /// The poses of the design.
     Fk,
 }
 
 impl StageWord {
-    /// A heading.
+    /// The heading of the stage.
     #[must_use]
     pub fn heading(self) -> &'static str {
         match self {
@@ -106,36 +106,36 @@ impl StageWord {
     }
 }
 
-/// The families of replaceable legs in short.
+/// A summary of the families of replaceable legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamiliesFoundRecord {
-    /// How many.
+    /// Number of families.
     pub count: usize,
-    /// There are no others.
+    /// Whether the list of families is complete.
     pub complete: bool,
 }
 
-/// A search for equivalent platforms in short.
+/// A summary of a search for equivalent platforms.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MovesFoundRecord {
-    /// What came out.
+    /// The outcome of the search.
     pub outcome: SearchWord,
-    /// Legs of the platform written that are not legs of the design, from 1; null: none is written.
+    /// Legs of the written platform that differ from the design's legs, from 1; null: no platform is written.
     pub moved_legs: Option<Vec<usize>>,
-    /// det A of the map to it; null: none is written.
+    /// det A of the leg map to the written platform; null: no platform is written.
     pub det: Option<Number>,
 }
 
-/// The nearest octahedral platform in short.
+/// A summary of the nearest octahedral platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NearestErrorRecord {
     /// The largest displacement of a leg end, design units.
     pub largest_displacement: Number,
-    /// The same over the size of the design.
+    /// The largest displacement divided by the size of the design.
     pub relative_displacement: Number,
-    /// The largest difference of leg lengths over the poses of the workspace.
+    /// The largest difference of leg lengths over the poses of the workspace, design units.
     pub largest_length_deviation: Number,
-    /// det A of the map from the octahedral platform to the one beside the design.
+    /// det A of the leg map from the octahedral platform to the equivalent one near the design.
     pub det: Number,
 }
 
@@ -153,39 +153,39 @@ impl From<&NearestRecord> for NearestErrorRecord {
 /// The answer of `explore` about an octahedral design.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreOctahedralAnswer {
-    /// Of the whole run.
+    /// The verdict of the whole run.
     pub verdict: ExploreVerdict,
-    /// One sentence with the numbers that decided.
+    /// The verdict in one sentence, with the numbers that decided.
     pub explanation: String,
     /// The name of the design.
     pub name: String,
-    /// The files written.
+    /// The files written, in order.
     pub paths: Vec<String>,
     /// The equivalence class.
     pub family: FamilySizeRecord,
-    /// What `assess` says of the platform found; null: there is none, or the design requires nothing.
+    /// The result of `assess` for the platform found; null: there is none, or the design has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// The platform; null: none was found.
+    /// The platform found; null: none.
     pub optimize: Option<OptimizedRecord>,
-    /// Conic programs that the library clarabel solved in the search for the platform; those with other drives, for
+    /// Number of conic programs solved by the library clarabel in the platform search; searches with other drives, for
     /// freedoms and for holes are not counted.
     pub conic_programs: u64,
-    /// What separate joints cost: figures of the design and of the platform to build; null: there is none.
+    /// The cost of separate joints: figures of the design and of the platform to build; null: there is none.
     pub price: Option<PriceRecord>,
-    /// What became of the reserve of 5 % on every limit; null: the design states a reserve.
+    /// The result for the default safety margin of 5 % on every limit; null: the design states its own.
     pub reserve: Option<DefaultReserveRecord>,
-    /// The comparison of the design with the optimised one; null: there is none.
+    /// The comparison of the design with the optimised platform; null: there is none.
     pub verify: Option<ComparedRecord>,
     /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The
-    /// assessment is then that of this platform.
+    /// assessment applies to this platform.
     pub holes: Option<OnHolesRecord>,
-    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not
-    /// break it or did not look at it.
+    /// The result for the three-fold symmetry of the design. Null: the design has none or names one, or the search
+    /// could not break it or did not check it.
     pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table, with what the search came to with each; null where no table was given.
+    /// The drives of a table with the search result for each; null: no table was given.
     pub drive_search: Option<DriveSearchRecord>,
-    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what
-    /// came of a search that had it; null where none was looked at.
+    /// Further freedoms that might allow a platform, each with its search result. Null: a platform meets the
+    /// requirements, or no freedom was tried.
     pub freedoms: Option<Vec<FreedomRecord>>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
@@ -194,22 +194,22 @@ pub struct ExploreOctahedralAnswer {
 /// Figures of a design and of the platform with separate joints made from it, in this order.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PriceRecord {
-    /// Worst conditioning over the poses of the workspace, both by the characteristic length of the design.
+    /// Worst conditioning over the poses of the workspace; both use the characteristic length of the design.
     pub conditioning: [Number; 2],
-    /// Least distance of the ends of two legs on the base, design units; 0 where they share a joint.
+    /// Least distance of the ends of two legs on the base, design units; 0 for a shared joint.
     pub base_spacing: [Number; 2],
-    /// The same on the platform.
+    /// Least distance of the ends of two legs on the platform, design units; 0 for a shared joint.
     pub platform_spacing: [Number; 2],
-    /// Greatest distance of a base joint from the centre of the joints.
+    /// Greatest distance of a base joint from the centre of the base joints, design units.
     pub base_radius: [Number; 2],
-    /// The same of the platform.
+    /// Greatest distance of a platform joint from the centre of the platform joints, design units.
     pub platform_radius: [Number; 2],
-    /// One sentence.
+    /// The comparison in one sentence.
     pub message: String,
 }
 
 impl PriceRecord {
-    /// Of figures in a unit of length.
+    /// The record of figures in this unit of length.
     #[must_use]
     pub fn new(s: &Separation, unit: &str) -> Self {
         let pair = |[a, b]: [f64; 2]| format!("{} -> {}", digits(a), digits(b));
@@ -236,25 +236,25 @@ impl PriceRecord {
     }
 }
 
-/// Three significant digits.
+/// A number with three significant digits.
 fn digits(x: f64) -> String {
     let rounded = format!("{x:.2e}").parse::<f64>().unwrap_or(x);
     rounded.to_string()
 }
 
-/// What became of the reserve that a design does not state.
+/// The result for a default safety margin that the design does not state itself.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DefaultReserveRecord {
-    /// On every limit.
+    /// The safety margin on every limit, percent.
     pub percent: f64,
-    /// The platform found keeps it; false: no platform that keeps it was found, and the search went on without.
+    /// Whether the platform found keeps it. False: no platform with it was found, and the search continued without it.
     pub kept: bool,
-    /// One sentence.
+    /// The result in one sentence.
     pub message: String,
 }
 
 impl DefaultReserveRecord {
-    /// Whether it is kept.
+    /// The record of a safety margin that is kept or not.
     #[must_use]
     pub fn new(percent: f64, kept: bool) -> Self {
         let message = if kept {
@@ -270,20 +270,20 @@ impl DefaultReserveRecord {
     }
 }
 
-/// A platform with its joints on the holes that its design states, in short.
+/// A summary of a platform with its joints on the holes that its design states.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OnHolesRecord {
-    /// Which rounding was taken; null: there is none.
+    /// The rounding chosen; null: there is none.
     pub variant: Option<RoundingWay>,
-    /// Turns by 120 degrees take both triangles with their joints to themselves.
+    /// Whether rotations by 120 degrees map both triangles with their joints to themselves.
     pub three_fold: bool,
-    /// The farthest that a joint went to its hole.
+    /// The largest displacement of a joint to its hole, design units.
     pub largest_displacement: Option<Number>,
-    /// Variables that were chosen again after rounding.
+    /// Variables optimised again after rounding.
     pub refitted: Vec<String>,
-    /// How often a platform was sought and rounded.
+    /// Number of passes of search and rounding.
     pub passes: usize,
-    /// Why there is no rounding; null: there is one.
+    /// The reason why there is no rounding; null: there is one.
     pub error: Option<NoRoundingError>,
 }
 
@@ -322,38 +322,38 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
     }
 }
 
-/// How many platforms are equivalent to an octahedral one.
+/// The number of platforms equivalent to an octahedral one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilySizeRecord {
-    /// Patterns of legs.
+    /// Number of patterns of legs.
     pub patterns: usize,
-    /// Ways to share joints.
+    /// Number of topologies: ways to share joints.
     pub topologies: usize,
 }
 
-/// The platform in short: the fields of the answer of `optimize` that say most.
+/// A summary of the platform: the main fields of the answer of `optimize`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OptimizedRecord {
-    /// What came of the search.
+    /// The status of the search.
     pub status: OptimizeStatus,
-    /// What is known of better ones; null: nothing.
+    /// The evidence of optimality; null: none.
     pub optimality: Option<OptimalityWord>,
     /// Value of the first objective.
     pub objective: Option<Number>,
-    /// What was chosen, axes left out.
+    /// The chosen variables, without axes.
     pub variables: Vec<ChosenVariable>,
-    /// The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    /// The offsets `t_i` in cyclic order; null: no offsets were chosen.
     pub offsets: Option<[Number; 6]>,
-    /// `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    /// The displacements `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     pub shifts: Option<[Number; 6]>,
-    /// det A of the leg map; null: the variables do not keep the class of the design.
+    /// det A of the leg map; null: the variables leave the equivalence class of the design.
     pub det: Option<Number>,
-    /// What the platform rides on; null: nothing.
+    /// The active bounds of the platform; null: none.
     pub riding: Option<RidingRecord>,
 }
 
 impl OptimizedRecord {
-    /// Of an answer of `optimize`; `None` where it has no platform.
+    /// A summary of an answer of `optimize`; `None` if it has no platform.
     #[must_use]
     pub fn new(a: &OptimizeAnswer) -> Option<Self> {
         let p = &a.platform;
@@ -370,16 +370,16 @@ impl OptimizedRecord {
     }
 }
 
-/// A verification in short.
+/// A summary of a verification.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedRecord {
-    /// Sets of lengths at which both designs were solved.
+    /// Number of length sets; both designs were solved at each.
     pub sample_count: usize,
     /// The largest distance of matched poses.
     pub worst_distance: Number,
-    /// Of the affine map.
+    /// The residual of the affine map.
     pub residual: Number,
-    /// Its determinant.
+    /// The determinant of the affine map.
     pub det: Number,
 }
 
@@ -394,18 +394,18 @@ impl From<&Verification> for ComparedRecord {
     }
 }
 
-/// Poses counted.
+/// Numbers of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PoseTotalsRecord {
-    /// Where the lengths come from.
+    /// The source of the lengths.
     pub lengths_from: LengthsOrigin,
-    /// Finite poses, real and complex.
+    /// Number of finite poses, real and complex.
     pub finite_count: usize,
-    /// Real ones.
+    /// Number of real poses.
     pub real_count: usize,
-    /// Poses with a certificate.
+    /// Number of poses with a certificate.
     pub certified_count: usize,
-    /// False: poses may be missing.
+    /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,
 }
 

@@ -11,17 +11,17 @@ use files::export::{Export, ExportFormat, LengthUnit, SizeChoice};
 pub struct ExportAnswer {
     /// The name of the design.
     pub name: String,
-    /// The folder.
+    /// The output folder.
     pub output: String,
-    /// What `assess` says of the design; null: it requires nothing.
+    /// The result of `assess` for the design; null: it has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// What one unit of the design is.
+    /// The length of one unit of the design.
     pub design_unit: LengthUnit,
-    /// What became of each format.
+    /// The formats, each written or refused.
     pub formats: Vec<FormatRecord>,
-    /// The sizes that were chosen.
+    /// The dimensions chosen for the model.
     pub sizes: Vec<SizeChoice>,
-    /// Assumptions of the simulator's model about masses and units that the file leaves open; empty where no model was
+    /// Assumptions of the simulator's model about masses and units that the file leaves open; empty: no model was
     /// written.
     pub assumptions: Vec<String>,
 }
@@ -51,30 +51,30 @@ impl ExportAnswer {
 /// The files of a format.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FormatRecord {
-    /// Its name.
+    /// The name of the format.
     #[schemars(extend("enum" = ExportFormat::ALL.map(ExportFormat::name)))]
     pub format: String,
-    /// What it is for.
+    /// The purpose of the format.
     pub purpose: String,
     /// The files written.
     pub files: Vec<String>,
-    /// Whether it could hold the design.
+    /// Whether the format can hold the design.
     #[serde(flatten)]
     pub outcome: FormatOutcome,
 }
 
-/// What became of a format.
+/// The outcome for a format.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FormatOutcome {
-    /// It was written.
+    /// The format was written.
     Written {
-        /// What of the design it does not carry.
+        /// The parts of the design that the format omits.
         leaves_out: String,
     },
-    /// It was not.
+    /// The format was refused.
     Refused {
-        /// Why it cannot hold the design.
+        /// The reason: a part of the design that the format cannot hold.
         refused: String,
     },
 }

@@ -3,25 +3,25 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Something odd about a design file that does not keep it from being used.
+/// A warning about a design file that can still be used.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct WarningRecord {
     /// A stable short code.
     pub code: String,
     /// The design file.
     pub path: String,
-    /// The line it is about, from 1.
+    /// The line concerned, from 1.
     pub line: usize,
-    /// What is odd.
+    /// The problem.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: String,
 }
 
-/// Why there is no answer: a refusal of what was asked, or a failure of the program.
+/// The reason why there is no answer: a refusal of the request, or a failure of the program.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ErrorAnswer {
-    /// What went wrong.
+    /// The failure.
     pub error: FailureRecord,
 }
 
@@ -30,19 +30,19 @@ pub struct ErrorAnswer {
 pub struct FailureRecord {
     /// A stable short code, `fk::not_applicable` for example.
     pub code: String,
-    /// One sentence.
+    /// The message in one sentence.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
-    /// The design file.
+    /// The design file concerned.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// What is wrong with the design file; empty where the failure is not about one.
+    /// The faults of the design file; empty for other failures.
     pub violations: Vec<ViolationRecord>,
 }
 
-/// One thing that is wrong with a design file.
+/// One fault of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ViolationRecord {
     /// A stable short code.
@@ -51,13 +51,13 @@ pub struct ViolationRecord {
     pub line: usize,
     /// The column, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The fault.
     pub message: String,
-    /// What to write instead.
+    /// The correction to write.
     pub help: String,
 }
 
-/// What `--help`, `--version` and `--licences` print.
+/// The text printed by `--help`, `--version` and `--licences`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct HelpAnswer {
     /// The text.

@@ -22,22 +22,22 @@ pub struct FamilyAnswer {
     pub cyclic_order: Vec<usize>,
     /// The edge of each side of the hexagon, design units.
     pub edge_lengths: Vec<Number>,
-    /// How many there are.
+    /// Numbers of patterns and topologies.
     pub counts: FamilyCounts,
-    /// The patterns, or the one that was asked for.
+    /// All patterns, or the requested one.
     pub patterns: Vec<PatternRecord>,
-    /// The ways in which legs share joints.
+    /// The topologies: the ways in which legs share joints.
     pub topologies: Vec<FamilyTopologyRecord>,
     /// The platform of the pattern at the offsets given, with `--offsets`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<InstanceRecord>,
-    /// How its map follows from coplanar joints, with `--explain`.
+    /// The derivation of its leg map from coplanar joints, with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub derivation: Option<DerivationRecord>,
 }
 
 impl FamilyAnswer {
-    /// The answer about a design that is made from this octahedral platform or is it, with these members of its class.
+    /// The answer about a design, its original octahedral platform and these members of the class.
     #[must_use]
     pub fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) -> Self {
         let o = &original.octahedral;
@@ -54,18 +54,18 @@ impl FamilyAnswer {
     }
 }
 
-/// Which legs are kept and which are moved along which edge.
+/// A pattern: the kept legs, and the moved legs with their edges.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternRecord {
-    /// Its name: V and the vertices kept, S and the sides of the moved ones.
+    /// The name of the pattern: V and the vertices kept, S and the sides of the moved ones.
     pub id: String,
-    /// Its class up to symmetry, from 1.
+    /// The class of the pattern up to symmetry, from 1.
     pub class: usize,
-    /// Its class up to all symmetries, from 1.
+    /// The class of the pattern up to all symmetries, from 1.
     pub class_exchange: usize,
-    /// Its topology, from 1.
+    /// The topology of the pattern, from 1.
     pub topology: usize,
-    /// It is reached by offsets introduced one at a time.
+    /// Whether offsets introduced one at a time lead to it.
     pub sequential: bool,
     /// The legs, in the order of the design.
     pub legs: Vec<PatternLegRecord>,
@@ -75,13 +75,13 @@ pub struct PatternRecord {
     pub shared_joints: Vec<SharedJointRecord>,
     /// Joints on one line.
     pub alignments: Vec<Vec<String>>,
-    /// Formulas of the entries of A, legs in the order of the design.
+    /// Formulas of the entries of A, with legs in the order of the design.
     #[serde(rename = "A")]
     pub matrix: [[String; 6]; 6],
     /// The formula of det A.
     #[serde(rename = "det")]
     pub determinant: String,
-    /// Equations for det A = 0, one a factor.
+    /// The equations of the factors of det A = 0.
     #[serde(rename = "det_zero")]
     pub zeros: Vec<String>,
 }
@@ -89,22 +89,22 @@ pub struct PatternRecord {
 /// One leg of a pattern.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternLegRecord {
-    /// Its base joint.
+    /// The base joint of the leg.
     pub base: String,
-    /// Its platform joint.
+    /// The platform joint of the leg.
     pub platform: String,
-    /// Where it stands.
+    /// The place of the leg on the hexagon.
     #[serde(flatten)]
     pub place: PatternPlace,
 }
 
-/// Where a leg of a pattern stands on the hexagon.
+/// The place of a leg on the hexagon.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum PatternPlace {
-    /// Kept.
+    /// At a vertex: the leg is kept.
     Vertex {},
-    /// Moved along an edge.
+    /// On a side: the leg is moved along an edge.
     Inner {
         /// The side, from 1.
         side: usize,
@@ -120,7 +120,7 @@ pub enum PatternPlace {
 pub struct SharedJointRecord {
     /// The body it is on.
     pub body: Body,
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
     /// The legs, from 1.
     pub legs: Vec<usize>,
@@ -170,7 +170,7 @@ impl PatternRecord {
 /// A way in which the legs of equivalent platforms share joints.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyTopologyRecord {
-    /// Its number, from 1.
+    /// The number of the topology, from 1.
     pub topology: usize,
     /// Joints of the base.
     pub base_joints: usize,
@@ -178,9 +178,9 @@ pub struct FamilyTopologyRecord {
     pub platform_joints: usize,
     /// Joints that hold more than one leg.
     pub shared_joints: usize,
-    /// It is reached by offsets introduced one at a time.
+    /// Whether offsets introduced one at a time lead to it.
     pub sequential: bool,
-    /// A pattern that has it.
+    /// The name of a pattern with this topology.
     pub example: String,
     /// Topologies one offset further, from 1.
     pub next: Vec<usize>,
@@ -205,7 +205,7 @@ impl From<(usize, &synthesis::FamilyTopology)> for FamilyTopologyRecord {
 pub struct InstanceRecord {
     /// The pattern.
     pub pattern: String,
-    /// The offsets, fractions of the edges.
+    /// The offsets as fractions of the edges.
     pub offsets: Vec<Number>,
     /// Rows of A: s' = A s + c of squared leg lengths.
     #[serde(rename = "A")]
@@ -213,7 +213,7 @@ pub struct InstanceRecord {
     /// The constant terms, design units squared.
     #[serde(rename = "c")]
     pub constants: [Number; 6],
-    /// det A.
+    /// The determinant of A.
     #[serde(rename = "det")]
     pub determinant: Number,
     /// Joints of the base.

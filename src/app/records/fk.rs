@@ -27,16 +27,16 @@ use platform::manipulator::{Manipulator, height_above_base};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkAnswer {
-    /// The lengths come from a CSV file: one record a row.
+    /// The answers for a CSV file of lengths, one for each row.
     Rows(FkRowsAnswer),
-    /// One set of lengths.
+    /// The answer for one set of lengths.
     One(Box<FkOneAnswer>),
 }
 
 /// The poses with the lengths of each row of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowsAnswer {
-    /// In the order of the file.
+    /// The rows in the order of the file.
     pub rows: Vec<FkRowRecord>,
 }
 
@@ -45,62 +45,62 @@ pub struct FkRowsAnswer {
 pub struct FkRowRecord {
     /// The line of the CSV file, from 1.
     pub line: usize,
-    /// The time of the row, where the file has a column of times.
+    /// The time of the row, if the file has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// The six lengths, design units; those of the rods where angles of cranks were given.
+    /// The six lengths, design units; for given crank angles, the rod lengths.
     pub lengths: [f64; 6],
-    /// The angles of the cranks, where these were given.
+    /// The crank angles in degrees, if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
-    /// The poses, or why there are none.
+    /// The poses, or the reason why there are none.
     #[serde(flatten)]
     pub outcome: FkRowOutcome,
 }
 
-/// What came of a row.
+/// The outcome of a row.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkRowOutcome {
-    /// It was solved.
+    /// The row was solved.
     Solved(Box<FkOneAnswer>),
-    /// It could not be solved.
+    /// The row could not be solved.
     Failed(RowFailure),
 }
 
-/// Why a row has no poses.
+/// The reason why a row has no poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowFailure {
-    /// The failure, as the command would have reported it for this row alone.
+    /// The failure, as the command reports it for this row alone.
     pub error: FailureRecord,
 }
 
-/// The poses with one set of lengths, and what was asked for besides.
+/// The poses with one set of lengths, and further results on request.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
-    /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as
-    /// doubles, to the platform, and certificates hold for these tips.
+    /// The crank angles in degrees, if given. The legs are then the rods from the crank tips, rounded to doubles, and
+    /// certificates hold for these tips.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
-    /// Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    /// Whether all given angles are within their limits, ends included; null: no angles, or no limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub within_limits: Option<bool>,
-    /// The legs whose cranks are beyond their limits at these angles, from 1.
+    /// Legs with cranks beyond their limits at these angles, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
-    /// Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally long: how
-    /// many finite poses the exactly symmetric platform has, by a theorem. Further poses of the tips as doubles are so
-    /// far out that their rounding decides whether there are any.
+    /// Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and platform
+    /// joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the tips alone decides on
+    /// further poses, which are far away.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
-    /// How the pose was followed, with `--near`.
+    /// The tracking of the pose, with `--near`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
-    /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no
-    /// certificate is given of a root.
+    /// The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root gets a
+    /// certificate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
     /// The exact closure polynomial, with `--method trilateration`.
@@ -128,7 +128,7 @@ impl From<SolvedRecord> for FkOneAnswer {
 }
 
 impl FkOneAnswer {
-    /// With the angles of cranks that were given, in radians and in degrees, and the limits that they violate.
+    /// Adds the given crank angles, in radians and in degrees, and the violated limits.
     #[must_use]
     pub fn with_angles(self, platform: &RotaryPlatform, angles: &[f64; 6], degrees: [f64; 6]) -> Self {
         let outside = platform.beyond_limits(angles);
@@ -143,43 +143,43 @@ impl FkOneAnswer {
 pub struct SolvedRecord {
     /// The method that found them.
     pub method: Method,
-    /// Whether these are known to be all.
+    /// The level of completeness of the list.
     pub completeness: CompletenessWord,
-    /// One sentence on what is known.
+    /// The evidence for completeness in one sentence.
     pub completeness_reason: String,
-    /// The numbers of the proof that all poses up to a distance are listed, where it is one.
+    /// The numbers of the proof that the list holds all poses up to a distance; null: another proof, or none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounded: Option<BoundedProof>,
-    /// False: roots may be missing.
+    /// Whether every path is accounted for; false: roots may be missing.
     pub all_paths_accounted: bool,
-    /// The number of `solutions`.
+    /// Number of `solutions`.
     pub finite_count: usize,
-    /// The same, each pose counted as often as it stands for.
+    /// Number of `solutions`, counted with multiplicity.
     pub finite_count_with_multiplicity: u32,
-    /// Real poses among them.
+    /// Number of real poses.
     pub real_count: usize,
-    /// Poses of which it is not decided whether they are real.
+    /// Number of poses that may be real or not.
     pub undecided_count: usize,
-    /// Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    /// Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
     pub missing_count: Option<usize>,
-    /// The number of poses, by theorem or counted without finding them; null: not known.
+    /// The number of poses by theorem, or counted without finding them; null: not known.
     pub pose_count: Option<PoseCountRecord>,
-    /// Real ones first.
+    /// The poses, real ones first.
     pub solutions: Vec<SolutionRecord>,
     /// Whether the poses are isolated.
     #[serde(flatten)]
     pub solution_set: SolutionSetRecord,
     /// The paths of the homotopy.
     pub paths: Vec<PathReport>,
-    /// Candidates that are no roots.
+    /// Rejected candidates that are no roots.
     pub rejected: Vec<Rejected>,
-    /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the
+    /// Path ends without a certificate: there may be one pose, several or none near each. They are not among the
     /// solutions.
     pub unproved: Vec<SolutionRecord>,
-    /// What libraries of linear algebra computed for `--method template`.
+    /// The computations of the linear algebra libraries for `--method template`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub library_calls: Vec<LibraryCalls>,
-    /// What null stands for, where a number is not finite.
+    /// The meaning of null for each number that is not finite.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -217,7 +217,7 @@ impl From<&FkSolutions> for SolvedRecord {
 }
 
 impl SolvedRecord {
-    /// Adds to the real poses what they are in real numbers, and how they stand to home.
+    /// Adds to the real poses their representation in real numbers and their relation to home.
     #[must_use]
     pub fn with_real_poses(mut self, m: &Manipulator, home: &Pose) -> Self {
         let of_home = height_above_base(m, home);
@@ -225,7 +225,7 @@ impl SolvedRecord {
         for solution in self.solutions.iter_mut().filter(|s| s.real == Some(true)) {
             let pose = ComplexPose::from(&solution.pose).real_part();
             let height = height_above_base(m, &pose);
-            // in the plane of the base to rounding there are no sides
+            // the side is undefined for a centre in the plane of the base, to rounding
             let level = [height, of_home].iter().any(|h| !(h.abs() > 1e-12 * m.size()));
             let side = if height * of_home > 0.0 { SideWord::Above } else { SideWord::Below };
             solution.real_pose = Some(RealPoseRecord {
@@ -246,7 +246,7 @@ impl SolvedRecord {
         self
     }
 
-    /// Adds to the real poses on which side each crank is.
+    /// Adds to the real poses the side of each crank.
     #[must_use]
     pub fn with_elbows(mut self, platform: &RotaryPlatform, angles: &[f64; 6]) -> Self {
         for solution in &mut self.solutions {
@@ -265,24 +265,24 @@ impl SolvedRecord {
     }
 }
 
-/// What the finite poses form.
+/// The structure of the set of finite poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "solution_set", rename_all = "snake_case")]
 pub enum SolutionSetRecord {
-    /// Nothing speaks against isolated poses.
+    /// The poses are isolated, as far as known.
     Isolated {},
-    /// There is no finite pose, real or complex: proved.
+    /// Proved: there is no finite pose, real or complex.
     Empty {},
     /// Poses form curves or surfaces: self-motions.
     PositiveDimensional {
-        /// Counted modulo random primes; null: not counted.
+        /// The dimension, counted modulo random primes; null: not counted.
         dimension: Option<usize>,
-        /// What was seen numerically.
+        /// The dimension found numerically, a lower bound.
         dimension_at_least: usize,
-        /// Whether a relation between the legs proves it for the lengths as written; false where they satisfy the
-        /// relation within rounding only and have finitely many poses.
+        /// Whether a relation between the legs proves the dimension for the lengths as written. False: the lengths
+        /// satisfy it only within rounding, and have finitely many poses.
         dimension_established: bool,
-        /// Null: not established.
+        /// The degree of the set; null: not established.
         degree: Option<usize>,
         /// Points of a general section, and real points found by a search.
         witness_points: Vec<SolutionRecord>,
@@ -352,7 +352,7 @@ impl From<&ComplexPoseRecord> for ComplexPose {
     }
 }
 
-/// A real pose in real numbers.
+/// A real pose as real numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RealPoseRecord {
     /// Position of the platform origin, base frame, design units.
@@ -363,15 +363,15 @@ pub struct RealPoseRecord {
     pub rpy_deg: [f64; 3],
     /// Unit quaternion, scalar part first.
     pub quat_wxyz: [f64; 4],
-    /// On which side of the base the platform is; null: its centre is in the plane of the base, there or at home.
+    /// The side of the base on which the platform is; null: its centre is in the plane of the base, here or at home.
     pub mode: Option<SideWord>,
-    /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position over the
-    /// size of the design.
+    /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position divided by
+    /// the size of the design.
     pub distance_from_home: f64,
-    /// Whether none of the other real poses listed is nearer to home.
+    /// Whether this is the real pose nearest to home.
     pub nearest_home: bool,
-    /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine
-    /// gets to another side only through a pose with crank and rod in one plane with the axis.
+    /// Whether each crank is on the side (elbow) that the design names; null: no cranks. A crank changes its side only
+    /// through a singular pose, with crank, rod and axis in one plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elbow_kept: Option<[bool; 6]>,
 }
@@ -392,22 +392,22 @@ pub struct SolutionRecord {
     /// The pose.
     #[serde(flatten)]
     pub pose: ComplexPoseRecord,
-    /// Null: undecided.
+    /// Whether the pose is real; null: undecided.
     pub real: Option<bool>,
-    /// The pose in real numbers, where it is real.
+    /// The pose in real numbers; null: it is not real.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub real_pose: Option<RealPoseRecord>,
     /// Whether there is a certificate.
     pub certified: bool,
-    /// The proof; null where there is none.
+    /// The proof; null: there is none.
     pub certificate: Option<CertificateRecord>,
-    /// Paths, or roots of a polynomial, that end here.
+    /// Number of paths, or roots of a polynomial, that end here.
     pub multiplicity: u32,
-    /// Largest error of the leg equations over the squared size.
+    /// Largest error of the leg equations divided by the squared size.
     pub residual: Number,
-    /// Estimate of the condition number.
+    /// An estimate of the condition number.
     pub condition: Number,
-    /// (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
+    /// The dual quaternion (e, g): scalar part of e first, g = p e in design units, `max |e_k| = 1`.
     pub dual_quaternion: Option<ComplexRecord<[Number; 8]>>,
 }
 

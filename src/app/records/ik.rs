@@ -17,20 +17,20 @@ use platform::manipulator::{inverse_condition, jacobian};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum IkAnswer {
-    /// Several poses were given, or a table.
+    /// The answer for several poses, or for a table.
     Rows(IkRowsAnswer),
-    /// One pose.
+    /// The answer for one pose.
     One(Box<IkRecord>),
-    /// Several poses of a design whose legs are rods on cranks.
+    /// The answer for several poses of a design with rods on cranks.
     CrankRows(RotaryIkRowsAnswer),
-    /// One pose of such a design.
+    /// The answer for one pose of a design with rods on cranks.
     Cranks(Box<RotaryIkRecord>),
 }
 
 /// The lengths at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IkRowsAnswer {
-    /// In the order given.
+    /// The poses in the order given.
     pub rows: Vec<IkRecord>,
 }
 
@@ -39,79 +39,80 @@ pub struct IkRowsAnswer {
 pub struct IkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
-    /// The time of the row, where the table has a column of times.
+    /// The time of the row, if the table has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The lengths that the legs show, in leg order, design units: the distances of their joints, and the offsets of a
-    /// calibration; where joints are not ideal the distances alone.
+    /// The lengths that the legs show, in leg order, design units: joint distances plus the offsets of a calibration.
+    /// For joints that are not ideal, the joint distances alone.
     pub lengths: [f64; 6],
-    /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then
-    /// those of drives and real axes, and there are no margins.
+    /// The drive lengths, for joints that are not ideal. In this case `within_limits`, `outside`, `J` and the angles
+    /// refer to drives and real axes, and there are no margins.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveLengthsRecord>,
-    /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
+    /// Whether all lengths are within `leg_length`, ends included; null: the design limits none.
     pub within_limits: Option<bool>,
-    /// The legs that are too short or too long, from 1.
+    /// Legs that are too short or too long, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
-    /// How the joints stand at the ends of the legs.
+    /// The joint angles at the ends of the legs.
     pub joints: JointAnglesRecord,
-    /// Rows `[u, (R b) x u]` in leg order: speeds of the legs from the velocity of the platform origin and the angular
-    /// velocity in radians, base frame; null for a leg of length zero.
+    /// The Jacobian, rows `[u, (R b) x u]` in leg order, base frame. It gives leg speeds from the velocity of the
+    /// platform origin and the angular velocity in radians. Null: a leg of length zero.
     #[serde(rename = "J")]
     pub jacobian: [[Number; 6]; 6],
-    /// Smallest over largest singular value of the Jacobian with moments over the characteristic length of the design:
-    /// 1 at best, 0 at a singular pose.
+    /// Inverse condition number of the Jacobian, moments divided by the characteristic length of the design: 1 at best,
+    /// 0 at a singular pose.
     pub inverse_condition: Number,
-    /// What the flexures do to the platform when they bend, where the design has some.
+    /// The force and torque of bent flexures on the platform, if the design has flexures.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flexures: Option<FlexureRecord>,
-    /// How uncertain the pose is that the calibrated machine computes from its lengths here, where the design has
-    /// standard deviations of a calibration and joints are ideal.
+    /// Uncertainty of the pose that the calibrated machine computes here from its lengths. Present for ideal joints and
+    /// a design with standard deviations of a calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
 }
 
-/// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else
-/// the legs at home.
+/// Joint angles in leg order, measured from the joint axes: `base_axes` and `platform_axes` of the design, else the
+/// legs at home.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointAnglesRecord {
-    /// Angles between legs and the axes of their base joints.
+    /// Joint angles (cone angles) at the base: between each leg and its joint axis, degrees.
     pub base_swing_deg: [Number; 6],
-    /// Angles between legs and the axes of their platform joints.
+    /// Joint angles (cone angles) at the platform: between each leg and its joint axis, degrees.
     pub platform_swing_deg: [Number; 6],
-    /// Both angles of each universal joint at the base: `u = Rx(first) Ry(second) n` in the frame of the joint, with z
-    /// along its axis n and x across it.
+    /// Both angles of each universal joint at the base, degrees: `u = Rx(first) Ry(second) n` in the joint frame, with
+    /// z along its axis n and x across it.
     pub base_universal_deg: [[Number; 2]; 6],
-    /// The same at the platform, in its frame, for the direction from base to platform.
+    /// Both angles of each universal joint at the platform, degrees, in its frame, for the direction from base to
+    /// platform.
     pub platform_universal_deg: [[Number; 2]; 6],
 }
 
-/// The wrench of the flexures on the platform about its origin, base frame.
+/// The force and torque of the flexures on the platform about its origin, base frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct FlexureRecord {
-    /// Force units.
+    /// The force, force units.
     pub force: [Number; 3],
-    /// Force units times design units.
+    /// The torque, force units times design units.
     pub torque: [Number; 3],
 }
 
-/// By how much a kind of requirement is met at a pose.
+/// The margin of a kind of requirement at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoseMarginRecord {
-    /// The kind.
+    /// The kind of requirement.
     pub name: TermKind,
-    /// The least at this pose; a violation below 0; null: minus infinity.
+    /// The least margin at this pose, negative for a violation; null: minus infinity.
     pub margin: Number,
-    /// Of the margin.
+    /// The unit of the margin.
     pub unit: String,
-    /// Legs, joints, keep-out or load for which it is least.
+    /// The legs, joints, keep-out or load with the least margin.
     pub between: Vec<String>,
-    /// The legs among them, from 1.
+    /// The legs concerned, from 1.
     pub legs: Vec<usize>,
 }
 
@@ -129,7 +130,7 @@ impl JointAnglesRecord {
 }
 
 impl IkRecord {
-    /// What is known at a pose with these distances of joints; `terms` are the requirements of the design.
+    /// The record of a pose with these joint distances; `terms` are the requirements of the design.
     #[must_use]
     pub fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, distances: [f64; 6]) -> Self {
         let m = design.manipulator();
@@ -163,14 +164,14 @@ impl IkRecord {
         }
     }
 
-    /// With the covariance of the pose that the calibrated machine computes here.
+    /// Adds the covariance of the pose that the calibrated machine computes here.
     #[must_use]
     pub fn with_uncertainty(mut self, design: &Design, known: &MachineUncertainty, pose: &Pose) -> Self {
         self.uncertainty = PoseUncertaintyRecord::at(design, known, pose);
         self
     }
 
-    /// The same where joints are not ideal, with the legs at the pose.
+    /// Replaces the lengths and angles by those of joints that are not ideal, with the legs at the pose.
     #[must_use]
     pub fn with_drives(
         mut self,
@@ -191,7 +192,7 @@ impl IkRecord {
         self.jacobian = std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)])));
         let scaled = CoupledLegs::jacobian(states, design.characteristic_length());
         self.inverse_condition = Number(inverse_condition(&scaled));
-        // they bend about centres of ideal joints
+        // flexures bend about centres of ideal joints
         self.flexures = None;
         for (length, offset) in drives.lengths.iter_mut().zip(design.leg_offsets()) {
             *length += offset;

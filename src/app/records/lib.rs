@@ -1,15 +1,15 @@
-//! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the
-//! schemas describe.
+//! Every answer of the program as plain data: the content of `--json`, read by the page and other programs, and
+//! described by the schemas.
 //!
-//! An answer of a command is a type whose name ends in `Answer`. Its parts are values of the library, which write
-//! themselves (feature `serde` of their packages), or records: views that name joints, count legs from 1, or join
-//! several values. The same value is printed as text by the command, as JSON by [`Document`], and described by
-//! [`schema()`]: no field is written in two places. `.ci/generate` writes the tables of the documents and the records
-//! of Python from the schemas. Only what the program reads from its own folders is `Deserialize`.
+//! The type name of a command's answer ends in `Answer`. Its parts are library values that write themselves (feature
+//! `serde` of their packages), or records. A record is a view that names joints, counts legs from 1, or joins several
+//! values. Commands print the same value as text, and as JSON by [`Document`]. It is described by [`schema()`], so each
+//! field is defined once. The script `.ci/generate` makes the tables of the documents and the records of Python from
+//! the schemas. The only `Deserialize` types are those that the program reads from its own folders.
 //!
-//! Numbers that may be infinite or not a number are `null` in JSON: [`Number`]s, or doubles under [`num::nullable`].
-//! A truth that may be undecided is an `Option<bool>` and `null` where it is.
-//! Units stand in the names of fields (`angle_deg`) where they are not those of the design; legs are counted from 1.
+//! Numbers that may be infinite or not a number are `null` in JSON: [`Number`]s, or doubles under [`num::nullable`]. A
+//! truth value that may be undecided is an `Option<bool>`, `null` for undecided. Names of fields carry their unit
+//! (`angle_deg`) if it differs from the units of the design. Legs are counted from 1.
 
 #[cfg(feature = "lab")]
 mod bench;
@@ -107,22 +107,22 @@ pub use self::verify::*;
 pub use self::written::*;
 pub use num::Number;
 
-/// The version of the dialect: a later version of the program may add fields to every object, and words to lists of
-/// words, under the same one.
+/// The version of the answer format. Later versions of the program may add fields to objects and words to lists of
+/// words under the same version.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// One JSON document: an answer between what all answers have.
+/// One JSON document: an answer with the fields that all answers have.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Document<T> {
-    /// Always 1: the version of these definitions.
+    /// The version of the answer format, always 1.
     #[schemars(extend("const" = SCHEMA_VERSION))]
     pub schema_version: u32,
     /// The fields of the answer.
     #[serde(flatten)]
     pub answer: T,
-    /// What the answer was made from.
+    /// The program, seed and files behind the answer.
     pub provenance: ProvenanceRecord,
-    /// What was odd about the design files that were read.
+    /// Warnings about the design files read.
     pub warnings: Vec<WarningRecord>,
 }
 

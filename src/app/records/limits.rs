@@ -1,4 +1,4 @@
-//! Answers about how far the platform may move from a pose.
+//! Answers about the free travel of the platform from a pose.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,106 +15,106 @@ use platform::geom::Pose;
 pub struct LimitsAnswer {
     /// The pose of `--at`.
     pub pose: PoseQuaternionRecord,
-    /// Every requirement is met there, and det J has the sign that it has at home.
+    /// Whether every requirement is met at the pose, and det J has the sign that it has at home.
     pub allowed: bool,
-    /// What is violated there, the worst first.
+    /// The requirements violated at the pose, the worst first.
     pub violated: Vec<LimitRecord>,
-    /// x, y, z, roll, pitch, yaw: how far each may move while the others stay; nothing where the pose is not allowed.
+    /// The free travel of x, y, z, roll, pitch and yaw, each while the others stay fixed; empty: the pose is not
+    /// allowed.
     pub axes: Vec<FreeRangeRecord>,
-    /// The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not allowed.
+    /// The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is not allowed.
     pub way: Option<StraightWayRecord>,
-    /// The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all that was
-    /// asked for is allowed, or no allowed pose was found.
+    /// The allowed pose nearest to the pose of `--to`, or nearest to the pose of `--at` if that is not allowed. Null:
+    /// every requested pose is allowed, or no allowed pose was found.
     pub nearest_allowed: Option<NearestAllowedRecord>,
-    /// How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
+    /// The size of the workspace around home; null: `--workspace` was not given, or home is not allowed.
     pub workspace: Option<WorkspaceSizeRecord>,
-    /// Of lengths.
+    /// The unit of lengths.
     pub length_unit: String,
 }
 
-/// How large the workspace is around home.
+/// The size of the workspace around home.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorkspaceSizeRecord {
-    /// Volume of the positions that straight ways from home at its orientation reach, design units cubed; an estimate
-    /// from the ways that were followed.
+    /// Volume of the positions reached by straight paths from home at its orientation, design units cubed; an estimate
+    /// from the paths that were followed.
     pub volume: f64,
-    /// The share by which the estimates from every second way and from the others differ.
+    /// The relative difference between the volume estimates from every second path and from the others.
     pub volume_doubt: f64,
-    /// Ways that were followed.
+    /// Number of paths followed.
     pub rays: usize,
-    /// What ends them, the most frequent first.
+    /// The limits that end the paths, the most frequent first.
     pub ends: Vec<RayEndRecord>,
-    /// Radius of the largest ball of positions around home, at the orientation of home, design units.
+    /// Radius of the largest free ball of positions around home, at the orientation of home, design units.
     pub ball_radius: FreeSizeRecord,
-    /// Half widths of the largest box of positions found around home, at the orientation of home, along the axes of the
-    /// base frame, design units: those proved to be free.
+    /// Half widths of the largest box of positions proved free around home, at its orientation, along the axes of the
+    /// base frame, design units.
     pub box_proved: [f64; 3],
-    /// The same: those in which no violation was found.
+    /// Half widths of the largest such box in which no violation was found, design units.
     pub box_searched: [f64; 3],
-    /// What is violated in a box that is larger by a little; null: nothing that was looked at.
+    /// The requirement violated in a slightly larger box; null: none was found.
     pub box_binds: Option<LimitRecord>,
-    /// Turns about x, y and z of the base frame through the platform origin, at home.
+    /// Rotations about x, y and z of the base frame through the platform origin, at home.
     pub turns: Vec<FreeTurnRecord>,
-    /// Largest angle up to which the platform may turn about every axis of the xy plane of the base at the position of
-    /// home, degrees.
+    /// Largest free angle of rotation about every axis in the xy plane of the base, at the position of home, degrees.
     pub tilt_deg: FreeSizeRecord,
-    /// Largest angle up to which it may turn about every axis there, degrees.
+    /// Largest free angle of rotation about every axis, at the position of home, degrees.
     pub turn_deg: FreeSizeRecord,
-    /// The region that the design asks for; null: none.
+    /// The workspace that the design requires; null: none.
     pub required: Option<RequiredSizeRecord>,
 }
 
-/// What ends ways.
+/// A limit that ends paths.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RayEndRecord {
-    /// The kind of requirement; null: a singular pose, or nothing within ten sizes.
+    /// The kind of requirement; null: a singular pose, or no limit within ten sizes of the design.
     pub name: Option<TermKind>,
-    /// The same in a word.
+    /// The limit in a word.
     pub end: String,
-    /// The share of the ways, which is one of solid angle.
+    /// The share of the paths that it ends, a share of solid angle.
     pub share: f64,
 }
 
-/// Up to which size a region around home is free.
+/// The largest free size of a region around home.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeSizeRecord {
-    /// Proved: all poses of the region of this size meet all requirements that depend on the pose, and none is
-    /// singular; 0: nothing is proved.
+    /// The largest size for which every pose is proved to be regular and to meet all requirements on poses; 0: nothing
+    /// is proved.
     pub proved: f64,
-    /// No violation was found in regions up to this size.
+    /// The largest size for which no violation was found.
     pub searched: f64,
-    /// What is violated in a region that is larger by a little; null: nothing that was looked at.
+    /// The requirement violated in a slightly larger region; null: none was found.
     pub binds: Option<LimitRecord>,
 }
 
-/// How far the platform may turn about an axis.
+/// The free rotation of the platform about an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeTurnRecord {
-    /// `x`, `y` or `z` of the base frame.
+    /// The axis `x`, `y` or `z` of the base frame.
     pub axis: String,
-    /// Against the axis, degrees, positive.
+    /// The free angle in the negative sense, degrees, given as a positive number.
     pub back_deg: f64,
-    /// What binds there; null: nothing within half a turn.
+    /// The requirement that ends it; null: none within half a turn.
     pub back_binds: Option<LimitRecord>,
-    /// About the axis, degrees.
+    /// The free angle in the positive sense, degrees.
     pub forth_deg: f64,
-    /// What binds there; null: nothing within half a turn.
+    /// The requirement that ends it; null: none within half a turn.
     pub forth_binds: Option<LimitRecord>,
 }
 
-/// The region that a design asks for.
+/// The workspace that a design requires.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RequiredSizeRecord {
-    /// Of its translations, design units cubed.
+    /// Volume of its translations, design units cubed.
     pub volume: f64,
-    /// The same over the volume that straight ways reach at the orientation of home.
+    /// The volume of its translations divided by the volume that straight paths reach at the orientation of home.
     pub share: Number,
-    /// The factor by which its translations and rotations together may be multiplied; 1 and more: the region is free.
+    /// The factor by which its translations and rotations together can grow; 1 or more: the whole region is free.
     pub factor: FreeSizeRecord,
 }
 
 impl WorkspaceSizeRecord {
-    /// The record of what was found.
+    /// The record of a computed workspace size.
     #[must_use]
     pub fn new(design: &Design, found: &WorkspaceSize) -> Self {
         let limit = |l: &(Limit, f64)| LimitRecord::new(design, l.0, l.1);
@@ -170,79 +170,79 @@ impl WorkspaceSizeRecord {
     }
 }
 
-/// A requirement that binds or is violated.
+/// A requirement that is active or violated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LimitRecord {
     /// The kind; null: a singular pose, where det J vanishes.
     pub name: Option<TermKind>,
-    /// By how much it is met, a violation below 0; of a singular pose det J over that at home.
+    /// The margin, negative for a violation; for a singular pose det J divided by its value at home.
     pub margin: Number,
-    /// Of the margin; null: a share.
+    /// The unit of the margin; null: a pure ratio.
     pub unit: Option<String>,
-    /// Legs, joints, keep-out or load.
+    /// The legs, joints, keep-out or load concerned.
     pub between: Vec<String>,
-    /// The legs among them, from 1.
+    /// The legs concerned, from 1.
     pub legs: Vec<usize>,
 }
 
-/// How far one of the six numbers of a pose may move.
+/// The free travel of one of the six numbers of a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeRangeRecord {
-    /// Which number, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    /// The coordinate, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
     pub axis: PoseAxis,
-    /// `deg`, or the unit of length.
+    /// The unit: `deg`, or the unit of length.
     pub unit: String,
-    /// At the pose.
+    /// The value at the pose.
     pub value: f64,
-    /// Towards smaller values.
+    /// The travel towards smaller values.
     pub back: TravelRecord,
-    /// Towards greater ones.
+    /// The travel towards greater values.
     pub forth: TravelRecord,
 }
 
-/// A free way and its end.
+/// A free travel and its end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TravelRecord {
-    /// How far, not negative.
+    /// The length of the travel, not negative.
     pub free: f64,
     /// The value at the end.
     pub value: f64,
-    /// What is violated beyond; null: nothing within half a turn, or ten sizes of the design.
+    /// The requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
     pub binds: Option<LimitRecord>,
 }
 
-/// The straight way to another pose: the platform origin moves on a line while the platform turns about one axis.
+/// The straight path to another pose: the platform origin moves on a line while the platform rotates about one axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StraightWayRecord {
-    /// Where it ends.
+    /// The end of the path.
     pub to: PoseQuaternionRecord,
-    /// The share of it that is free from its beginning, 1: all.
+    /// The free share of the path from its beginning; 1: the whole path.
     pub free: f64,
-    /// Where that share ends.
+    /// The pose at the end of the free share.
     pub pose: PoseQuaternionRecord,
-    /// What is violated beyond; null: nothing.
+    /// The requirement violated beyond this pose; null: none.
     pub binds: Option<LimitRecord>,
 }
 
-/// An allowed pose near one that is not.
+/// The allowed pose found near a pose that is not allowed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestAllowedRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// Its position, design units.
+    /// The position, base frame, design units.
     pub position: [f64; 3],
-    /// Its roll, pitch and yaw.
+    /// Roll, pitch and yaw, degrees.
     pub rpy_deg: [f64; 3],
-    /// Distance from the pose asked for, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
+    /// Distance from the requested pose, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     pub distance: f64,
-    /// The `L` of the distance, design units a radian.
+    /// The `L` of the distance, design units per radian.
     pub characteristic_length: f64,
-    /// What keeps it from being nearer.
+    /// The active requirements that keep the pose from being nearer.
     pub binds: Vec<LimitRecord>,
-    /// Whether no small step leads nearer, as far as margins are smooth: then it is locally nearest. False: the search
-    /// ended before that was so.
+    /// Whether no small step leads nearer, as far as margins are smooth: the pose is then locally nearest. False: the
+    /// search ended early.
     pub stationary: bool,
-    /// Whether the straight way from home to it violates nothing.
+    /// Whether the straight path from home to the pose violates nothing.
     pub straight_from_home: bool,
 }
 
@@ -264,14 +264,14 @@ impl LimitRecord {
         }
     }
 
-    /// With the margin it has at a pose.
+    /// The record of a limit with its margin at a pose.
     fn at(design: &Design, reach: &Reach<'_>, limit: Limit, pose: &Pose) -> Self {
         let margins = reach.margins(pose);
         let margin = margins.iter().find(|(l, _)| *l == limit).map_or(f64::NAN, |(_, margin)| *margin);
         Self::new(design, limit, margin)
     }
 
-    /// Its code: that of the requirement, or `singularity`.
+    /// The code of the requirement, or `singularity`.
     #[must_use]
     pub fn code(&self) -> &'static str {
         self.name.map_or("singularity", TermKind::code)
@@ -279,7 +279,7 @@ impl LimitRecord {
 }
 
 impl FreeRangeRecord {
-    /// What was found of an axis from a pose.
+    /// The record of the free travel along an axis from a pose.
     #[must_use]
     pub fn new(design: &Design, reach: &Reach<'_>, pose: &Pose, found: &FreeRange) -> Self {
         let angles = pose.angles().degrees();
@@ -308,7 +308,7 @@ impl FreeRangeRecord {
 }
 
 impl StraightWayRecord {
-    /// What was found of the straight way between two poses.
+    /// The record of the straight path between two poses.
     #[must_use]
     pub fn new(design: &Design, reach: &Reach<'_>, from: &Pose, to: &Pose) -> Self {
         let found = reach.along(&StraightWay::between(from, to), 1.0);
@@ -322,7 +322,7 @@ impl StraightWayRecord {
 }
 
 impl NearestAllowedRecord {
-    /// What was found near a pose.
+    /// The record of the nearest allowed pose.
     #[must_use]
     pub fn new(design: &Design, reach: &Reach<'_>, found: &NearestPose) -> Self {
         let limit = |l: &Limit| LimitRecord::at(design, reach, *l, &found.pose);

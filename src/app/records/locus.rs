@@ -11,45 +11,45 @@ use fk::{Method, Reality};
 /// The answer of `plot locus`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusAnswer {
-    /// The leg that varies, from 1.
+    /// The leg with variable length, from 1.
     pub leg: usize,
     /// Base joint and platform joint of the virtual leg.
     pub between: [String; 2],
-    /// One for each length.
+    /// The values at each length.
     pub rows: Vec<LocusRowRecord>,
-    /// Where two real values meet, about.
+    /// The approximate lengths at which two real values meet.
     pub meetings: Vec<LocusMeeting>,
 }
 
-/// What was found at one length.
+/// The values at one length.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusRowRecord {
-    /// Its number, from 0.
+    /// The number of the step, from 0.
     pub step: usize,
-    /// The length of the leg that varies.
+    /// The length of the variable leg, design units.
     pub length: Number,
-    /// What the poses form; `failed` where they could not be computed.
+    /// The structure of the set of poses; `failed`: it could not be computed.
     pub status: LocusWord,
-    /// False: poses may be missing.
+    /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,
     /// The method that found them.
     pub method: Option<Method>,
-    /// One for each pose.
+    /// The values, one for each pose.
     pub values: Vec<LocusValueRecord>,
 }
 
-/// The squared length of the virtual leg at one pose.
+/// The squared length of the virtual leg at one pose, design units squared.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LocusValueRecord {
-    /// Its real part.
+    /// The real part.
     pub re: Number,
-    /// Its imaginary part.
+    /// The imaginary part.
     pub im: Number,
     /// Whether the pose is real; null: undecided.
     pub real: Option<bool>,
     /// Whether the pose has a certificate.
     pub certified: bool,
-    /// Paths, or roots of a polynomial, that end at the pose.
+    /// Number of paths, or roots of a polynomial, that end at the pose.
     pub multiplicity: u32,
 }
 

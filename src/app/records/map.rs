@@ -15,12 +15,12 @@ pub struct MapAnswer {
     /// The map.
     #[serde(flatten)]
     pub map: MapRecord,
-    /// Which leg is which.
+    /// The correspondence of the legs of both designs.
     pub correspondence: CorrespondenceRecord,
     /// Leg lengths taken from one design to the other, with `--lengths`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lengths: Option<MappedLengthsRecord>,
-    /// What was done with the frames of the second design.
+    /// The changes of frames of the second design.
     #[serde(flatten)]
     pub frames: FramesRecord,
 }
@@ -28,24 +28,24 @@ pub struct MapAnswer {
 /// Lengths of the legs of both designs at the same poses, as the legs show them, design units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MappedLengthsRecord {
-    /// Of FROM, as given.
+    /// The given lengths of FROM.
     pub from: [Number; 6],
-    /// Of TO; null: there are none.
+    /// The lengths of TO; null: there are none.
     pub to: Option<[Number; 6]>,
-    /// Why there are none: no regular map, or a squared length that is not positive.
+    /// The reason why there are none: no regular map, or a squared length that is not positive.
     pub why_not: Option<String>,
 }
 
 /// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapRecord {
-    /// What the designs have to do with each other; null: undecided, exit 3.
+    /// The relation of the two designs; null: undecided, exit 3.
     pub relation: Option<Relation>,
-    /// What the relation is proved about; within rounding: nothing is proved.
+    /// The level of the proof; within rounding: nothing is proved.
     pub level: Level,
-    /// It holds within rounding of the joints, or exactly.
+    /// Whether the relation holds exactly, or within rounding of the joints.
     pub holds_within_rounding: bool,
-    /// One sentence with the numbers that decided.
+    /// The relation in one sentence, with the numbers that decided.
     pub explanation: String,
     /// Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
     #[serde(rename = "A")]
@@ -56,22 +56,21 @@ pub struct MapRecord {
     /// The determinant of A.
     #[serde(rename = "det")]
     pub determinant: Number,
-    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact arithmetic;
-    /// null elsewhere, and for numbers too long to be read.
+    /// The determinant as an exact number, such as 64/243. Null: the identity of leg vectors is not proved in exact
+    /// arithmetic, or the number is too long to read.
     pub det_exact: Option<String>,
-    /// Rows of A as exact numbers; null where `det_exact` is.
+    /// Rows of A as exact numbers; null if `det_exact` is null.
     #[serde(rename = "A_exact")]
     pub matrix_exact: Option<[[String; 6]; 6]>,
-    /// The constant terms as exact numbers; null where `det_exact` is.
+    /// The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     #[serde(rename = "c_exact")]
     pub constants_exact: Option<[String; 6]>,
-    /// For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the share t), the t
-    /// at which det A vanishes while the other legs stay, as an exact number; null for other legs and where there is
-    /// none; null as a whole where `det_exact` is.
+    /// The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t. Its row of A
+    /// has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs stay
+    /// fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
     pub singular_shares: Option<[Option<String>; 6]>,
-    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the other legs as
-    /// they stand: TO is singular where it is zero, and only there; null where there is no such leg, and where
-    /// `det_exact` is.
+    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other legs fixed. TO
+    /// is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is null.
     pub det_of_shares: Option<String>,
     /// The largest of the residuals.
     pub residual: Number,
@@ -83,18 +82,18 @@ pub struct MapRecord {
     pub singular_values: [Number; 6],
     /// Smallest over largest singular value of A.
     pub inverse_condition: Number,
-    /// What the numbers were compared with.
+    /// The thresholds of the decision.
     pub tolerances: MapTolerancesRecord,
 }
 
-/// Limits of the decision about a map.
+/// The thresholds of the decision about a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapTolerancesRecord {
-    /// Of `residual`.
+    /// The greatest `residual` of a map that holds.
     pub residual: f64,
-    /// Of the singular values, relative to the largest.
+    /// The threshold of the singular values, relative to the largest.
     pub rank: f64,
-    /// Of `inverse_condition`.
+    /// The least `inverse_condition` of a regular map.
     pub inverse_condition: f64,
 }
 
@@ -134,16 +133,16 @@ impl From<&LegMapOutcome> for MapRecord {
     }
 }
 
-/// Which leg of FROM each leg of TO is.
+/// The leg of FROM that corresponds to each leg of TO.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CorrespondenceRecord {
-    /// The leg of FROM, from 1; null: none of them.
+    /// The leg of FROM, from 1, for each leg of TO; null: none.
     pub legs: [Option<usize>; 6],
-    /// Its distance from the leg of TO, over the size.
+    /// The distance of the two legs divided by the size of the design.
     pub distances: [Number; 6],
-    /// Every leg of FROM is one leg of TO.
+    /// Whether every leg of FROM is one leg of TO.
     pub permutation: bool,
-    /// All distances are zero.
+    /// Whether all distances are zero.
     pub exact: bool,
 }
 
@@ -158,10 +157,10 @@ impl From<&LegCorrespondence> for CorrespondenceRecord {
     }
 }
 
-/// What `--exchange`, `--align` and `--output` did with the second design.
+/// The effect of `--exchange`, `--align` and `--output` on the second design.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FramesRecord {
-    /// Base and platform of the second design were exchanged first.
+    /// Whether base and platform of the second design were exchanged first.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exchanged: bool,
     /// The rigid motions that make the second design equivalent to the first, with `--align`.
@@ -175,48 +174,48 @@ pub struct FramesRecord {
 /// The rigid motions that make one design equivalent to another.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AlignmentRecord {
-    /// One sentence with the numbers that decided.
+    /// The result in one sentence, with the numbers that decided.
     pub explanation: String,
-    /// What was found.
+    /// The result of the search for motions.
     #[serde(flatten)]
     pub outcome: AlignmentOutcome,
-    /// The same with base and platform of the second design exchanged.
+    /// The result with base and platform of the second design exchanged.
     pub exchanged: OtherAlignmentRecord,
-    /// The same with the mirror image of the second design.
+    /// The result with the mirror image of the second design.
     pub mirrored: OtherAlignmentRecord,
 }
 
-/// What a search for rigid motions found.
+/// The result of a search for rigid motions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum AlignmentOutcome {
-    /// These motions.
+    /// There are such motions.
     Found {
-        /// Nearest to no motion first.
+        /// The motions, the smallest first.
         motions: Vec<MotionRecord>,
-        /// There are no others.
+        /// Whether the list of motions is complete.
         all: bool,
-        /// Dimension of the families the motions lie in.
+        /// Dimension of the families that contain the motions.
         freedom: usize,
     },
-    /// There is none.
+    /// There is no such motion.
     None {
-        /// The number that shows it.
+        /// The quantity in which the designs differ, which proves it.
         difference: Difference,
-        /// How near a motion comes.
+        /// The motion that comes nearest.
         nearest: Option<NearestMotion>,
     },
-    /// Not decided.
+    /// The search is undecided.
     Undecided {
-        /// Why not.
+        /// The reason.
         reason: AlignmentUndecided,
-        /// How near a motion comes.
+        /// The motion that comes nearest.
         nearest: Option<NearestMotion>,
     },
 }
 
 impl AlignmentRecord {
-    /// The record of an alignment, and of those of the second design taken otherwise.
+    /// The record of an alignment, and of the alignments with the exchanged and the mirrored second design.
     #[must_use]
     pub fn new(found: &Alignment, exchanged: &Alignment, mirrored: &Alignment) -> Self {
         Self {
@@ -249,15 +248,15 @@ impl From<&Alignment> for AlignmentOutcome {
 /// A pair of rigid motions of the second design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRecord {
-    /// Of its base.
+    /// The motion of its base.
     pub base: PoseRecord,
-    /// Of its platform.
+    /// The motion of its platform.
     pub platform: PoseRecord,
-    /// The residual of the map to the moved design.
+    /// The residual of the leg map to the moved design.
     pub residual: Number,
-    /// The determinant of that map.
+    /// The determinant of this map.
     pub det: Number,
-    /// What the moved design has to do with the first; null: undecided.
+    /// The relation of the moved design to the first; null: undecided.
     pub relation: Option<Relation>,
 }
 
@@ -273,12 +272,12 @@ impl From<&Motion> for MotionRecord {
     }
 }
 
-/// What was found for the second design taken otherwise.
+/// The result for the exchanged or mirrored second design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct OtherAlignmentRecord {
-    /// Whether there are motions.
+    /// Whether such motions exist.
     pub status: AlignmentWord,
-    /// How many.
+    /// Number of motions.
     pub motions: usize,
 }
 

@@ -14,19 +14,19 @@ use synthesis::singularity::SingularEvidence;
 pub struct MotionAnswer {
     /// The name of the design.
     pub name: String,
-    /// No requirement is violated at the instants looked at, and no pose of the motions is singular.
+    /// Whether every requirement is met at the sampled instants, and every pose of the motions is regular.
     pub met: bool,
-    /// Of lengths; speeds are in it per second, accelerations per second squared.
+    /// The unit of lengths; speeds are in this unit per second, accelerations per second squared.
     pub length_unit: String,
-    /// Of forces.
+    /// The unit of forces.
     pub force_unit: String,
-    /// What the file does not say and was taken instead, a sentence each.
+    /// Assumed values that the file does not state, one sentence each.
     pub assumptions: Vec<String>,
-    /// In the order asked for: the trajectory, sines, accelerations.
+    /// The motions in the order trajectory, sines, accelerations.
     pub motions: Vec<MotionRunRecord>,
-    /// How stiff the platform is at the pose of `--about`; null: it was not asked for.
+    /// The stiffness of the platform at the pose of `--about`; null: not requested.
     pub stiffness: Option<StiffnessRecord>,
-    /// The table of instants that was written; null: none.
+    /// The table of instants written; null: none.
     pub csv: Option<String>,
 }
 
@@ -35,30 +35,30 @@ pub struct MotionAnswer {
 pub struct StiffnessRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base frame;
-    /// force units, design units and radians.
+    /// The stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units and radians.
+    /// It maps a shift and a small rotation to force and torque.
     #[serde(rename = "K")]
     pub matrix: [[Number; 6]; 6],
     /// Least stiffness against a force through the platform origin, force units per design unit; 0 at a singular pose.
     pub linear: Number,
     /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
     pub angular: Number,
-    /// The natural motions, the slowest first; null: masses are not known, or no inertia is held against turns.
+    /// The natural motions, the slowest first; null: masses are unknown, or no inertia resists some rotation.
     pub natural: Option<Vec<NaturalMotionRecord>>,
 }
 
 /// A natural motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NaturalMotionRecord {
-    /// Its frequency.
+    /// The frequency, hertz.
     pub frequency_hz: Number,
-    /// Its shape: shift of the platform origin in design units and rotation vector in radians, base frame, for which
-    /// `v^T M v` is 1 in kilograms and design units.
+    /// The mode shape, base frame: shift of the platform origin in design units and rotation vector in radians. It is
+    /// normalised to `v^T M v = 1` in kilograms and design units.
     pub shape: [Number; 6],
 }
 
 impl StiffnessRecord {
-    /// What was found at a pose.
+    /// The record of the stiffness at a pose.
     #[must_use]
     pub fn new(found: &StiffnessReport) -> Self {
         let natural = found.natural.as_ref().map(|all| {
@@ -79,33 +79,33 @@ impl StiffnessRecord {
     }
 }
 
-/// The legs along a motion.
+/// The legs along one motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRunRecord {
-    /// The file of the trajectory, or the manoeuvre as it was asked for.
+    /// The file of the trajectory, or the manoeuvre as requested.
     pub motion: String,
-    /// Instants looked at.
+    /// Number of sampled instants.
     pub instants: usize,
-    /// From the first to the last of them.
+    /// Time from the first to the last instant, seconds.
     pub duration_s: f64,
-    /// As in the answer, of this motion.
+    /// Whether this motion meets every requirement at the sampled instants, and every pose is regular.
     pub met: bool,
-    /// By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
+    /// The legs in order; empty: a leg has no length at some instant, or the legs are rods on cranks.
     pub legs: Vec<LegMotionRecord>,
-    /// By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
+    /// The cranks in leg order, for legs that are rods on cranks; empty: a rod does not reach at some instant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<Vec<CrankMotionRecord>>,
-    /// The least margin of each kind of requirement, force and speed by this motion.
+    /// The least margin of each kind of requirement, with the forces and speeds of this motion.
     pub requirements: Vec<TimedMarginRecord>,
     /// Whether every pose of the motion is regular.
     pub regularity: MotionRegularity,
-    /// When the first singular pose is passed; null: none was found.
+    /// The time of the first singular pose, seconds; null: none was found.
     pub singular_at_s: Option<f64>,
-    /// That pose.
+    /// The first singular pose; null: none was found.
     pub singular_pose: Option<PoseQuaternionRecord>,
-    /// What shows that it is singular.
+    /// The evidence that it is singular.
     pub singular_evidence: Option<SingularEvidence>,
-    /// When a rod first does not reach from its crank to the platform, where one does not.
+    /// The time at which a rod first does not reach from its crank to the platform, seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unreached_at_s: Option<f64>,
 }
@@ -114,16 +114,16 @@ pub struct MotionRunRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionRegularity {
-    /// det J is proved to keep its sign on the whole motion, between the instants too.
+    /// Proved: det J keeps its sign on the whole motion, between the instants too.
     Proved,
-    /// No instant is singular, and det J of the rods has one sign at all instants.
+    /// Sampled: no instant is singular, and det J of the rods has one sign at all instants.
     Sampled,
     /// The motion passes a singular pose.
     Singular,
 }
 
 impl MotionRunRecord {
-    /// What was found along a motion.
+    /// The record of a motion.
     #[must_use]
     pub fn new(design: &Design, motion: String, found: &MotionReport) -> Self {
         let requirements: Vec<_> =
@@ -157,10 +157,10 @@ fn each<T>(found: &MotionReport, record: fn(usize, &LegExtremes) -> T) -> Vec<T>
     found.legs.iter().enumerate().map(|(i, leg)| record(i + 1, leg)).collect()
 }
 
-/// A margin with its time.
+/// A least margin with its time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TimedMarginRecord {
-    /// When the margin is least.
+    /// The time of the least margin, seconds.
     pub time_s: f64,
     /// The margin.
     pub margin: MarginRecord,
@@ -175,23 +175,24 @@ impl TimedMarginRecord {
 /// A leg along a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LegMotionRecord {
-    /// From 1.
+    /// The leg, from 1.
     pub leg: usize,
-    /// Least length.
+    /// The least length, design units.
     pub shortest: Extreme,
-    /// Greatest length.
+    /// The greatest length, design units.
     pub longest: Extreme,
-    /// Speed of the greatest size, positive where the leg becomes longer.
+    /// The speed of greatest size, design units per second; positive: the leg becomes longer.
     pub speed: Extreme,
-    /// Acceleration of the greatest size.
+    /// The acceleration of greatest size, design units per second squared.
     pub acceleration: Extreme,
-    /// Hardest push of the drive, 0 where it only pulls; null: no masses are known, or forces are not determined.
+    /// The greatest push of the drive, force units; 0: it only pulls. Null: no masses are known, or forces are not
+    /// determined.
     pub push: Option<Extreme>,
-    /// Hardest pull, negative, 0 where it only pushes.
+    /// The greatest pull of the drive, a negative force; 0: it only pushes.
     pub pull: Option<Extreme>,
-    /// Root of the mean square of the force over time, force units.
+    /// Root mean square of the force over time, force units.
     pub rms_force: Option<Number>,
-    /// Power of the greatest size, watts; negative where the drive brakes.
+    /// The power of greatest size, watts; negative: the drive brakes.
     pub power_w: Option<Extreme>,
 }
 
@@ -214,22 +215,22 @@ impl LegMotionRecord {
 /// A crank along a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankMotionRecord {
-    /// From 1.
+    /// The leg of the crank, from 1.
     pub leg: usize,
-    /// Least angle.
+    /// The least angle, degrees.
     pub least_deg: Extreme,
-    /// Greatest angle.
+    /// The greatest angle, degrees.
     pub greatest_deg: Extreme,
-    /// Speed of the greatest size, degrees per second.
+    /// The speed of greatest size, degrees per second.
     pub speed_deg: Extreme,
-    /// Acceleration of the greatest size, degrees per second squared.
+    /// The acceleration of greatest size, degrees per second squared.
     pub acceleration_deg: Extreme,
-    /// Torque of the greatest size about the axis, force units times design units; null: no masses are known, or
+    /// The torque of greatest size about the axis, force units times design units. Null: no masses are known, or
     /// torques are not determined. Cranks and rods count as massless.
     pub torque: Option<Extreme>,
-    /// Root of the mean square of the torque over time.
+    /// Root mean square of the torque over time, force units times design units.
     pub rms_torque: Option<Number>,
-    /// Power of the greatest size, watts; negative where the drive brakes.
+    /// The power of greatest size, watts; negative: the drive brakes.
     pub power_w: Option<Extreme>,
 }
 

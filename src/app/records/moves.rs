@@ -1,4 +1,5 @@
-//! Answers about legs that are moved without changing the platform, and about the search for equivalent platforms.
+//! Answers about legs that are moved while the kinematics of the platform stay the same, and about the search for
+//! equivalent platforms.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -16,39 +17,39 @@ use synthesis::relocate::search::{
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MoveAnswer {
-    /// With `--search`.
+    /// The answer with `--search`.
     Search(Box<MoveSearchAnswer>),
-    /// Of moves that were asked for.
+    /// The answer about the requested moves.
     Moves(Box<MovesAnswer>),
 }
 
-/// What moves of legs came to.
+/// The result of moving legs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MovesAnswer {
     /// The name of the design.
     pub name: String,
-    /// Of the last move; null: undecided, exit 3.
+    /// The relation after the last move; null: undecided, exit 3.
     pub outcome: Option<Relation>,
-    /// One after another, or all at once.
+    /// Whether the moves are made one after another or all at once.
     pub mode: MoveMode,
-    /// Moves made at once, one after another.
+    /// The steps in order; each holds the moves made at once.
     pub steps: Vec<MoveStepRecord>,
-    /// Moves that were not made, because one before them is not regular.
+    /// Number of moves left undone, because a move before them is not regular.
     pub moves_left_out: usize,
-    /// All new coordinates are exact.
+    /// Whether all new coordinates are exact.
     pub exact: bool,
-    /// The map from the design to the last one.
+    /// The leg map from the design to the last platform.
     #[serde(flatten)]
     pub map: MapRecord,
     /// Largest difference of A and c between this map and the composition of the steps.
     pub composition_difference: Number,
-    /// The new design; null: two legs have become one.
+    /// The new design; null: two legs coincide.
     pub design: Option<DesignRecord>,
     /// The file written.
     pub output: Option<String>,
 }
 
-/// How moves are made.
+/// The order of moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MoveMode {
@@ -58,12 +59,12 @@ pub enum MoveMode {
     Together,
 }
 
-/// Moves made at once.
+/// A step: moves made at once.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MoveStepRecord {
-    /// What the new platform has to do with the one before; null: undecided.
+    /// The relation of the new platform to the one before; null: undecided.
     pub outcome: Option<Relation>,
-    /// det A of the step.
+    /// det A of the leg map of the step.
     pub det: Number,
     /// The moves.
     pub moves: Vec<LegMoveRecord>,
@@ -81,33 +82,33 @@ pub struct LegMoveRecord {
     pub type_name: String,
     /// The joints that span the family.
     pub along: Option<String>,
-    /// Where on the family.
+    /// The parameters of the new leg in the family.
     pub parameters: Vec<Number>,
-    /// The same as it was written, such as 1/5.
+    /// The parameters as written on the command line, such as 1/5.
     pub parameters_written: Vec<String>,
     /// The leg before.
     pub from: LegEndsRecord,
     /// The leg after.
     pub to: LegEndsRecord,
-    /// Its row of A.
+    /// The row of A of this leg.
     pub coefficients: [Number; 6],
-    /// The coefficient of the leg replaced.
+    /// The coefficient of the replaced leg in this row.
     pub coefficient: Number,
-    /// What is left of its leg vector.
+    /// The residual of the leg vector after subtracting this combination.
     pub residual: Number,
-    /// The new coordinates are exact.
+    /// Whether the new coordinates are exact.
     pub exact: bool,
-    /// Values of the first parameter with det A = 0.
+    /// Values of the first parameter for which det A = 0.
     pub singular_parameters: SingularParametersRecord,
 }
 
-/// Values of the first parameter with det A = 0.
+/// Values of the first parameter for which det A = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SingularParametersRecord {
-    /// These.
+    /// Some values.
     At(Vec<Number>),
-    /// All of them.
+    /// All values.
     Everywhere(#[schemars(extend("const" = "everywhere"))] String),
 }
 
@@ -120,7 +121,7 @@ impl From<&SingularParameters> for SingularParametersRecord {
     }
 }
 
-/// What the search for an equivalent platform that fulfils wishes found.
+/// The result of the search for an equivalent platform with requested properties.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MoveSearchAnswer {
     /// The name of the design.
@@ -128,24 +129,24 @@ pub struct MoveSearchAnswer {
     /// Always `search`.
     #[schemars(extend("const" = "search"))]
     pub mode: String,
-    /// What came of it.
+    /// The outcome of the search.
     pub outcome: SearchWord,
-    /// Why it is impossible.
+    /// The reason why such a platform is impossible; null: there is none.
     #[schemars(extend("enum" = ["no_leg_at_hole", "partners_at_infinity", "not_by_those_legs", "shared_joints", "holes_together", null]))]
     pub reason: Option<String>,
-    /// One sentence.
+    /// The outcome in one sentence.
     pub explanation: String,
-    /// Patterns of six independent legs.
+    /// Number of patterns of six independent legs.
     pub patterns: usize,
-    /// Patterns looked at.
+    /// Number of patterns searched.
     pub patterns_searched: usize,
     /// The fewest shared joints of an equivalent platform; null: not known.
     pub least_shared_joints: Option<usize>,
-    /// All replaceable legs are known.
+    /// Whether all replaceable legs are known.
     pub complete: bool,
-    /// The wishes.
+    /// The requested properties.
     pub wishes: WishesRecord,
-    /// The holes that legs should end at.
+    /// The requested holes for ends of legs.
     pub holes: Vec<HoleRecord>,
     /// The platforms found, best first.
     pub designs: Vec<CandidateRecord>,
@@ -153,22 +154,22 @@ pub struct MoveSearchAnswer {
     pub paths: Vec<String>,
 }
 
-/// What an equivalent platform should fulfil.
+/// The requested properties of an equivalent platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct WishesRecord {
-    /// Fewest shared joints.
+    /// Whether the fewest shared joints are requested, at best none.
     pub no_shared_joints: bool,
-    /// Least distance of two joints.
+    /// Least distance of two joints, design units.
     pub spacing: Number,
-    /// Least distance of two legs; null: not wished.
+    /// Least clearance between two legs, design units; null: not requested.
     pub clearance: Option<Number>,
     /// Least inverse condition number.
     pub conditioning: Number,
-    /// Greatest distance of a joint from the others.
+    /// Greatest distance of a joint from the others, design units.
     pub reach: Number,
-    /// Poses at which legs are looked at.
+    /// Number of poses at which the legs are checked.
     pub poses: usize,
-    /// The length by which rotations are weighed.
+    /// The characteristic length, by which rotations are weighed, design units.
     pub characteristic_length: Number,
 }
 
@@ -186,24 +187,24 @@ impl From<&Wishes> for WishesRecord {
     }
 }
 
-/// A hole that a leg should end at.
+/// A hole requested for an end of a leg.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct HoleRecord {
-    /// The body it is in.
+    /// The body with the hole.
     pub body: Body,
-    /// Where, frame of the body.
+    /// The position, body frame, design units.
     pub point: [Number; 3],
-    /// Which legs of equivalent platforms end there.
+    /// The set of equivalent legs that end in the hole.
     pub answer: HoleWord,
-    /// The legs of the design that should, from 1; empty: any.
+    /// The legs requested for the hole, from 1; empty: any leg.
     pub legs: Vec<usize>,
-    /// Dimension of the flat of partners.
+    /// Dimension of the flat of possible opposite ends.
     pub dimension: Option<usize>,
-    /// 0: none, exactly.
+    /// Rank defect of the equations in exact arithmetic; 0: no leg ends there.
     pub exact_rank_defect: Option<usize>,
-    /// What decided.
+    /// The singular value that decided.
     pub singular_value: Number,
-    /// What it was compared with.
+    /// The threshold of the singular value.
     pub tolerance: Number,
 }
 
@@ -230,46 +231,46 @@ impl From<&search::JudgedHole> for HoleRecord {
 /// An equivalent platform.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CandidateRecord {
-    /// It fulfils every wish, and is proved to meet the requirements of the design.
+    /// Whether it has every requested property and is proved to meet the requirements of the design.
     pub fulfilled: bool,
-    /// It fulfils every wish.
+    /// Whether it has every requested property.
     pub wishes_fulfilled: bool,
-    /// What `assess` says of it; null: the design requires nothing, or the legs make no platform.
+    /// The result of `assess`; null: the design has no requirements, or the legs make no platform.
     pub assessment: Option<AssessAnswer>,
-    /// The least slack of a wish.
+    /// The least margin of a requested property.
     pub worst: Number,
-    /// Its shared joints.
+    /// Number of shared joints.
     pub shared_joints: usize,
-    /// By how much it fulfils the wishes.
+    /// The margins of the requested properties.
     pub margins: Vec<WishMargin>,
-    /// How its legs are made.
+    /// The origin of each leg.
     pub moves: Vec<PlacementRecord>,
-    /// The map to it.
+    /// The leg map to the platform.
     #[serde(flatten)]
     pub map: MapRecord,
     /// The platform as a design.
     pub design: Option<DesignRecord>,
 }
 
-/// How a leg of an equivalent platform is made.
+/// The origin of one leg of an equivalent platform.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlacementRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// The leg, family or hole it is taken from.
+    /// The leg, family or hole that it comes from.
     pub from: String,
-    /// Where on the family.
+    /// The parameters of the leg in the family.
     pub parameters: Vec<Number>,
-    /// The leg.
+    /// The ends of the leg.
     pub to: LegEndsRecord,
-    /// The coefficient of the leg it replaces.
+    /// The coefficient of the replaced leg.
     pub coefficient: Number,
-    /// What is left of its leg vector.
+    /// The residual of the leg vector after subtracting this combination.
     pub residual: Number,
 }
 
 impl MoveSearchAnswer {
-    /// The answer about a design; no file is written yet.
+    /// The answer about a design, before files are written.
     #[must_use]
     pub fn new(design: &Design, found: &MoveSearchReport) -> Self {
         let o = &found.outcome;
@@ -309,7 +310,7 @@ impl CandidateRecord {
             residual: Number(c.map.residuals[p.leg.get()]),
         };
         let judged = found.design.as_ref().zip(found.assessed.as_ref());
-        // the requirements are those of the given design, and so is the name
+        // the name and the requirements come from the given design
         let assessment = judged.map(|(design, a)| AssessAnswer {
             name: given.name.clone(),
             role: DesignRoleWord::Equivalent,

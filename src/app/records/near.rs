@@ -1,4 +1,4 @@
-//! How one pose was followed from a known one.
+//! The tracking of one pose from a known one.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -7,35 +7,35 @@ use super::{Number, PoseRecord, PoseUncertaintyRecord};
 use fk::{NearOutcome, NearWord};
 use platform::geom::Pose;
 
-/// The way from the start to the pose reached, with the numbers that prove it free of singularities.
+/// The path from the start to the pose reached, with the numbers that prove that it holds no singular pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearRecord {
-    /// What came of it.
+    /// The outcome of the tracking.
     pub outcome: NearWord,
-    /// Why it was lost.
+    /// The reason for losing the pose; null: it was not lost.
     pub reason: Option<String>,
     /// The pose at the beginning.
     pub start: PoseRecord,
     /// The pose at the end.
     pub reached: PoseRecord,
-    /// How far on the straight line of squared lengths; 1 at its end.
+    /// The fraction of the straight line of squared lengths that was covered; 1: all.
     pub fraction: f64,
-    /// Largest error of the leg equations over the squared size.
+    /// Largest error of the leg equations divided by the squared size.
     pub residual: Number,
-    /// Of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singularity.
+    /// Inverse condition number of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
-    /// Segments the line was divided into.
+    /// Number of segments of the line.
     pub segments: u32,
-    /// Newton steps in all.
+    /// Number of Newton steps in all.
     pub newton_steps: u32,
-    /// The largest Kantorovich number; below 1 every segment is free of singularities.
+    /// The largest Kantorovich number; below 1, no segment holds a singular pose.
     pub kantorovich: Number,
-    /// How far the centroid of the platform moved, design units.
+    /// Displacement of the platform centroid since the start, design units.
     pub distance: Number,
-    /// The angle the platform turned by.
+    /// Angle of rotation since the start, degrees.
     pub angle_deg: Number,
-    /// How uncertain the pose reached is, where the design has standard deviations of a calibration and joints are
-    /// ideal.
+    /// Uncertainty of the pose reached. Present for ideal joints and a design with standard deviations of a
+    /// calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
 }

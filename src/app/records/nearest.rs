@@ -14,51 +14,53 @@ use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 pub struct NearestAnswer {
     /// The name of the design.
     pub name: String,
-    /// One sentence with the numbers that decided.
+    /// The result in one sentence, with the numbers that decided.
     pub explanation: String,
-    /// How far a joint may lie outside its side, on its extension, in lengths of the side.
+    /// The greatest distance of a joint from its side along the extension, in lengths of the side.
     pub extension: f64,
-    /// Least `|det A|`.
+    /// Least `|det A|` allowed.
     pub min_abs_det: f64,
-    /// What was found; null: no way to lay the legs round a hexagon gives a regular platform within these limits.
+    /// The nearest octahedral platform; null: no order of the legs around the hexagon gives a regular platform within
+    /// these limits.
     pub nearest: Option<NearestRecord>,
     /// The files written.
     pub paths: Vec<String>,
 }
 
-/// The nearest octahedral platform with the error it would make.
+/// The nearest octahedral platform with the error of replacing the design by it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestRecord {
     /// The leg on side k of the hexagon, from 1.
     pub order: [usize; 6],
-    /// `t_k` of the leg on side k, 0 or 1 at a corner.
+    /// The offset `t_k` of the leg on side k; 0 or 1 at a corner.
     pub offsets: [Number; 6],
-    /// det A of the map from the octahedral platform to the platform beside the design.
+    /// det A of the leg map from the octahedral platform to the equivalent one near the design.
     pub det: Number,
-    /// How far the base end and the platform end of each leg have moved, design units.
+    /// Displacements of the base end and the platform end of each leg, design units.
     pub displacements: [[Number; 2]; 6],
-    /// The largest of them.
+    /// The largest displacement, design units.
     pub largest_displacement: Number,
-    /// The root of the mean of their squares, which is what was made small.
+    /// Root mean square of the displacements, the objective of the fit, design units.
     pub rms_displacement: Number,
-    /// The largest displacement over the size of the design.
+    /// The largest displacement divided by the size of the design.
     pub relative_displacement: Number,
-    /// The largest difference of leg lengths between the design and the platform beside it, over the poses of the
-    /// workspace.
+    /// The largest difference of leg lengths between the design and the equivalent platform near it, over the poses of
+    /// the workspace, design units.
     pub largest_length_deviation: Number,
-    /// The leg, from 1.
+    /// The leg with this difference, from 1.
     pub deviating_leg: usize,
-    /// The pose.
+    /// The pose with this difference.
     pub deviating_pose: PoseQuaternionRecord,
-    /// Poses looked at.
+    /// Number of poses sampled.
     pub poses: usize,
-    /// Whose workspace that is.
+    /// The source of the workspace.
     pub workspace_from: SourceWord,
-    /// Both fits have settled: this is a local minimum.
+    /// Whether both fits have converged to a local minimum.
     pub settled: bool,
-    /// Ways round the hexagon that came nearer but are no regular platform.
+    /// Number of nearer fits set aside because they give no regular platform.
     pub set_aside: usize,
-    /// The platform beside the design: every leg next to one of its legs, equivalent to the octahedral platform.
+    /// The platform near the design and equivalent to the octahedral platform; its legs are near the legs of the
+    /// design.
     pub beside: DesignRecord,
     /// The octahedral platform.
     pub octahedral: DesignRecord,
@@ -90,7 +92,7 @@ impl NearestRecord {
 }
 
 impl NearestAnswer {
-    /// What was found for a design.
+    /// The record of the fit to a design.
     #[must_use]
     pub fn new(design: &Design, options: &NearestOptions, near: Option<&NearestDesigns>) -> Self {
         let poses = design.workspace_or_default().sample(&design.home_or_default());
@@ -136,10 +138,10 @@ impl NearestAnswer {
     }
 }
 
-/// Displacements below this share of the size are rounding.
+/// Displacements below this share of the size count as rounding.
 const SAME: f64 = 1e-9;
 
-/// Six digits.
+/// A number with six digits.
 pub(super) fn short(x: f64) -> String {
     let digits = format!("{x:.5e}").parse::<f64>().unwrap_or(x);
     digits.to_string()

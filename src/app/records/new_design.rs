@@ -13,17 +13,17 @@ pub struct NewAnswer {
     pub name: String,
     /// The label of the length unit.
     pub units: String,
-    /// The design file, or where it was written.
+    /// The design file, or its path if it was written.
     #[serde(flatten)]
     pub file: PresetFile,
-    /// The pose the platform is built for.
+    /// The home pose of the platform.
     pub home: PoseRecord,
     /// The leg lengths at home, design units.
     pub lengths: [f64; 6],
-    /// Whether the leg lines are dependent at every pose, decided exactly for the joints as they are written.
+    /// Whether every pose is singular, decided exactly for the joints as written.
     pub architecturally_singular: bool,
-    /// What shows that the home pose is singular; null: it is regular.
+    /// The evidence that the home pose is singular; null: it is regular.
     pub singular_home: Option<SingularEvidence>,
-    /// What was guessed about the table, a sentence each.
+    /// Guesses about the meaning of the table, one sentence each.
     pub guesses: Vec<String>,
 }

@@ -27,19 +27,19 @@ impl<const N: usize, const M: usize> From<[[Complex64; N]; M]> for ComplexRecord
     }
 }
 
-/// The fields of a record that stand among those of another: all of them or none.
+/// The fields of a record among the fields of another one: all of them or none.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AllOrNone<T> {
-    /// There is one.
+    /// The record is present.
     All(T),
-    /// There is none.
+    /// The record is absent.
     #[schemars(extend("properties" = {}))]
     None {},
 }
 
 impl<T> AllOrNone<T> {
-    /// The record, where its fields are there.
+    /// The record, if present.
     #[must_use]
     pub fn as_option(&self) -> Option<&T> {
         match self {

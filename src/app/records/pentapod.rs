@@ -15,22 +15,21 @@ use synthesis::DecouplingLeg;
 pub struct PentapodAnswer {
     /// The name of the design.
     pub name: String,
-    /// How many legs it has: 5.
+    /// Number of legs: 5.
     pub legs: usize,
-    /// A joint is no fraction; the answer is about its nearest doubles.
+    /// Whether a joint is no fraction, so that the answer is about the nearest doubles.
     pub rounded_joints: bool,
-    /// The line that the legs hold; null where no body has all its joints on a line. The other freedom of the platform
-    /// is the turn about this line.
+    /// The line that the legs hold; the platform can still rotate about it. Null: no body has all its joints on a line.
     pub line: Option<HeldLineRecord>,
     /// Whether the legs are dependent at every pose; null: not decided.
     pub architecturally_singular: Option<bool>,
-    /// The sixth legs with which the platform is solved in steps.
+    /// Sixth legs that make the platform solvable in steps.
     pub sixth_legs: Vec<DecouplingLeg>,
-    /// The lengths that poses were asked for; null: none.
+    /// The lengths given, design units; null: none.
     pub lengths: Option<[f64; 5]>,
-    /// All poses of the line for them; null where none were asked for, or there is no answer.
+    /// All poses of the line for these lengths; null: no lengths were given, or there is no answer.
     pub poses: Option<LinePosesRecord>,
-    /// Why there are no poses although lengths are given.
+    /// The reason why there are no poses for the given lengths; null: there are poses.
     pub no_poses: Option<String>,
 }
 
@@ -39,13 +38,13 @@ pub struct PentapodAnswer {
 pub struct HeldLineRecord {
     /// The body.
     pub body: Body,
-    /// Where the joint of each leg is on the line, from that of leg 1, in units of `length`.
+    /// The positions of the leg joints along the line, measured from the joint of leg 1 in units of `length`.
     pub marks: [Number; 5],
-    /// From the joint of leg 1 to the one farthest from it, design units.
+    /// Distance from the joint of leg 1 to the farthest joint, design units.
     pub length: Number,
-    /// By which equation the line is found; null where the legs are dependent.
+    /// The type of equation that gives the line; null: the legs are dependent.
     pub class: Option<LineClass>,
-    /// Poses of the line, real and complex, for generic lengths; null where they were not counted.
+    /// Number of poses of the line, real and complex, for generic lengths; null: not counted.
     pub generic_poses: Option<usize>,
     /// The poses of the line that are singular.
     pub singular_poses: LineLocusRecord,
@@ -54,16 +53,17 @@ pub struct HeldLineRecord {
 /// The polynomial `F(p, v)` whose zeros are the singular poses of the line.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LineLocusRecord {
-    /// `architecturally singular`, `quadratic in all`, `linear in the position`, `linear in the direction`, or `cubic`.
+    /// The form of the polynomial: `architecturally singular`, `quadratic in all`, `linear in the position`,
+    /// `linear in the direction`, or `cubic`.
     pub family: &'static str,
-    /// Its degree.
+    /// The degree of the polynomial.
     pub degree: u8,
-    /// Its degree in the position.
+    /// The degree in the position.
     pub degree_in_position: u8,
-    /// Its degree in the direction.
+    /// The degree in the direction.
     pub degree_in_direction: u8,
-    /// Its terms. The position is that of the joint of leg 1 in the frame of the other body, and the direction is a
-    /// vector as long as `length`.
+    /// The terms of the polynomial. The position is the joint of leg 1 in the frame of the other body. The direction is
+    /// a vector of length `length`.
     pub terms: Vec<LineTermRecord>,
 }
 
@@ -79,11 +79,11 @@ pub struct LineTermRecord {
 /// All poses of a line for given lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinePosesRecord {
-    /// How many there are, real and complex, each as often as its multiplicity says: proved in exact arithmetic.
+    /// Number of poses, real and complex, counted with multiplicity: proved in exact arithmetic.
     pub counted: usize,
-    /// How many of them are real.
+    /// Number of real poses.
     pub real: usize,
-    /// The coefficients of the polynomial that gives them, as decimal text, the constant one first.
+    /// The coefficients of the polynomial for the poses, as decimal text, the constant first.
     pub coefficients: Vec<String>,
     /// The poses, the real ones first.
     pub poses: Vec<LinePoseRecord>,
@@ -92,17 +92,17 @@ pub struct LinePosesRecord {
 /// A pose of a line in the frame of the other body.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinePoseRecord {
-    /// The joint of leg 1, design units.
+    /// The joint of leg 1, frame of the other body, design units.
     pub position: ComplexRecord<[Number; 3]>,
-    /// The unit vector from the joint of leg 1 towards the one farthest from it.
+    /// The unit vector from the joint of leg 1 to the farthest joint, frame of the other body.
     pub direction: ComplexRecord<[Number; 3]>,
-    /// Whether it is real: decided exactly.
+    /// Whether the pose is real, decided exactly.
     pub real: bool,
-    /// How often it counts.
+    /// The multiplicity of the pose.
     pub multiplicity: usize,
-    /// No coordinate of the position is farther from the true one.
+    /// Greatest error of a coordinate of the position, design units.
     pub position_error: Number,
-    /// No coordinate of the direction is farther from the true one.
+    /// Greatest error of a coordinate of the direction.
     pub direction_error: Number,
 }
 

@@ -10,15 +10,15 @@ use num::poly::{EnclosedRoot, IntPoly, sturm_count_of_line};
 use platform::topology::JointIndex;
 use synthesis::singularity::{ExactPose, LocusCoefficients, LocusPolynomial, PoseFamily};
 
-/// How the coefficients of a polynomial are known.
+/// The representation of the coefficients of a polynomial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CoefficientsWord {
     /// Integers without a common factor.
     Integers,
-    /// Exact sums of square roots and cosines, the leading one 1.
+    /// Exact sums of square roots and cosines; the leading coefficient is 1.
     Expressions,
-    /// Between two doubles.
+    /// Enclosures between two doubles.
     Enclosed,
 }
 
@@ -27,44 +27,45 @@ pub enum CoefficientsWord {
 pub struct PolynomialRecord {
     /// The unknowns by their names.
     pub unknowns: Vec<String>,
-    /// The degree before factors without meaning are removed.
+    /// The degree before spurious factors are removed.
     pub degree_before: usize,
     /// The degree; null for the zero polynomial.
     pub degree: Option<usize>,
-    /// The factors that were removed.
+    /// The spurious factors removed.
     pub removed: Vec<RemovedFactorRecord>,
-    /// Different complex roots; null with several unknowns, and where that is not proved.
+    /// Number of distinct complex roots; null: several unknowns, or not proved.
     pub distinct_roots: Option<usize>,
-    /// How the coefficients are known.
+    /// The representation of the coefficients.
     pub coefficients_known: CoefficientsWord,
     /// The exponents of the unknowns in each term.
     pub exponents: Vec<Vec<usize>>,
-    /// The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    /// The exact coefficient of each term, integers as decimal text; for one unknown the constant comes first.
     pub coefficients: Vec<String>,
-    /// Bounds [low, high] of the coefficients, where they are not exact.
+    /// Bounds [low, high] of the coefficients; null: they are exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient_bounds: Option<Vec<[Number; 2]>>,
-    /// Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients are not exact.
+    /// Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients that are not
+    /// exact.
     pub real_roots_by_sturm: Option<usize>,
     /// Real roots as [low, high], rounded outwards.
     pub real_roots: Vec<[Number; 2]>,
-    /// How often each of them is a root.
+    /// The multiplicity of each real root.
     pub real_root_multiplicities: Vec<usize>,
 }
 
-/// A factor that belongs to the way to the polynomial, not to its meaning.
+/// A spurious factor: it comes from the derivation of the polynomial and has no meaning for the poses.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RemovedFactorRecord {
     /// The factor in the unknowns, or in words.
     pub factor: String,
-    /// Its degree.
+    /// The degree of the factor.
     pub degree: usize,
-    /// How often it was removed.
+    /// The number of times it was removed.
     pub times: usize,
 }
 
 impl PolynomialRecord {
-    /// A polynomial with integer coefficients in one unknown, with its real roots where these are known already.
+    /// A polynomial with integer coefficients in one unknown, with its real roots if they are already known.
     fn of_integers(unknown: String, p: &IntPoly, distinct: usize, roots: &[EnclosedRoot]) -> Self {
         Self {
             unknowns: vec![unknown],
@@ -171,11 +172,12 @@ impl PolynomialRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RotationPolynomialRecord {
-    /// There is one: c3 is z / w of the quaternion (w, x, y, z) of the platform's rotation, one root for each pose.
+    /// The polynomial exists. Its unknown c3 is z / w of the quaternion (w, x, y, z) of the platform's rotation, one
+    /// root for each pose.
     Polynomial(Box<PolynomialRecord>),
-    /// There is none.
+    /// There is no polynomial.
     None {
-        /// Why not.
+        /// The reason.
         error: String,
     },
 }
@@ -189,7 +191,7 @@ impl From<Result<RotationPolynomial, NoRotationPolynomial>> for RotationPolynomi
     }
 }
 
-/// The poses over which det J is a polynomial.
+/// The family of poses on which det J is a polynomial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseFamilyWord {
@@ -208,22 +210,22 @@ pub struct SingularLocusAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
-    /// The poses over which det J is a polynomial.
+    /// The family of poses on which det J is a polynomial.
     pub family: PoseFamilyWord,
-    /// The position of the pose given, as exact expressions.
+    /// The position of the given pose, as exact expressions, base frame.
     pub position: [String; 3],
-    /// A quaternion of its orientation, scalar part first, of any norm, as exact expressions.
+    /// A quaternion of the given orientation, scalar part first, of any norm, as exact expressions.
     pub quaternion: [String; 4],
-    /// The direction of the line, or the axis of the rotations, in the base frame; null for positions.
+    /// The direction of the line, or the axis of the rotations, base frame; null: a family of positions.
     pub direction: Option<[String; 3]>,
-    /// The square of the length of the axis: u is the tangent of half the angle over that length; null without an axis.
+    /// The squared length of the axis; u is the tangent of half the angle divided by this length. Null: no axis.
     pub axis_squared: Option<Number>,
-    /// det J up to a constant factor. The zero polynomial: every pose is singular.
+    /// det J up to a constant factor; the zero polynomial means that every pose is singular.
     pub polynomial: PolynomialRecord,
 }
 
 impl SingularLocusAnswer {
-    /// The answer for a design by its name, in its units.
+    /// The answer for a design, given by its name and units.
     #[must_use]
     pub fn new(
         [name, units]: [&str; 2],

@@ -10,18 +10,18 @@ use super::Number;
 pub use platform::geom::{PoseQuaternionRecord, PoseRecord};
 use platform::manipulator::LegIndex;
 
-/// Where a home pose or a workspace comes from.
+/// The source of a home pose or a workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SourceWord {
     /// The design.
     Design,
-    /// The design has none: the usual one of its size.
+    /// The usual one of the design's size, because the design has none.
     Default,
 }
 
 impl SourceWord {
-    /// The design where it has one.
+    /// [`SourceWord::Design`] if the design states it.
     #[must_use]
     pub fn given(by_design: bool) -> Self {
         if by_design { Self::Design } else { Self::Default }
@@ -37,7 +37,7 @@ impl SourceWord {
     }
 }
 
-/// Points by name, in an order of their own: the joints of a body.
+/// Points by name, in a fixed order: the joints of a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NamedPoints(pub Vec<(String, [Number; 3])>);
 
@@ -70,12 +70,12 @@ impl JsonSchema for NamedPoints {
     }
 }
 
-/// Numbers of legs as people count, from 1, for indices from 0.
+/// Numbers of legs from 1, for indices from 0.
 pub(super) fn leg_numbers(legs: &[usize]) -> Vec<usize> {
     legs.iter().map(|leg| leg + 1).collect()
 }
 
-/// The number of a leg as people count, from 1.
+/// The number of a leg, from 1.
 #[must_use]
 pub fn leg_number(leg: LegIndex) -> usize {
     leg.get() + 1

@@ -10,22 +10,22 @@ use ask::presets::{Preset, PresetClass};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PresetsAnswer {
-    /// All of them.
+    /// All presets.
     List {
-        /// By class and name.
+        /// The presets by class and name.
         presets: Vec<PresetRecord>,
     },
-    /// One.
+    /// One preset.
     One(PresetAnswer),
 }
 
-/// One preset, and its design file or where that was written.
+/// One preset, with its design file or the path of that file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetAnswer {
     /// The preset.
     #[serde(flatten)]
     pub preset: PresetRecord,
-    /// Its design file.
+    /// The design file of the preset.
     #[serde(flatten)]
     pub file: PresetFile,
 }
@@ -34,12 +34,12 @@ pub struct PresetAnswer {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PresetFile {
-    /// Given.
+    /// The file is part of the answer.
     Given {
         /// The design file.
         text: String,
     },
-    /// Written.
+    /// The file was written.
     Written {
         /// The file written.
         output: String,
@@ -49,17 +49,17 @@ pub enum PresetFile {
 /// A design of real hardware.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetRecord {
-    /// Its name as a preset.
+    /// The name of the preset.
     pub preset: String,
-    /// What it is for.
+    /// The purpose of the preset.
     pub class: PresetClass,
     /// The name of the design.
     pub name: String,
     /// The label of the length unit.
     pub units: String,
-    /// Where its numbers come from.
+    /// The source of its numbers.
     pub source: Option<String>,
-    /// What the design says of itself.
+    /// The description in the design file.
     pub description: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What an answer was made from.
+//! The program, seed and files behind an answer.
 
 use data_encoding::HEXLOWER;
 use schemars::JsonSchema;
@@ -7,26 +7,26 @@ use sha2::{Digest, Sha256};
 
 use ask::Design;
 
-/// What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a
-/// machine in it.
+/// The data needed to compute an answer again: the program, the seed and the files. It holds no time and no name of a
+/// machine.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ProvenanceRecord {
     /// The version of the program.
     pub version: String,
-    /// The seed that was handed to the computation; null where it takes none.
+    /// The seed of the computation; null: it takes none.
     pub seed: Option<u64>,
-    /// The designs, in the order in which they were given.
+    /// The designs in the order given.
     pub designs: Vec<DesignSourceRecord>,
-    /// Other texts that were read: tables of lengths or poses, fronts.
+    /// The other files read: tables of lengths or poses, fronts.
     pub files: Vec<FileSourceRecord>,
 }
 
-/// A design that an answer is about.
+/// A design of an answer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct DesignSourceRecord {
     /// The name of the design.
     pub name: String,
-    /// The file it was read from, as it was named; null: it was made in memory, and its text is what it would be saved
+    /// The file as named by the caller; null: the design was made in memory, and its text is the text it would be saved
     /// as.
     pub path: Option<String>,
     /// SHA-256 of the bytes of that file or text, hexadecimal.
@@ -34,7 +34,7 @@ pub struct DesignSourceRecord {
     pub sha256: String,
 }
 
-/// A file that is no design.
+/// A file other than a design.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FileSourceRecord {
     /// The file, as it was named.
@@ -44,8 +44,8 @@ pub struct FileSourceRecord {
     pub sha256: String,
 }
 
-/// A design in memory, by the text that it would be saved as: that of its file, where it was read from TOML and not
-/// changed.
+/// A design in memory, represented by the text it would be saved as. For an unchanged TOML file this is the text of the
+/// file.
 impl From<&Design> for DesignSourceRecord {
     fn from(design: &Design) -> Self {
         Self { name: design.name.clone(), path: None, sha256: sha256(design.text().as_bytes()) }
@@ -53,8 +53,8 @@ impl From<&Design> for DesignSourceRecord {
 }
 
 impl ProvenanceRecord {
-    /// That of an answer about designs in memory; `seed` is the one of the options it was computed with, `None` where
-    /// they have none.
+    /// The provenance of an answer about designs in memory; `seed` comes from the options of the computation, `None`
+    /// without a seed.
     #[must_use]
     pub fn of(designs: &[&Design], seed: Option<u64>) -> Self {
         let designs = designs.iter().copied().map(DesignSourceRecord::from).collect();
@@ -62,14 +62,14 @@ impl ProvenanceRecord {
     }
 }
 
-/// No seed and no files.
+/// The provenance without seed and files.
 impl Default for ProvenanceRecord {
     fn default() -> Self {
         Self { version: env!("CARGO_PKG_VERSION").into(), seed: None, designs: Vec::new(), files: Vec::new() }
     }
 }
 
-/// SHA-256 in hexadecimal digits.
+/// SHA-256 as hexadecimal digits.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
     HEXLOWER.encode(&Sha256::digest(bytes))

@@ -1,4 +1,4 @@
-//! What equivalent rearrangement of the legs can do for a topology, with its proof.
+//! The best equivalent rearrangement of the legs of a topology, with its proof.
 
 use std::collections::BTreeMap;
 
@@ -14,43 +14,43 @@ use synthesis::rearrangement::{
 /// One line of the table of rearrangements.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct RearrangementRecord {
-    /// T01 to T34.
+    /// The identifier of the topology, T01 to T34.
     pub id: String,
-    /// Numbers of base and platform joints.
+    /// The name of the topology: numbers of base and platform joints.
     pub name: String,
-    /// Whether the base joints lie in space or in a plane.
+    /// The arrangement of the base joints: in space or in a plane.
     #[schemars(extend("enum" = ["space", "plane"]))]
     pub base: String,
-    /// Whether the platform joints do.
+    /// The arrangement of the platform joints: in space or in a plane.
     #[schemars(extend("enum" = ["space", "plane"]))]
     pub platform: String,
     /// The argument that finds all families of replaceable legs.
     pub argument: ArgumentWord,
     /// The families of replaceable legs.
     pub families: Vec<FamilyRecord>,
-    /// Their names.
+    /// The names of the families.
     pub family_names: String,
     /// Dimensions of the summands of the span of the legs.
     pub summands: Vec<usize>,
-    /// Joints that hold more than one leg.
+    /// Number of joints that hold more than one leg.
     pub shared_joints: usize,
-    /// The same of the equivalent design that has fewest.
+    /// Number of shared joints of the equivalent design with the fewest.
     pub fewest_shared_joints: usize,
-    /// Leg ends in shared joints, less one a joint.
+    /// Number of leg ends in shared joints, minus one for each joint.
     pub merged_ends: usize,
-    /// The same of the equivalent design that has fewest.
+    /// The same number for the equivalent design with the fewest.
     pub fewest_merged_ends: usize,
-    /// Why there are not fewer.
+    /// The reasons why fewer are impossible.
     pub obstructions: Vec<Obstruction>,
-    /// The design is equivalent to an octahedral one.
+    /// Whether the design is equivalent to an octahedral one.
     pub octahedral: bool,
-    /// Why it is not.
+    /// The reason why it is not; null: it is.
     pub octahedral_reason: Option<String>,
-    /// An equivalent octahedral design.
+    /// An equivalent octahedral design; null: there is none.
     pub octahedral_design: Option<ExactDesignRecord>,
-    /// The design the line was computed for.
+    /// The design for which the line was computed.
     pub member: ExactDesignRecord,
-    /// The equivalent design with fewest shared joints.
+    /// The equivalent design with the fewest shared joints.
     pub fewest: ExactDesignRecord,
 }
 
@@ -106,25 +106,25 @@ impl From<&Rearrangement> for RearrangementRecord {
 /// A family of replaceable legs.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilyRecord {
-    /// Its kind.
+    /// The kind of the family.
     pub kind: PieceKind,
-    /// Dimension of its flat of the base.
+    /// Dimension of the flat of the base.
     pub base_dimension: usize,
-    /// Dimension of its flat of the platform.
+    /// Dimension of the flat of the platform.
     pub platform_dimension: usize,
-    /// Its dimension.
+    /// Dimension of the family.
     pub dimension: usize,
-    /// Rank of its legs.
+    /// Rank of its leg vectors.
     pub rank: usize,
-    /// All its legs have a joint in common.
+    /// Whether all its legs have a joint in common.
     pub common_joint: bool,
-    /// Points that span its flat of the base, homogeneous, fractions as text.
+    /// Points that span the flat of the base, homogeneous coordinates, fractions as text.
     pub base: Vec<[String; 4]>,
-    /// Points that span its flat of the platform.
+    /// Points that span the flat of the platform, homogeneous coordinates, fractions as text.
     pub platform: Vec<[String; 4]>,
-    /// Its parts.
+    /// The parts of the family.
     pub parts: Vec<usize>,
-    /// How many legs it can hold.
+    /// The greatest number of legs it can hold.
     pub weight: usize,
 }
 
@@ -151,7 +151,7 @@ impl From<&Piece> for FamilyRecord {
 pub struct ExactDesignRecord {
     /// Base joints: [x, y, z], fractions as text.
     pub base: BTreeMap<String, [String; 3]>,
-    /// Platform joints.
+    /// Platform joints: [x, y, z], fractions as text.
     pub platform: BTreeMap<String, [String; 3]>,
     /// Base joint and platform joint of each leg.
     pub legs: Vec<[String; 2]>,

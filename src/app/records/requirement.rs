@@ -1,4 +1,4 @@
-//! By how much requirements are met.
+//! Margins of requirements.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,29 +15,31 @@ use synthesis::singularity::{Regularity, RegularityWord};
 pub struct MarginRecord {
     /// The kind.
     pub name: TermKind,
-    /// Least over the poses looked at; a violation below 0.
+    /// The least margin over the sampled poses, negative for a violation.
     pub margin: Number,
-    /// What has to remain of the limit, in the unit of the margin; 0: no reserve is asked for.
+    /// The safety margin (reserve) that the design requires for this limit, in the unit of the margin; 0: none.
     pub reserve: Number,
-    /// The margin less the reserve.
+    /// The margin minus the safety margin.
     pub margin_with_reserve: Number,
-    /// The reserve is kept: proved in `assess` (null where it is not), at the poses looked at elsewhere.
+    /// Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at the sampled
+    /// poses.
     pub reserve_kept: Option<bool>,
-    /// Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked at elsewhere.
+    /// Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other answers it
+    /// holds at the sampled poses.
     pub met: Option<bool>,
-    /// Rounding does not tell the margin from 0.
+    /// Whether the margin is 0 to rounding.
     pub at_limit: bool,
-    /// What is known of it.
+    /// The status of the requirement.
     pub status: MarginVerdict,
-    /// No pose of the workspace has a smaller margin; null where nothing is proved.
+    /// The proved lower bound of the margin over the whole workspace; null: nothing is proved.
     pub proved_margin: Number,
-    /// Of the margins.
+    /// The unit of the margins.
     pub unit: String,
-    /// Legs, joints, keep-out or load.
+    /// The legs, joints, keep-out or load with the least margin.
     pub between: Vec<String>,
-    /// The legs among them, from 1; those of a joint where the requirement is about joints.
+    /// The legs concerned, from 1; for a requirement on joints, the legs of the joint.
     pub legs: Vec<usize>,
-    /// Where it is least; null where the pose has no influence.
+    /// The pose with the least margin; null: the margin is the same at every pose.
     pub pose: Option<PoseQuaternionRecord>,
 }
 
@@ -67,20 +69,20 @@ impl MarginRecord {
         }
     }
 
-    /// With what is proved of it.
+    /// The record of a margin with its proved bound.
     #[must_use]
     pub fn proved(design: &Design, bound: &MarginBound) -> Self {
         let proved = (bound.verdict, bound.below);
         Self::new(design, &bound.found, bound.verdict.is_met(), proved, bound.keeps_reserve())
     }
 
-    /// Margins that were looked for and not proved: `met` says that no violation was found.
+    /// The records of sampled margins without a proof; `met` then means that no violation was found.
     #[must_use]
     pub fn searched(design: &Design, found: &Assessment) -> Vec<Self> {
         found.margins.iter().map(|m| Self::found(design, m)).collect()
     }
 
-    /// A margin that was found at some pose.
+    /// The record of a margin found at some pose.
     #[must_use]
     pub fn found(design: &Design, m: &Margin) -> Self {
         let met = m.standing.is_met();
@@ -89,7 +91,7 @@ impl MarginRecord {
         Self::new(design, m, Some(met), (status, f64::NEG_INFINITY), Some(kept))
     }
 
-    /// Whether the margin found is one of a violation.
+    /// Whether the margin found is a violation.
     #[must_use]
     pub fn violates(&self) -> bool {
         !self.at_limit && (self.margin.0 < 0.0 || self.margin.0.is_nan())
@@ -99,64 +101,63 @@ impl MarginRecord {
 /// The answer of `assess`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AssessAnswer {
-    /// The design judged.
+    /// The name of the assessed design.
     pub name: String,
-    /// What it is in this answer.
+    /// The role of the design in this answer.
     pub role: DesignRoleWord,
-    /// True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a change of
-    /// sign of det J is proved by its pose; null: neither.
+    /// The verdict for all poses that `judged` names. True: every margin and det J are proved. False: one pose proves a
+    /// violation or a change of sign of det J. Null: neither is proved.
     pub met: Option<bool>,
-    /// The verdict in a sentence whose subject is the design.
+    /// The verdict in one sentence.
     pub explanation: String,
-    /// The poses judged.
+    /// The poses assessed.
     pub judged: JudgedPosesRecord,
-    /// The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at the pose
-    /// given; null: neither.
+    /// The verdict for the safety margins. True: every margin is proved to keep its safety margin. False: the given
+    /// pose proves the opposite. Null: neither is proved.
     pub reserve_kept: Option<bool>,
-    /// The least of each kind.
+    /// The least margin of each kind.
     pub requirements: Vec<MarginRecord>,
-    /// The requirement with the least room as a share of its limit; null: none has a limit to compare with.
+    /// The requirement with the least margin as a share of its limit; null: no requirement has a limit to compare with.
     pub tightest: Option<TightestRecord>,
-    /// Whether there are singular poses.
+    /// Whether the workspace holds singular poses.
     pub regular: RegularityRecord,
-    /// The same in a sentence.
+    /// The result on singular poses in one sentence.
     pub regular_explanation: String,
-    /// Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit and without a
-    /// proof.
+    /// The worst conditioning of the Jacobian over the sampled poses: a value found, without limit and proof.
     pub conditioning: LeastConditioningRecord,
-    /// Poses looked at.
+    /// Number of poses sampled.
     pub poses: usize,
-    /// Cells over which margins were bounded.
+    /// Number of cells over which margins were bounded.
     pub cells: usize,
-    /// The lightest drive of the table that the design names with which its requirements are met; null: it names none,
-    /// or the answer is about something else.
+    /// The lightest drive that meets the requirements, from the table that the design names. Null: the design names
+    /// none, or the answer has another subject.
     pub lightest_drive: Option<LightestDriveRecord>,
-    /// Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque or
-    /// natural frequency is judged, and where the answer around this one has the list.
+    /// Assumptions about masses that the file leaves open, one sentence each. Absent: no force, torque or natural
+    /// frequency is assessed, or the enclosing answer has the list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
 }
 
 impl AssessAnswer {
-    /// The table of requirements of a design: the same for every command. `None` for a design that requires nothing.
+    /// The answer of `assess` for a design, the same for every command; `None` for a design without requirements.
     #[must_use]
     pub fn of(design: &Design, seed: u64) -> Option<Self> {
         design.assessed(seed).map(|found| Self::new(design, &found))
     }
 
-    /// What is proved of a design.
+    /// The answer from the proved margins of a design.
     #[must_use]
     pub fn new(design: &Design, found: &AssessReport) -> Self {
         Self::beside(design, found, design.characteristic_length())
     }
 
-    /// The same about a design that was made from the one asked about.
+    /// The answer for a design derived from the requested one.
     #[must_use]
     pub fn with_role(self, role: DesignRoleWord) -> Self {
         Self { role, ..self }
     }
 
-    /// The same with a conditioning by another length, that of all designs of a comparison.
+    /// The answer with a conditioning by the common characteristic length of a comparison.
     pub fn beside(design: &Design, found: &AssessReport, characteristic_length: f64) -> Self {
         let proof = &found.proof;
         Self {
@@ -183,7 +184,7 @@ impl AssessAnswer {
         }
     }
 
-    /// The same inside an answer that lists the assumptions itself.
+    /// The answer inside another one that lists the assumptions itself.
     pub fn without_assumptions(self) -> Self {
         Self { assumptions: Vec::new(), ..self }
     }
@@ -194,7 +195,8 @@ impl AssessAnswer {
 pub struct TightestRecord {
     /// The kind.
     pub name: TermKind,
-    /// Its least margin over its limit (travel of the legs, greatest force and so on); below 0 for a violation.
+    /// The least margin divided by its limit, such as the travel of the legs or the greatest force; negative for a
+    /// violation.
     pub share: Number,
 }
 
@@ -210,17 +212,17 @@ impl TightestRecord {
     }
 }
 
-/// What a design is in an answer.
+/// The role of a design in an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DesignRoleWord {
-    /// The design that was asked about.
+    /// The requested design.
     Design,
-    /// The platform that a search found for it.
+    /// The platform that a search found for the design.
     Optimised,
-    /// The platform that misses its requirements least, where none meets them.
+    /// The platform with the least violation, if none meets the requirements.
     Closest,
-    /// A platform equivalent to it by moves of legs.
+    /// An equivalent platform made by moving legs.
     Equivalent,
     /// The platform equivalent to the nearest octahedral one.
     NearestEquivalent,
@@ -229,7 +231,7 @@ pub enum DesignRoleWord {
 }
 
 impl DesignRoleWord {
-    /// A heading.
+    /// The heading of the answer for this role.
     #[must_use]
     pub fn heading(self) -> &'static str {
         match self {
@@ -242,24 +244,24 @@ impl DesignRoleWord {
         }
     }
 
-    /// The heading for the word in a document.
+    /// The heading for a role, given by its word in a document.
     pub fn heading_of(word: &str) -> Option<&'static str> {
         serde_json::from_value(word.into()).ok().map(Self::heading)
     }
 }
 
-/// The poses that a judgement is about, with home.
+/// The poses of an assessment, with home.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct JudgedPosesRecord {
-    /// The design states a workspace; else home alone is judged.
+    /// Whether the design states a workspace; otherwise only home is assessed.
     pub stated: bool,
-    /// Every pose of a region about home is judged.
+    /// Whether every pose of a region around home is assessed.
     pub region: bool,
-    /// Single poses; nothing is said between them.
+    /// Number of single poses; the motions between them are not assessed.
     pub listed: usize,
-    /// Poses of a trajectory, with the straight motions between them.
+    /// Number of poses of a trajectory; the straight motions between them are assessed too.
     pub trajectory: usize,
-    /// The verdict of requirements that are met at these poses, in a few words.
+    /// The wording of the verdict if the requirements are met at these poses.
     pub met_in_words: String,
 }
 
@@ -275,33 +277,33 @@ impl From<JudgedPoses> for JudgedPosesRecord {
     }
 }
 
-/// The worst conditioned pose.
+/// The pose with the worst conditioning.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LeastConditioningRecord {
-    /// Smallest over largest singular value of the Jacobian with unit lines and moments over the characteristic length:
-    /// 1 at best, 0 at a singular pose.
+    /// Inverse condition number of the Jacobian, with unit lines and moments divided by the characteristic length: 1 at
+    /// best, 0 at a singular pose.
     pub inverse_condition: Number,
-    /// Where.
+    /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// Design units.
+    /// The characteristic length, design units.
     pub characteristic_length: f64,
 }
 
-/// Whether det J vanishes at no pose of the workspace.
+/// Whether det J is nonzero at every pose of the workspace.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RegularityRecord {
-    /// Null: undecided.
+    /// Whether every pose is regular; null: undecided.
     pub met: Option<bool>,
-    /// The same in a word.
+    /// The result in a word.
     pub status: RegularityWord,
-    /// Where det J has the other sign than at home, or where it is undecided.
+    /// The pose at which det J has the opposite sign to home, or is undecided.
     pub pose: Option<PoseQuaternionRecord>,
-    /// Cells of the workspace that were looked at.
+    /// Number of cells of the workspace examined.
     pub cells: usize,
 }
 
 impl RegularityRecord {
-    /// What is known, and the number of cells it took.
+    /// The record of a regularity result and the number of cells used.
     #[must_use]
     pub fn new(regularity: &Regularity, cells: usize) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Answers of inverse kinematics where the legs are rods of constant length on cranks: angles in place of lengths.
+//! Answers of inverse kinematics for rods of constant length on cranks: angles in place of lengths.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use platform::manipulator::{inverse_condition, jacobian};
 /// The angles of cranks at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
-    /// In the order given.
+    /// The poses in the order given.
     pub rows: Vec<RotaryIkRecord>,
 }
 
@@ -22,31 +22,32 @@ pub struct RotaryIkRowsAnswer {
 pub struct RotaryIkRecord {
     /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
-    /// The time of the row, where the table has a column of times.
+    /// The time of the row, if the table has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The six angles in leg order, each on the side that the design keeps; null: a rod does not reach.
+    /// The six crank angles in leg order, degrees, each on the side (elbow) that the design keeps; null: a rod does not
+    /// reach.
     pub angles_deg: Option<[f64; 6]>,
-    /// The first rod that does not reach; null: all do.
+    /// The first rod that does not reach; null: all rods reach.
     pub out_of_reach: Option<OutOfReachRecord>,
-    /// Whether all angles are within their limits, the ends included; null: a rod does not reach, or the design limits
-    /// no angle.
+    /// Whether all angles are within their limits, ends included; null: a rod does not reach, or the design limits no
+    /// angle.
     pub within_limits: Option<bool>,
-    /// The legs whose cranks are beyond their limits, from 1.
+    /// The legs with cranks beyond their limits, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
-    /// The cranks in leg order; none where a rod does not reach.
+    /// The cranks in leg order; empty: a rod does not reach.
     pub cranks: Vec<CrankRecord>,
-    /// Rows in leg order: speeds of the cranks, radians per second, from the velocity of the platform origin and the
-    /// angular velocity in radians, base frame; null where a crank is singular, or a rod does not reach.
+    /// The Jacobian, rows in leg order, base frame. It gives crank speeds in radians per second from the velocity of
+    /// the platform origin and the angular velocity in radians. Null: a crank is singular, or a rod does not reach.
     #[serde(rename = "J")]
     pub jacobian: Option<[[Number; 6]; 6]>,
-    /// Smallest over largest singular value of the Jacobian of the rods on the tips, with moments over the
-    /// characteristic length of the design: 1 at best, 0 at a singular pose; null: a rod does not reach.
+    /// Inverse condition number of the Jacobian of the rods on the tips: 1 at best, 0 at a singular pose. Moments are
+    /// divided by the characteristic length of the design. Null: a rod does not reach.
     pub inverse_condition: Option<Number>,
-    /// The torques of the cranks that hold each load at rest, where the design has loads.
+    /// The crank torques that hold each load at rest, if the design has loads.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torques: Vec<CrankTorquesRecord>,
     /// The least margin of each kind of requirement at this pose.
@@ -58,42 +59,41 @@ pub struct RotaryIkRecord {
 pub struct OutOfReachRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// By how much the rod is too short, design units; negative where it is too long.
+    /// The missing length of the rod, design units; negative: the rod is too long.
     pub too_short_by: f64,
 }
 
-/// How a crank stands at a pose.
+/// The state of a crank at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankRecord {
-    /// The side that the design keeps.
+    /// The side (elbow) that the design keeps.
     pub elbow: Elbow,
-    /// The angle on this side.
+    /// The crank angle on this side, degrees.
     pub angle_deg: f64,
-    /// The angle on the other side.
+    /// The crank angle on the other side, degrees.
     pub other_angle_deg: f64,
-    /// What remains of the limits of the angle, negative beyond them; null: none.
+    /// The margin to the limits of the angle, degrees, negative beyond them; null: no limits.
     pub limit_margin_deg: Option<f64>,
-    /// `u . (n x t)` of the unit vectors u along the rod, n along the axis and t along the crank, from -1 to 1: how
-    /// directly the crank moves its rod. At 0 crank and rod are in one plane with the axis and the crank is singular.
+    /// The transmission `u . (n x t)` from the crank to its rod, from -1 to 1. The unit vectors are u along the rod, n
+    /// along the axis and t along the crank. At 0 the crank is singular: crank, rod and axis are in one plane.
     pub transmission: f64,
-    /// How far the crank is from the angle at which both sides are one, which is singular: half the difference of both
-    /// angles.
+    /// The angle to the singular position of the crank, degrees: half the difference of its two angles.
     pub to_singular_deg: f64,
     /// The tip of the crank, base frame.
     pub tip: [f64; 3],
 }
 
-/// Torques that hold a load.
+/// The torques that hold a load.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankTorquesRecord {
     /// The load.
     pub load: String,
-    /// Of the cranks about their axes, force units times design units; null at a singular pose.
+    /// Torques of the cranks about their axes, force units times design units; null: a singular pose.
     pub torques: Option<[f64; 6]>,
 }
 
 impl RotaryIkRecord {
-    /// What is known at a pose of a design with these cranks.
+    /// The record of a pose of a design with these cranks.
     #[must_use]
     pub fn new(design: &Design, platform: &RotaryPlatform, pose: &Pose) -> Self {
         let required = design.requirements();

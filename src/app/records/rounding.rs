@@ -23,22 +23,22 @@ pub struct RoundAnswer {
     pub units: String,
     /// The grids asked for.
     pub grids: GridsRecord,
-    /// Origins and angles of the grids are chosen too.
+    /// Whether origins and angles of the grids are optimised too.
     pub free_grid: bool,
-    /// The design as it is wanted.
+    /// The figures of the given design.
     pub wanted: Judgement,
     /// The best rounding that is exactly equivalent to an octahedral platform.
     pub exact: ExactRoundingOutcome,
-    /// The rounding with every joint next to where it is wanted.
+    /// The rounding of every joint to a hole near its given position.
     pub nearest: NearestRoundingOutcome,
-    /// What `assess` says of the rounded design; null: there is none, or the design requires nothing.
+    /// The result of `assess` for the rounded design; null: there is none, or the design has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// Which of them the rule takes; null: none meets the requirements.
+    /// The rounding chosen; null: none meets the requirements.
     pub chosen: Option<RoundingWay>,
-    /// Where none meets the requirements, the one that misses them least, by the greatest violation as a share of what
-    /// is limited; null otherwise.
+    /// The rounding with the least violation, measured by the greatest violation as a share of its limit; null: a
+    /// rounding meets the requirements.
     pub least_missed: Option<RoundingWay>,
-    /// The rounded design: the one chosen, or the one that misses the requirements least.
+    /// The rounded design: the chosen one, or the one with the least violation.
     pub design: Option<DesignRecord>,
     /// The file written.
     pub output: Option<String>,
@@ -47,24 +47,24 @@ pub struct RoundAnswer {
 /// The grids of both bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridsRecord {
-    /// Of the base; null: its joints stay where they are.
+    /// The grid of the base; null: the base joints stay in place.
     pub base: Option<GridRecord>,
-    /// Of the platform; null: its joints stay where they are.
+    /// The grid of the platform; null: the platform joints stay in place.
     pub platform: Option<GridRecord>,
 }
 
 /// A grid of holes in the plane of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridRecord {
-    /// How the holes lie.
+    /// The pattern of the holes.
     pub pattern: HolePattern,
-    /// Distance of neighbouring holes, or of the rings of a polar grid; null for bolt circles.
+    /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
     pub pitch: Option<Number>,
     /// The first ring of a polar grid, or all bolt circles; empty for the other patterns.
     pub circles: Vec<HoleCircle>,
-    /// A hole, or the centre of the circles.
+    /// A hole, or the centre of the circles, body frame, design units.
     pub origin: [Number; 2],
-    /// The turn of the grid.
+    /// The angle of the grid, degrees.
     pub angle_deg: Number,
 }
 
@@ -101,39 +101,39 @@ impl From<&[Option<Grid>; 2]> for GridsRecord {
     }
 }
 
-/// The exact rounding, or why there is none.
+/// The exact rounding, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactRoundingOutcome {
-    /// There is one.
+    /// A rounding was found.
     Found(Box<ExactRoundingRecord>),
-    /// There is none.
+    /// There is no rounding.
     None(NoRoundingRecord),
 }
 
-/// The nearest rounding, or why there is none.
+/// The nearest rounding, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum NearestRoundingOutcome {
-    /// There is one.
+    /// A rounding was found.
     Found(Box<NearestRoundingRecord>),
-    /// There is none.
+    /// There is no rounding.
     None(NoRoundingRecord),
 }
 
-/// Why there is no rounding.
+/// The reason why there is no rounding.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct NoRoundingRecord {
-    /// What stands against it.
+    /// The obstacle.
     pub error: NoRoundingError,
 }
 
-/// What stands against a rounding.
+/// The obstacle to a rounding.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct NoRoundingError {
     /// A short code.
     pub code: NoRoundingWord,
-    /// One sentence.
+    /// The message in one sentence.
     pub message: String,
 }
 
@@ -143,19 +143,19 @@ impl From<NoRounding> for NoRoundingRecord {
     }
 }
 
-/// The word for a verification that may not have been computed.
+/// The verdict of a verification, if one was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RoundingVerdict {
-    /// It could not be computed.
+    /// No verification could be computed.
     NotComputed,
-    /// What it says.
+    /// The verdict.
     #[serde(untagged)]
     Computed(VerdictWord),
 }
 
 impl RoundingVerdict {
-    /// The word.
+    /// The code of the verdict.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -171,87 +171,87 @@ impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
     }
 }
 
-/// All joints exactly on the sides of two triangles whose corners are holes.
+/// A rounding with all joints exactly on the sides of two triangles, with holes as their corners.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ExactRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
-    /// Equivalence with its own octahedral platform is proved in exact arithmetic.
+    /// Whether exact arithmetic proves equivalence with its own octahedral platform.
     pub proved: bool,
-    /// What leg map and forward kinematics say of it.
+    /// The verdict of leg map and forward kinematics.
     pub verdict: RoundingVerdict,
-    /// Turns by 120 degrees take both triangles with their joints to themselves.
+    /// Whether rotations by 120 degrees map both triangles with their joints to themselves.
     pub three_fold: bool,
-    /// Round the hexagon: [m, g] for t = m / g.
+    /// The offsets in order around the hexagon: [m, g] for t = m / g.
     pub fractions: Option<[[i64; 2]; 6]>,
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
-    /// How good it is.
+    /// The figures of the rounded design.
     pub judgement: Judgement,
-    /// How it was found.
+    /// Statistics of the search.
     pub search: RoundingSearchRecord,
 }
 
-/// How an exact rounding was found.
+/// Statistics of the search for an exact rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundingSearchRecord {
-    /// Triangles of base and platform that were combined.
+    /// Numbers of triangles of base and platform that were combined.
     pub triangles: [usize; 2],
-    /// All triangles up to this distance were.
+    /// The distances up to which all triangles of base and platform were combined, design units.
     pub complete_to: [Number; 2],
-    /// Improvements by replacing one triangle.
+    /// Number of improvements by replacing one triangle.
     pub replacements: usize,
 }
 
-/// All joints on holes next to where they are wanted.
+/// A rounding with all joints on holes near their given positions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
-    /// What leg map and forward kinematics say of it and the wanted design.
+    /// The verdict of leg map and forward kinematics against the given design.
     pub verdict: RoundingVerdict,
-    /// The residual of the leg map; null where it could not be computed.
+    /// The residual of the leg map; null: it could not be computed.
     pub map_residual: Option<Number>,
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
-    /// How good it is.
+    /// The figures of the rounded design.
     pub judgement: Judgement,
-    /// The error of the pose by the formula of the wanted design.
+    /// The error of the pose when the formula of the given design is used.
     pub pose_error: RoundingErrorRecord,
-    /// Joints that are not on the nearest hole.
+    /// Number of joints that are not on the nearest hole.
     pub not_nearest: usize,
-    /// Turns by 120 degrees take the joints of both bodies to themselves.
+    /// Whether rotations by 120 degrees map the joints of both bodies to themselves.
     pub three_fold: bool,
 }
 
-/// The error of the pose when a rounded platform is controlled as the wanted one.
+/// The error of the pose if a rounded platform is controlled like the given one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundingErrorRecord {
-    /// To first order.
+    /// The error to first order.
     pub first_order: PoseErrorRecord,
-    /// The same with every joint on the nearest hole.
+    /// The error to first order with every joint on the nearest hole.
     pub first_order_nearest_points: PoseErrorRecord,
-    /// Solved at random poses.
+    /// The error solved at random poses.
     pub solved: ErrorSpread,
-    /// How many.
+    /// Number of random poses.
     pub solved_poses: usize,
 }
 
 /// A joint on a hole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundedJointRecord {
-    /// Its body.
+    /// The body of the joint.
     pub body: Body,
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
-    /// The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint stays where it
-    /// was.
+    /// The hole: its counts along the axes of the grid, or its circle and its number on the circle. Null: the joint
+    /// stays in place.
     pub cell: Option<[i64; 2]>,
-    /// How it moved, frame of the body.
+    /// The displacement, body frame, design units.
     pub moved: [Number; 3],
-    /// How far.
+    /// The size of the displacement, design units.
     pub distance: Number,
-    /// Distance from the line of its side; null for corners.
+    /// Distance from the line of its side, design units; null for corners.
     pub off_line: Option<Number>,
 }
 
@@ -268,7 +268,7 @@ fn joints(design: &Design, list: &[RoundedJoint]) -> Vec<RoundedJointRecord> {
 }
 
 impl ExactRoundingOutcome {
-    /// The record of a search on the joints of a design.
+    /// The record of the search for an exact rounding of the joints of a design.
     #[must_use]
     pub fn new(design: &Design, found: &Result<ExactRounding, NoRounding>) -> Self {
         let e = match found {
@@ -293,7 +293,7 @@ impl ExactRoundingOutcome {
 }
 
 impl NearestRoundingOutcome {
-    /// The record of a search on the joints of a design.
+    /// The record of the nearest rounding of the joints of a design.
     #[must_use]
     pub fn new(design: &Design, found: &Result<NearestRounding, NoRounding>) -> Self {
         let n = match found {

@@ -13,8 +13,8 @@ use super::{
     TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
-/// Names of answers with the function that writes their schema: commands by their own names, those of a group as
-/// `singular-poses`, `error` for refusals, `help` for --help.
+/// Names of answers, each with the function that writes its schema. Commands have their own names, or the form
+/// `singular-poses` in a group; `error` stands for refusals, `help` for --help.
 type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Schema)];
 
 const ANSWERS: Table = &[
@@ -73,13 +73,13 @@ const ANSWERS: Table = &[
     ("view", Document::<ViewAnswer>::json_schema),
 ];
 
-/// What has a schema, in the order of the alphabet.
+/// The names of all schemas, in alphabetical order.
 pub fn schema_names() -> impl Iterator<Item = &'static str> {
     ANSWERS.iter().map(|(name, _)| *name)
 }
 
-/// The JSON Schema (draft 2020-12) of the documents that a command writes with `--json`; `None` for a name that is not
-/// one of [`schema_names`].
+/// The JSON Schema (draft 2020-12) of the documents that a command writes with `--json`; `None` for a name outside
+/// [`schema_names`].
 ///
 /// Objects are open: later versions may add keys to them.
 #[must_use]
@@ -102,7 +102,7 @@ pub fn schema(of: &str) -> Option<Map<String, Value>> {
     Some(root)
 }
 
-/// Puts each paragraph of a description on one line: where lines of the sources end says nothing.
+/// Puts each paragraph of a description on one line, since line breaks of the sources have no meaning.
 fn unwrap_descriptions(schema: &mut Value) {
     match schema {
         Value::Object(fields) => {

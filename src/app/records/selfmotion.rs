@@ -17,33 +17,34 @@ pub struct SelfmotionAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
-    /// Dimension of the set of poses with these lengths, at the pose where one is given; null where it is undecided.
+    /// Dimension of the set of poses with these lengths, at the given pose if there is one; null: undecided.
     pub dimension: Option<usize>,
-    /// What shows the dimension.
+    /// The evidence for the dimension.
     pub evidence: MotionEvidenceWord,
-    /// Freedoms of first order at the pose: six less the rank of the leg lines; null with `--lengths`.
+    /// Number of first-order freedoms at the pose: six minus the rank of the leg lines; null with `--lengths`.
     pub tangent_dimension: Option<usize>,
-    /// The ball around an isolated pose without any other pose of these lengths; null elsewhere.
+    /// The ball around an isolated pose that holds no other pose of these lengths; null: the pose is not proved
+    /// isolated.
     pub isolated: Option<IsolatedRecord>,
-    /// The pose it begins at; null with `--lengths`.
+    /// The start pose; null with `--lengths`.
     pub start: Option<PoseQuaternionRecord>,
     /// The leg lengths, design units.
     pub lengths: [Number; 6],
     /// Singular values of the leg equations, largest first.
     pub singular_values: [Number; 8],
-    /// Starting poses beside the one given.
+    /// Number of start poses beside the given one.
     pub further_starts: usize,
-    /// With `--lengths`: real poses on surfaces and sets of higher dimension, which are not followed.
+    /// Real poses on surfaces and sets of higher dimension, with `--lengths`; these sets are not traced.
     pub real_poses: Vec<PoseQuaternionRecord>,
-    /// Curves are followed numerically: nothing proves that they are all.
+    /// The completeness of the curves: they are traced numerically, without a proof that the list is complete.
     pub completeness: CompletenessWord,
-    /// Every real component is accounted for, numerically; null: no search for other components was made.
+    /// Whether every real component is accounted for, numerically; null: no search for other components was made.
     pub components_accounted: Option<bool>,
-    /// Irreducible components over the complex numbers.
+    /// Degrees of the irreducible components over the complex numbers; null: not computed.
     pub complex_components: Option<Vec<CurveDegree>>,
-    /// Critical points of a distance on the curves, one at least on each real component.
+    /// Critical points of a distance on the curves, at least one on each real component; null: not computed.
     pub critical_points: Option<CriticalPointsRecord>,
-    /// The largest error of a leg length over the size.
+    /// The largest error of a leg length divided by the size.
     pub worst_length_error: Number,
     /// Poses at which curves cross.
     pub crossings: Vec<PoseQuaternionRecord>,
@@ -51,7 +52,7 @@ pub struct SelfmotionAnswer {
     pub curves: Vec<MotionCurveRecord>,
 }
 
-/// What shows the dimension of a self-motion.
+/// The evidence for the dimension of a self-motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEvidenceWord {
@@ -61,11 +62,11 @@ pub enum MotionEvidenceWord {
     SecondOrder,
     /// Proved: the rank of the leg lines is constant around the pose.
     ConstantRank,
-    /// Poses were found along a stretch by tracing, and the dimension is sampled: no proof.
+    /// Tracing found poses along a stretch, and the dimension is sampled: no proof.
     Traced,
-    /// The poses with the lengths were cut by random sections: no proof.
+    /// Random sections cut the set of poses with these lengths: no proof.
     Sections,
-    /// Nothing: the question is undecided.
+    /// No evidence: the question is undecided.
     Undecided,
 }
 
@@ -81,13 +82,13 @@ impl From<PoseVerdict> for MotionEvidenceWord {
     }
 }
 
-/// The surroundings of an isolated pose, in displacements `(t / size, c)`: translation over the size, axis times
-/// tangent of half the angle.
+/// The neighbourhood of an isolated pose, in displacements `(t / size, c)`: translation divided by the size, and axis
+/// times tangent of half the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
-    /// Every pose with these lengths within this distance lies within `within`.
+    /// The radius of the ball: every pose with these lengths inside it lies within the distance `within`.
     pub radius: Number,
-    /// Distance left by rounding; 0 for a proof of first order.
+    /// The distance left by rounding; 0 for a first-order proof.
     pub within: Number,
 }
 
@@ -104,22 +105,22 @@ impl IsolatedRecord {
     }
 }
 
-/// What became of the paths to critical points.
+/// The outcomes of the paths to critical points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CriticalPointsRecord {
-    /// Paths followed.
+    /// Number of paths followed.
     pub paths: usize,
-    /// Real ones found.
+    /// Number of real critical points found.
     pub real: usize,
-    /// Regular ends.
+    /// Number of regular path ends.
     pub regular: usize,
-    /// Singular ends.
+    /// Number of singular path ends.
     pub singular: usize,
-    /// Ends that are no pose.
+    /// Number of path ends that are no pose.
     pub no_pose: usize,
-    /// Paths that were lost.
+    /// Number of lost paths.
     pub lost: usize,
-    /// Starts that were not used.
+    /// Number of starts left unused.
     pub unused_starts: usize,
 }
 
@@ -140,16 +141,16 @@ impl From<&CriticalPoses> for CriticalPointsRecord {
 /// A curve of poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionCurveRecord {
-    /// How it ends: closed, joined, unfinished or stuck.
+    /// The end of the curve: closed, joined, unfinished or stuck.
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
     pub end: String,
-    /// Where it crosses others.
+    /// The crossings with other curves.
     pub crossings: Vec<CurveCrossing>,
-    /// Its degree, where that was computed.
+    /// The degree of the curve; null: not computed.
     pub degree: Option<CurveDegree>,
-    /// How its first pose was found.
+    /// The origin of its first pose.
     pub found_by: Option<MotionOrigin>,
-    /// Its poses.
+    /// The poses of the curve.
     pub points: Vec<MotionPoint>,
 }
 

@@ -14,18 +14,18 @@ pub struct SingularitiesAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
-    /// Whether the workspace of the design, or the region of `--box`, about the pose is free of singular poses; null
-    /// where neither is given.
+    /// Whether the workspace of the design, or the region of `--box` about the pose, holds no singular pose; null: no
+    /// region is given.
     pub regular: Option<RegularityRecord>,
-    /// The pose asked about.
+    /// The given pose.
     pub pose: JudgedPoseRecord,
     /// The leg lengths, design units.
     pub lengths: [f64; 6],
     /// The real poses with these lengths.
     pub assembly_modes: Vec<JudgedPoseRecord>,
-    /// False: some may be missing.
+    /// Whether every path is accounted for; false: poses may be missing.
     pub assembly_modes_accounted: bool,
-    /// A box of poses about the pose that holds no singular one.
+    /// A box of regular poses around the pose.
     #[serde(rename = "box")]
     pub regular_box: RegularBoxRecord,
     /// det J along a path, with `--path`.
@@ -42,31 +42,31 @@ pub struct JudgedPoseRecord {
     /// The pose.
     #[serde(flatten)]
     pub pose: PoseQuaternionRecord,
-    /// det J of the leg lines, over the size to the sixth.
+    /// det J of the leg lines, divided by the size to the sixth power.
     pub determinant: Number,
-    /// 1 at best, 0 at a singular pose.
+    /// Inverse condition number of the Jacobian: 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
-    /// The two conditions of four planes in one point, of octahedral designs.
+    /// The two conditions for four planes through one point, for octahedral designs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub four_planes: Option<[Number; 2]>,
 }
 
-/// A box of poses about a pose that holds no singular one.
+/// A box of regular poses around a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RegularBoxRecord {
     /// Half widths of positions at scale 1, design units, base frame.
     pub translation: [f64; 3],
-    /// Half widths of the rotation vector at scale 1, base frame.
+    /// Half widths of the rotation vector at scale 1, base frame, degrees.
     pub rotation_deg: [f64; 3],
-    /// Its shape.
+    /// The shape of the region.
     pub region: Region,
-    /// No singular pose up to this scale, proved.
+    /// Proved: no pose up to this scale is singular.
     pub proved_scale: Number,
-    /// A pose of the smallest box known to hold a singular one.
+    /// A pose in the smallest box known to hold a singular one; null: no such box is known.
     pub singular_within: Option<ScaledPoseRecord>,
-    /// Up to this scale a change of sign was looked for.
+    /// The greatest scale searched for a change of sign.
     pub searched_scale: Number,
-    /// Cells the proof took.
+    /// Number of cells in the proof.
     pub cells: usize,
 }
 
@@ -80,7 +80,7 @@ pub struct ScaledPoseRecord {
     pub scale: Number,
 }
 
-/// A proved sign of det J: 1 or -1; null: not proved.
+/// The proved sign of det J: 1 or -1; null: not proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(transparent)]
 pub struct SignRecord(#[schemars(extend("enum" = [1, -1, null]))] pub Option<i8>);
@@ -91,13 +91,13 @@ impl From<Option<Sign>> for SignRecord {
     }
 }
 
-/// What det J does along a straight path.
+/// The sign of det J along a straight path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SignOutcome {
-    /// It keeps its sign, proved.
+    /// Proved: det J keeps its sign.
     KeepsSign,
-    /// It changes its sign, proved.
+    /// Proved: det J changes its sign.
     Crosses,
     /// Neither is proved.
     Undecided,
@@ -118,30 +118,30 @@ impl From<&SignsAlong> for SignOutcome {
 /// det J along a path of straight parts.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPathRecord {
-    /// Number of the assembly mode it begins at, from 1; 0: the pose.
+    /// Number of the first assembly mode, from 1; 0: the given pose.
     pub from: usize,
-    /// Number of the assembly mode it ends at.
+    /// Number of the last assembly mode, from 1.
     pub to: usize,
-    /// Its poses.
+    /// The poses that the path joins.
     pub poses: Vec<PoseQuaternionRecord>,
-    /// Whether det J keeps its sign: true and false are proved.
+    /// Whether det J keeps its sign: true and false are proved; null: neither.
     pub keeps_sign: Option<bool>,
-    /// One for each straight part.
+    /// The straight parts in order.
     pub parts: Vec<SignPartRecord>,
 }
 
 /// det J along a straight part of a path, with parameter u from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPartRecord {
-    /// What it does.
+    /// The sign of det J along the part.
     pub outcome: SignOutcome,
-    /// Proved changes of sign.
+    /// Number of proved changes of sign.
     pub changes: usize,
-    /// Pieces where neither a sign nor a change is proved.
+    /// Number of pieces without a proved sign or change.
     pub doubtful: usize,
-    /// Pieces with their signs.
+    /// The pieces with their signs.
     pub pieces: Vec<SignPieceRecord>,
-    /// [u, det J].
+    /// Sampled values [u, det J].
     pub values: Vec<[Number; 2]>,
 }
 
@@ -162,13 +162,13 @@ impl SignPartRecord {
 /// A piece of a straight path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SignPieceRecord {
-    /// Where it begins.
+    /// The parameter u at the beginning.
     pub from: Number,
-    /// Where it ends.
+    /// The parameter u at the end.
     pub to: Number,
-    /// The sign of det J on it.
+    /// The sign of det J on the piece.
     pub sign: SignRecord,
-    /// It holds a singular pose: det J has proved signs before and after it, and they differ.
+    /// Whether the piece holds a singular pose: det J has proved, opposite signs before and after it.
     pub singular: bool,
 }
 
@@ -178,14 +178,14 @@ impl SignPieceRecord {
     }
 }
 
-/// Which assembly modes paths without singular pose join.
+/// The assembly modes joined by paths without singular pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPairsRecord {
     /// The sign of det J at each assembly mode.
     pub signs: Vec<SignRecord>,
-    /// All pairs.
+    /// All pairs of assembly modes.
     pub pairs: Vec<SignPairRecord>,
-    /// Groups of modes that such paths join, from 1.
+    /// Groups of assembly modes joined by such paths, numbers from 1.
     pub groups: Vec<Vec<usize>>,
     /// The paths found.
     pub ways: Vec<WayRecord>,
@@ -194,22 +194,22 @@ pub struct SignPairsRecord {
 /// The straight path between two assembly modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SignPairRecord {
-    /// Their numbers, from 1.
+    /// The numbers of the two modes, from 1.
     pub modes: [usize; 2],
-    /// What det J does on the straight path.
+    /// The sign of det J along the straight path.
     pub straight: SignOutcome,
-    /// Proved changes of sign on it.
+    /// Number of proved changes of sign on the straight path.
     pub changes: usize,
-    /// Whether some path without singular pose joins them; null: none was found.
+    /// Whether some path without singular pose joins the two modes; null: none was found.
     pub joined: Option<bool>,
 }
 
 /// A path without singular pose between two assembly modes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WayRecord {
-    /// Their numbers, from 1.
+    /// The numbers of the two modes, from 1.
     pub modes: [usize; 2],
-    /// Its poses, joined by straight paths.
+    /// The poses of the path, joined by straight segments.
     pub poses: Vec<PoseQuaternionRecord>,
 }
 

@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 use super::Number;
 use files::design::Format;
 
-/// A text that a sweep was begun with.
+/// A text from which a sweep was begun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepTextRecord {
     /// The text.
     pub text: String,
-    /// Its notation.
+    /// The notation of the text.
     pub format: Format,
 }
 
-/// What `sweep.json` in the folder of a sweep holds: all that its parts depend on.
+/// The content of `sweep.json` in the folder of a sweep: all data that its parts depend on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepFolderRecord {
-    /// The version of these definitions.
+    /// The version of the file format.
     pub schema_version: u32,
     /// The name of the plan.
     pub name: String,
@@ -26,41 +26,41 @@ pub struct SweepFolderRecord {
     pub version: String,
     /// The seed.
     pub seed: u64,
-    /// Candidates.
+    /// Number of candidates.
     pub candidates: u64,
-    /// Shards that they are divided into.
+    /// Number of shards.
     pub shards: u64,
     /// SHA-256 over plan, base design, table of drives and table of poses, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub plan_sha256: String,
     /// The plan.
     pub plan: SweepTextRecord,
-    /// Its base design.
+    /// The base design of the plan.
     pub design: SweepTextRecord,
-    /// Its table of drives; absent where it names none.
+    /// The table of drives; absent: the plan names none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<String>,
-    /// The table of poses that the workspace of the base design names; absent where it names none.
+    /// The table of poses that is the workspace of the base design; absent: the base design names none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poses: Option<String>,
 }
 
-/// What the manifest beside a part says.
+/// The manifest of a part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepManifestRecord {
-    /// The version of these definitions.
+    /// The version of the file format.
     pub schema_version: u32,
-    /// The shard, from 0.
+    /// The number of the shard, from 0.
     pub shard: u64,
-    /// How many there are.
+    /// Number of shards of the sweep.
     pub shards: u64,
-    /// The first candidate.
+    /// The first candidate of the shard.
     pub first: u64,
-    /// Candidates.
+    /// Number of candidates.
     pub candidates: u64,
-    /// Rows kept.
+    /// Number of rows kept.
     pub rows: u64,
-    /// Rows with an error.
+    /// Number of rows with an error.
     pub failed: u64,
     /// SHA-256 over plan and base design, hexadecimal.
     pub plan_sha256: String,
@@ -70,24 +70,24 @@ pub struct SweepManifestRecord {
     pub version: String,
     /// The file of the part.
     pub part: String,
-    /// Its size.
+    /// The size of the file, bytes.
     pub bytes: u64,
-    /// SHA-256 of its bytes, hexadecimal.
+    /// SHA-256 of the file, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: String,
-    /// How long it took; the part does not depend on it.
+    /// Computation time, seconds; the part does not depend on it.
     pub seconds: Number,
-    /// How much of that went into the part, its digest, and bringing it to the disk; for the rest the candidates were
-    /// computed, or waited for.
+    /// The share of this time for writing the part, its digest and flushing to disk, seconds. The rest is computing
+    /// candidates or waiting for them.
     pub writing_seconds: Number,
 }
 
-/// A part that is not what its manifest says.
+/// A part that disagrees with its manifest.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DamagedPartRecord {
-    /// The shard, from 0.
+    /// The number of the shard, from 0.
     pub shard: u64,
-    /// What is wrong.
+    /// The disagreement.
     pub reason: String,
 }
 
@@ -95,52 +95,52 @@ pub struct DamagedPartRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SweepRunAnswer {
-    /// With --estimate: nothing was written.
+    /// The answer with --estimate; nothing was written.
     Estimate(SweepEstimateAnswer),
-    /// The sweep, or a shard of it.
+    /// The answer about the sweep, or about a shard of it.
     Run(SweepStatusAnswer),
 }
 
-/// How long a sweep takes, from a sample of its candidates.
+/// The estimated time of a sweep, from a sample of its candidates.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepEstimateAnswer {
     /// The name of the plan.
     pub name: String,
-    /// Candidates.
+    /// Number of candidates.
     pub candidates: u64,
-    /// Shards, where nothing else is asked for.
+    /// Number of shards, unless another number is requested.
     pub shards: u64,
-    /// Candidates that were computed to tell.
+    /// Number of candidates computed for the estimate.
     pub sampled: usize,
-    /// Of these, rows that the plan keeps.
+    /// Number of sampled rows that the plan keeps.
     pub kept: usize,
-    /// Of these, rows with an error.
+    /// Number of sampled rows with an error.
     pub failed: usize,
-    /// Mean time of a candidate on one thread.
+    /// Mean time of a candidate on one thread, seconds.
     pub seconds_each: Number,
-    /// Threads that were asked for.
+    /// Number of threads requested.
     pub threads: usize,
-    /// Time of the whole sweep on so many threads.
+    /// Estimated time of the whole sweep on these threads, seconds.
     pub seconds: Number,
-    /// Columns of the table.
+    /// The columns of the table.
     pub columns: Vec<SweepColumnRecord>,
 }
 
 /// A column of the table.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SweepColumnRecord {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// What its cells hold.
+    /// The type of its cells.
     #[schemars(extend("enum" = ["number", "integer", "truth", "text"]))]
     pub kind: String,
     /// The unit; null: a pure number, or none.
     pub unit: Option<String>,
-    /// What it is.
+    /// The meaning of the column.
     pub meaning: String,
 }
 
-/// What is done of a sweep, and what is missing.
+/// The finished and the missing shards of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepStatusAnswer {
     /// The name of the plan.
@@ -151,25 +151,25 @@ pub struct SweepStatusAnswer {
     pub plan_sha256: String,
     /// The seed.
     pub seed: u64,
-    /// Candidates of the whole sweep.
+    /// Number of candidates of the whole sweep.
     pub candidates: u64,
-    /// Shards of the whole sweep.
+    /// Number of shards of the whole sweep.
     pub shards: u64,
-    /// Shards whose parts are there and have the digests of their manifests.
+    /// Finished shards: the part is present and has the digest of its manifest.
     pub done: Vec<u64>,
-    /// All others.
+    /// All other shards.
     pub missing: Vec<u64>,
-    /// The same as ranges, as the option --array of Slurm takes them: `2-5,9`.
+    /// The missing shards as ranges for the option --array of Slurm: `2-5,9`.
     pub missing_ranges: String,
-    /// Those whose parts are there and are not what their manifests say.
+    /// Shards with a part that disagrees with its manifest.
     pub damaged: Vec<DamagedPartRecord>,
-    /// Shards that this run has computed; those that were done before are left as they are.
+    /// Shards computed by this run; finished shards are left as they are.
     pub computed: Vec<u64>,
-    /// Rows in the parts that are done.
+    /// Number of rows in the finished parts.
     pub rows: u64,
-    /// Rows among them with an error.
+    /// Number of these rows with an error.
     pub failed: u64,
-    /// Files that were being written when a run ended.
+    /// Files left incomplete by an earlier run.
     pub unfinished: Vec<String>,
 }
 
@@ -178,13 +178,13 @@ pub struct SweepStatusAnswer {
 pub struct SweepMergeAnswer {
     /// The file written.
     pub output: String,
-    /// Parts in it.
+    /// Number of parts in it.
     pub parts: u64,
-    /// Rows.
+    /// Number of rows.
     pub rows: u64,
-    /// Its size.
+    /// The size of the file, bytes.
     pub bytes: u64,
-    /// SHA-256 of its bytes, hexadecimal.
+    /// SHA-256 of the file, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: String,
 }
@@ -192,22 +192,22 @@ pub struct SweepMergeAnswer {
 /// The answer of `sweep verify`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepVerifyAnswer {
-    /// All parts are there, with their digests, and every candidate that was computed again has the same row.
+    /// Whether all parts are present with their digests, and every recomputed candidate has the same row.
     pub same: bool,
-    /// What is done and what is missing.
+    /// The finished and the missing shards.
     pub status: SweepStatusAnswer,
-    /// Candidates that were computed again.
+    /// Candidates that were recomputed.
     pub sampled: Vec<u64>,
-    /// Those among them whose row is another one.
+    /// Recomputed candidates with a different row.
     pub different: Vec<u64>,
 }
 
 /// The answer of `sweep design`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SweepDesignAnswer {
-    /// The candidate.
+    /// The number of the candidate.
     pub candidate: u64,
-    /// Its design.
+    /// The design file of the candidate.
     #[serde(flatten)]
     pub file: SweepDesignFile,
 }
@@ -217,49 +217,49 @@ pub struct SweepDesignAnswer {
 pub struct SweepBestAnswer {
     /// The column by which candidates are ranked.
     pub column: String,
-    /// Rows that were kept and ranked.
+    /// Number of rows kept and ranked.
     pub rows: u64,
-    /// The best of them, the best one first.
+    /// The best candidates, the best first.
     pub candidates: Vec<SweepBestRecord>,
-    /// The page that compares them; `null` where there are none.
+    /// The page that compares them; `null`: there are none.
     pub page: Option<String>,
 }
 
 /// One of the best candidates of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepBestRecord {
-    /// The candidate.
+    /// The number of the candidate.
     pub candidate: u64,
-    /// Its value in the column.
+    /// The value in the column.
     pub value: Number,
-    /// Its design file.
+    /// The design file of the candidate.
     pub output: String,
 }
 
 /// The answer of `sweep script`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepScriptAnswer {
-    /// Shards.
+    /// Number of shards.
     pub shards: u64,
-    /// Arrays of jobs.
+    /// Number of job arrays.
     pub arrays: u64,
-    /// What a shard takes, from a sample.
+    /// Computation time of a shard, estimated from a sample, seconds.
     pub seconds_per_shard: Number,
     /// The script.
     #[serde(flatten)]
     pub file: SweepDesignFile,
 }
 
-/// Where a design or a script is.
+/// A design file or script: its path or its text.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SweepDesignFile {
-    /// Written.
+    /// The file was written.
     Written {
         /// The file written.
         output: String,
     },
-    /// Given.
+    /// The text is part of the answer.
     Given {
         /// The design file.
         text: String,

@@ -1,4 +1,4 @@
-//! Answers on how far joints may be off for the pose to stay within a bound.
+//! Answers about the joint errors allowed for a given accuracy of the pose.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,74 +16,75 @@ use platform::manipulator::Body;
 /// The answer of `build tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TolerancesAnswer {
-    /// What `assess` says of the design; null: it requires nothing.
+    /// The result of `assess` for the design; null: it has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// The greatest error allowed.
+    /// The greatest error of the pose allowed.
     pub bound: PoseErrorRecord,
     /// The tool point, platform frame.
     pub tool: [Number; 3],
     /// The unit of lengths.
     pub units: String,
-    /// How far every joint may be off in any direction, to first order.
+    /// The error allowed at all joints at once, in any direction, to first order.
     pub all_joints_radius: LimitedAllowance,
-    /// How far every coordinate may be off, to first order.
+    /// The error allowed in all coordinates at once, to first order.
     pub all_coordinates: LimitedAllowance,
     /// The joints, the most critical first.
     pub joints: Vec<JointBudgetRecord>,
-    /// Errors of the pose with the joints off in the worst way, solved.
+    /// Errors of the pose for the worst joint errors, solved exactly.
     pub worst_errors: WorstErrorsRecord,
-    /// What solving says about the radius.
+    /// The exact check of the first-order radius.
     pub solved: SolvedBudgetRecord,
-    /// Random errors in the budget.
+    /// Statistics of random errors in the budget.
     pub trials: TrialsRecord,
-    /// Random errors of joints and leg offsets with the covariance of the calibration; null: not asked for.
+    /// Statistics of random errors of joints and leg offsets with the covariance of the calibration; null: not
+    /// requested.
     pub calibrated: Option<TrialsRecord>,
-    /// How uncertain computed poses are by what the calibration does not know, to first order; null: not asked for.
+    /// Uncertainty of computed poses due to the errors of the calibration, to first order; null: not requested.
     pub calibrated_poses: Option<CalibratedPosesRecord>,
-    /// The greatest errors by joints, leg lengths and temperature together; null: not asked for.
+    /// The greatest errors due to joints, leg lengths and temperature together; null: not requested.
     pub map: Option<ErrorMapRecord>,
-    /// The poses looked at.
+    /// The poses evaluated.
     pub poses: BudgetPosesRecord,
 }
 
-/// Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on
-/// top.
+/// Standard deviations of poses computed from lengths with the calibrated machine. The noise of the lengths adds to
+/// them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CalibratedPosesRecord {
     /// Whether the design file has correlations.
     pub correlations: CorrelationsWord,
-    /// Poses looked at.
+    /// Number of poses evaluated.
     pub poses: usize,
-    /// Root mean square of the distance by which the tool point is off, design units.
+    /// Root mean square error of the tool point, design units.
     pub position: DeviationRecord,
-    /// Root mean square of the angle by which the orientation is off, degrees.
+    /// Root mean square error of the orientation, degrees.
     pub rotation_deg: DeviationRecord,
 }
 
-/// A standard deviation over the poses looked at.
+/// A standard deviation over the poses evaluated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DeviationRecord {
-    /// Half of the poses have at most this.
+    /// The median over the poses.
     pub median: Number,
-    /// The greatest.
+    /// The greatest value.
     pub greatest: Number,
-    /// What it would be at the same pose if every coordinate and offset were off for itself.
+    /// The value at the same pose if the errors of coordinates and offsets were independent.
     pub independent: Number,
-    /// The pose.
+    /// The pose with the greatest value.
     pub pose: PoseQuaternionRecord,
-    /// Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the pose, base
+    /// Covariance at this pose of the shift of the tool point (design units) and the rotation vector (degrees), base
     /// frame.
     pub covariance: [[Number; 6]; 6],
 }
 
-/// What the calibration leaves open at a pose.
+/// The covariance of a pose due to the errors of the calibration.
 #[derive(Debug, Clone, Copy)]
 pub struct PoseDeviations {
     /// The pose.
     pub pose: Pose,
-    /// With the correlations of the design.
+    /// The covariance with the correlations of the design.
     pub kept: PoseCovariance,
-    /// With the same standard deviations, each for itself.
+    /// The covariance with the same standard deviations and independent errors.
     pub independent: PoseCovariance,
 }
 
@@ -103,7 +104,7 @@ impl DeviationRecord {
 }
 
 impl CalibratedPosesRecord {
-    /// Of the poses looked at; `None` without one.
+    /// The record over these poses; `None` for an empty list.
     #[must_use]
     pub fn new(design: &Design, poses: &[PoseDeviations]) -> Option<Self> {
         Some(Self {
@@ -115,24 +116,24 @@ impl CalibratedPosesRecord {
     }
 }
 
-/// How far one joint may be off while the others are where they should be.
+/// The error allowed at one joint while the others are exact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointBudgetRecord {
-    /// Its body.
+    /// The body of the joint.
     pub body: Body,
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
-    /// In any direction.
+    /// The error allowed in any direction.
     pub alone: LimitedAllowance,
-    /// The worst direction, frame of the body.
+    /// The worst direction of the error, body frame.
     pub direction: [Number; 3],
-    /// Error of the tool point for each unit of error in the worst direction.
+    /// Error of the tool point per unit of joint error in the worst direction.
     pub position_per_unit: Number,
-    /// Error of the orientation for each unit of error in the worst direction.
+    /// Error of the orientation per unit of joint error in the worst direction, degrees per design unit.
     pub rotation_deg_per_unit: Number,
-    /// Along x, y and z of the body; null: no influence.
+    /// The errors allowed along x, y and z of the body, design units; null: no influence.
     pub along_axes: [Option<Number>; 3],
-    /// Half widths of the box of largest volume for all joints together; null: no influence.
+    /// Half widths of the box of largest volume for all joints together, design units; null: no influence.
     pub largest_product: [Option<Number>; 3],
 }
 
@@ -158,46 +159,46 @@ pub(super) fn joint_name(design: &Design, joint: Joint) -> &str {
     &joint.body.of((design.base_names(), design.platform_names()))[joint.index]
 }
 
-/// Errors of the pose with all joints off in the worst way, solved.
+/// Errors of the pose for the worst errors of all joints, solved exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorstErrorsRecord {
-    /// By the radius; null: the pose was lost.
+    /// Errors of the pose for joint errors of this radius; null: the pose was lost.
     pub in_budget: Option<PoseErrorRecord>,
-    /// By one and a half times the radius; null: the pose was lost.
+    /// Errors of the pose for joint errors of 1.5 times the radius; null: the pose was lost.
     pub times_1_5: Option<PoseErrorRecord>,
-    /// The pose.
+    /// The pose at which the errors were solved.
     pub pose: PoseQuaternionRecord,
 }
 
-/// What solving says about the radius, which is of first order.
+/// The exact check of the first-order radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedBudgetRecord {
-    /// No error looked at in the budget goes beyond the bound when its pose is solved.
+    /// Whether the solved pose stays within the bound for every sampled error in the budget.
     pub within_bound: bool,
-    /// The largest share of the bound that was used up; null: a pose was lost.
+    /// The largest share of the bound that was reached; null: a pose was lost.
     pub largest_share: Option<Number>,
-    /// The worst errors of this length at their pose keep the bound when they are solved.
+    /// A radius for which the worst joint errors keep the bound, solved exactly at their pose.
     pub radius: Option<Number>,
 }
 
-/// Random errors in the budget.
+/// Statistics of random errors in the budget.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TrialsRecord {
-    /// How many.
+    /// Number of random samples.
     pub count: usize,
-    /// Poses that were lost.
+    /// Number of poses that were lost.
     pub lost: usize,
-    /// Poses within the bound.
+    /// Number of poses within the bound.
     pub within_bound: usize,
-    /// Poses beyond it.
+    /// Number of poses beyond the bound.
     pub beyond_bound: usize,
-    /// Errors of the pose by the nominal formula.
+    /// Errors of the pose computed by the nominal formula.
     pub formula: ErrorSpread,
-    /// By how much their first order is off.
+    /// Differences between these errors and their first-order values.
     pub first_order_discrepancy: ErrorSpread,
-    /// Errors after one Newton step with the joints as they are.
+    /// Errors after one Newton step with the actual joints.
     pub after_one_step: ErrorSpread,
-    /// Errors after two.
+    /// Errors after two Newton steps with the actual joints.
     pub after_two_steps: ErrorSpread,
 }
 
@@ -216,16 +217,16 @@ impl From<&Trials> for TrialsRecord {
     }
 }
 
-/// The poses looked at.
+/// The poses evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BudgetPosesRecord {
-    /// How many.
+    /// Number of poses.
     pub count: usize,
-    /// Whether the workspace is that of the design.
+    /// The source of the workspace.
     pub workspace: WorkspaceWord,
 }
 
-/// Where a workspace comes from.
+/// The source of a workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WorkspaceWord {
@@ -238,36 +239,36 @@ pub enum WorkspaceWord {
 /// The greatest errors of the pose by all causes together, to first order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorMapRecord {
-    /// Every joint is off by at most this in any direction.
+    /// The greatest error of each joint, in any direction, design units.
     pub joint_error: Number,
-    /// Every leg is longer or shorter than it shows by at most this.
+    /// The greatest error of each leg length, design units.
     pub length_error: Number,
-    /// Growth of base, platform and legs, as shares; with either sign.
+    /// Relative expansion of base, platform and legs, with either sign.
     pub growth: [Number; 3],
-    /// Poses looked at: the corners and a sample of the region, and those that are listed.
+    /// Number of poses evaluated: the corners and a sample of the region, and the listed poses.
     pub poses: usize,
-    /// Of the tool point, design units.
+    /// Error of the tool point, design units.
     pub position: GreatestErrorRecord,
-    /// Of the orientation, degrees.
+    /// Error of the orientation, degrees.
     pub rotation_deg: GreatestErrorRecord,
-    /// The table of all poses that was written; null: none.
+    /// The table of all poses written; null: none.
     pub path: Option<String>,
 }
 
 /// The greatest error over the poses of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GreatestErrorRecord {
-    /// By all causes.
+    /// The greatest error by all causes together.
     pub greatest: Number,
-    /// By joints alone, at the same pose.
+    /// The part due to joints, at the same pose.
     pub joints: Number,
-    /// By leg lengths alone.
+    /// The part due to leg lengths, at the same pose.
     pub lengths: Number,
-    /// By growth alone.
+    /// The part due to expansion, at the same pose.
     pub growth: Number,
-    /// The pose.
+    /// The pose with the greatest error.
     pub pose: PoseQuaternionRecord,
-    /// Half of the poses have at most this by all causes.
+    /// The median over the poses, by all causes together.
     pub median: Number,
 }
 
@@ -307,9 +308,9 @@ impl ErrorMapRecord {
 /// The error of a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseErrorRecord {
-    /// Of the tool point, design units.
+    /// Error of the tool point, design units.
     pub position: Number,
-    /// Of the orientation.
+    /// Error of the orientation, degrees.
     pub rotation_deg: Number,
 }
 

@@ -10,20 +10,20 @@ use platform::topology::{JointIndex, NamedTopology, Sequence};
 /// The answer of `equivalents topologies`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TopologiesAnswer {
-    /// How many topologies can hold a platform.
+    /// Number of topologies that can hold a platform.
     #[schemars(extend("const" = 34))]
     pub count: usize,
-    /// The topology of the design, where one is given.
+    /// The topology of the given design, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub design: Option<RecognisedRecord>,
-    /// Their numbers by virtual legs; absent where a design is given.
+    /// Numbers of topologies by their virtual legs; absent: a design is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_virtual_legs: Option<VirtualLegsRecord>,
-    /// Random members solved of each.
+    /// Number of random members solved for each topology.
     pub members: u64,
     /// The topologies.
     pub topologies: Vec<TopologyRecord>,
-    /// The fewest shared joints of each by equivalent rearrangement, with `--rearrangements`.
+    /// The fewest shared joints of each topology by equivalent rearrangement, with `--rearrangements`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rearrangements: Option<Vec<RearrangementRecord>>,
 }
@@ -33,36 +33,36 @@ pub struct TopologiesAnswer {
 pub struct RecognisedRecord {
     /// The name of the design.
     pub name: String,
-    /// T01 to T34.
+    /// The identifier of the topology, T01 to T34.
     pub id: String,
     /// The name of the topology: numbers of base and platform joints.
     pub topology: String,
-    /// Base and platform of the design are exchanged.
+    /// Whether base and platform of the design are exchanged.
     pub exchanged: bool,
 }
 
 /// Numbers of topologies by the virtual legs that trilateration needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct VirtualLegsRecord {
-    /// None.
+    /// Number of topologies without a virtual leg.
     #[serde(rename = "0")]
     pub none: usize,
-    /// One, and the position of some joint is found before the others.
+    /// Number of topologies with one virtual leg, decoupled: the position of some joint is found before the others.
     #[serde(rename = "1_decoupled")]
     pub one_decoupled: usize,
-    /// One.
+    /// Number of topologies with one virtual leg, coupled.
     #[serde(rename = "1_coupled")]
     pub one_coupled: usize,
-    /// Two.
+    /// Number of topologies with two virtual legs.
     #[serde(rename = "2")]
     pub two: usize,
-    /// Three.
+    /// Number of topologies with three virtual legs.
     #[serde(rename = "3")]
     pub three: usize,
 }
 
 impl VirtualLegsRecord {
-    /// The numbers of a list.
+    /// The numbers for a list of topologies.
     #[must_use]
     pub fn of(list: &[NamedTopology]) -> Self {
         let count = |legs: usize, decoupled: bool| {
@@ -85,55 +85,55 @@ impl VirtualLegsRecord {
 /// One topology.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TopologyRecord {
-    /// T01 to T34.
+    /// The identifier of the topology, T01 to T34.
     #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]
     pub id: String,
-    /// Numbers of base and platform joints.
+    /// The name of the topology: numbers of base and platform joints.
     pub name: String,
-    /// Joints of the base.
+    /// Number of joints of the base.
     pub base_joints: usize,
-    /// Joints of the platform.
+    /// Number of joints of the platform.
     pub platform_joints: usize,
-    /// Joints that hold more than one leg.
+    /// Number of joints that hold more than one leg.
     pub shared_joints: usize,
     /// Base joint and platform joint of each leg.
     pub legs: Vec<[String; 2]>,
-    /// Virtual legs that trilateration needs.
+    /// Number of virtual legs for trilateration.
     pub virtual_legs: usize,
-    /// Their joints.
+    /// The joints of the virtual legs.
     pub virtual_leg_joints: Vec<[String; 2]>,
-    /// The position of some joint is found before the others.
+    /// Whether the position of some joint is found before the others.
     pub decoupled: bool,
     /// The joints of the first triangle.
     pub start: [String; 3],
     /// The trilaterations after it.
     pub sequence: Vec<TrilaterationStepRecord>,
-    /// Finite poses of a random member, multiplicity included.
+    /// Number of finite poses of a random member, counted with multiplicity.
     pub finite_roots: u32,
-    /// That number is proved.
+    /// Whether this number is proved.
     pub finite_roots_proved: bool,
     /// Degree of the closure polynomial; null with two or more virtual legs.
     pub closure_degree: Option<usize>,
-    /// Its degree before singular factors are removed.
+    /// Degree of the closure polynomial before singular factors are removed.
     pub closure_degree_before: Option<usize>,
-    /// Its distinct roots.
+    /// Number of distinct roots of the closure polynomial.
     pub closure_distinct_roots: Option<usize>,
 }
 
-/// What was computed for a topology.
+/// The computed properties of a topology.
 #[derive(Debug)]
 pub struct TopologyFindings<'a> {
     /// The topology.
     pub named: NamedTopology,
-    /// How its poses are found by trilateration.
+    /// The sequence of trilaterations that gives its poses.
     pub sequence: &'a Sequence,
-    /// The position of some joint is found before the others.
+    /// Whether the position of some joint is found before the others.
     pub decoupled: bool,
-    /// Finite poses of random members.
+    /// Number of finite poses of random members.
     pub poses: u32,
-    /// That number is proved.
+    /// Whether this number is proved.
     pub proved: bool,
-    /// Of the closure polynomial of a random member, where at most one virtual leg is needed.
+    /// The closure degrees of a random member, for at most one virtual leg.
     pub closure: Option<&'a ClosureDegrees>,
 }
 

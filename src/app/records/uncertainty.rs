@@ -1,4 +1,4 @@
-//! How uncertain a pose of a calibrated machine is.
+//! The uncertainty of a pose of a calibrated machine.
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
@@ -9,18 +9,18 @@ use ask::Design;
 use machine::manufacture::{MachineUncertainty, PoseCovariance};
 use platform::geom::Pose;
 
-/// How the errors of a calibration go together.
+/// The correlation of the errors of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CorrelationsWord {
-    /// As the design file says.
+    /// The correlations of the design file.
     Design,
-    /// The design file has no correlations: every coordinate and offset counts as off for itself.
+    /// Independent errors: the design file has no correlations.
     Independent,
 }
 
 impl CorrelationsWord {
-    /// Of a design.
+    /// The correlations of a design.
     #[must_use]
     pub fn of(design: &Design) -> Self {
         let known = design.calibration.as_ref().is_some_and(|table| table.correlations.is_some());
@@ -28,22 +28,22 @@ impl CorrelationsWord {
     }
 }
 
-/// How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not
-/// know, to first order; the noise of these lengths comes on top.
+/// The uncertainty of a pose computed from lengths with the calibrated machine, to first order. It covers the errors of
+/// the calibration; the noise of the lengths adds to it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoseUncertaintyRecord {
     /// Whether the design file has correlations.
     pub correlations: CorrelationsWord,
-    /// Root mean square of the distance by which the platform origin is off, design units.
+    /// Root mean square error of the platform origin, design units.
     pub position: Number,
-    /// Root mean square of the angle by which the orientation is off, degrees.
+    /// Root mean square error of the orientation, degrees.
     pub rotation_deg: Number,
     /// Covariance of the shift of the platform origin (design units) and the rotation vector (degrees), base frame.
     pub covariance: [[Number; 6]; 6],
 }
 
 impl PoseUncertaintyRecord {
-    /// At a pose; `None` at a singular one.
+    /// The uncertainty at a pose; `None`: a singular pose.
     #[must_use]
     pub fn at(design: &Design, known: &MachineUncertainty, pose: &Pose) -> Option<Self> {
         let found = known.pose_covariance(design.manipulator(), pose, &Point3::origin())?;
@@ -56,7 +56,7 @@ impl PoseUncertaintyRecord {
     }
 }
 
-/// A covariance with rotations in degrees.
+/// A covariance, with rotations converted to degrees.
 pub(super) fn in_degrees(found: &PoseCovariance) -> [[Number; 6]; 6] {
     let unit = |k: usize| if k < 3 { 1.0 } else { 1_f64.to_degrees() };
     std::array::from_fn(|i| std::array::from_fn(|j| Number(found.matrix[(i, j)] * unit(i) * unit(j))))

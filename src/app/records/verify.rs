@@ -15,32 +15,32 @@ use verify::{Counterexample, Sample, Verdict, VerdictWord, Verification};
 pub struct VerifyAnswer {
     /// The verdict.
     pub verdict: VerdictWord,
-    /// One sentence with the numbers that decided.
+    /// The verdict in one sentence, with the numbers that decided.
     pub explanation: String,
-    /// Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about which
-    /// joints.
+    /// Whether exact arithmetic on the leg vectors proves the verdict; `level` of the map names the joints it holds
+    /// for.
     pub proved: bool,
-    /// The algebraic side; that of the designs as they are given where no motion was found.
+    /// The algebraic evidence; if no motion was found, the map between the designs as given.
     pub map: MapRecord,
-    /// For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`, design units
-    /// squared, whatever the tolerance of the map; null where the map is proved, so that there is no difference, where
-    /// it is singular, and where no motion was found.
-    pub deviation_bounds: Option<[Number; 6]>,
-    /// The largest distance of matched poses over all samples; null where none were compared.
-    pub worst_distance: Option<Number>,
-    /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where
+    /// For each leg of B, a bound on the difference between its squared length and A s + c, design units squared. It
+    /// holds at all poses of `sampling`, for any tolerance of the map. Null: the map is exact by proof, or singular, or
     /// no motion was found.
+    pub deviation_bounds: Option<[Number; 6]>,
+    /// The largest distance of matched poses over all samples; null: none were compared.
+    pub worst_distance: Option<Number>,
+    /// Unmatched poses set aside, because rounding of the joints decides whether they exist. Absent: no motion was
+    /// found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_precision: Option<BeyondPrecisionRecord>,
-    /// The numerical side.
+    /// The numerical evidence.
     pub samples: Vec<SampleRecord>,
-    /// A pose that tells the designs apart.
+    /// A pose that distinguishes the designs; null: none was found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<CounterexampleRecord>,
-    /// The box of random poses; absent where no motion was found.
+    /// The box of random poses; absent: no motion was found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling: Option<SamplingRecord>,
-    /// What was done with the frames of the second design.
+    /// The changes of frames of the second design.
     #[serde(flatten)]
     pub frames: FramesRecord,
 }
@@ -68,7 +68,7 @@ impl VerifyAnswer {
         }
     }
 
-    /// The answer where rigid motions were asked for, and there are none (`refuted`) or none were found.
+    /// The answer for a search for rigid motions without success: there are none (`refuted`), or none were found.
     #[must_use]
     pub fn unaligned(map: &LegMapOutcome, refuted: bool, explanation: String, frames: FramesRecord) -> Self {
         Self {
@@ -90,9 +90,9 @@ impl VerifyAnswer {
 /// Numbers of poses that were set aside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BeyondPrecisionRecord {
-    /// Of A.
+    /// Number of poses of A.
     pub a: usize,
-    /// Of B.
+    /// Number of poses of B.
     pub b: usize,
 }
 
@@ -101,25 +101,25 @@ pub struct BeyondPrecisionRecord {
 pub struct SampleRecord {
     /// Leg lengths of A, design units.
     pub lengths_a: [Number; 6],
-    /// Leg lengths of B.
+    /// Leg lengths of B, design units.
     pub lengths_b: [Number; 6],
     /// The poses of A.
     pub a: SolvedSampleRecord,
     /// The poses of B.
     pub b: SolvedSampleRecord,
-    /// Pairs of poses.
+    /// Number of pairs of poses.
     pub matched: usize,
-    /// Poses of A without partner.
+    /// Number of unmatched poses of A.
     pub only_a: usize,
-    /// Poses of B without partner.
+    /// Number of unmatched poses of B.
     pub only_b: usize,
-    /// Poses of A that were set aside.
+    /// Number of poses of A set aside.
     pub beyond_precision_a: usize,
-    /// Poses of B that were set aside.
+    /// Number of poses of B set aside.
     pub beyond_precision_b: usize,
-    /// The largest distance of a pair.
+    /// The largest distance within a pair.
     pub worst_distance: Number,
-    /// Whether this sample speaks for equivalence.
+    /// Whether this sample supports equivalence.
     pub agrees: bool,
 }
 
@@ -146,17 +146,17 @@ impl From<&Sample> for SampleRecord {
 pub struct SolvedSampleRecord {
     /// The method.
     pub method: Method,
-    /// Whether these are known to be all poses.
+    /// The level of completeness of the list.
     pub completeness: CompletenessWord,
-    /// One sentence on what is known.
+    /// The evidence for completeness in one sentence.
     pub completeness_reason: String,
-    /// False: poses may be missing.
+    /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,
-    /// Finite poses, real and complex.
+    /// Number of finite poses, real and complex.
     pub finite_count: usize,
-    /// Real poses.
+    /// Number of real poses.
     pub real_count: usize,
-    /// Poses with a certificate.
+    /// Number of poses with a certificate.
     pub certified_count: usize,
 }
 
@@ -174,23 +174,23 @@ impl From<&FkSolutions> for SolvedSampleRecord {
     }
 }
 
-/// A pose that belongs to the lengths of one design and not to those of the other.
+/// A pose that the lengths of one design allow and the corresponding lengths of the other do not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CounterexampleRecord {
     /// Index into `samples`, from 0.
     pub sample: usize,
-    /// The design whose lengths the pose has: A or B.
+    /// The design that has the pose: A or B.
     #[schemars(extend("enum" = ["A", "B"]))]
     pub solves: String,
     /// The pose.
     pub pose: ComplexRecord<PoseRecord>,
-    /// Whether a certificate proves the pose a solution of the one.
+    /// Whether a certificate proves that the pose is a solution for this design.
     pub certified: bool,
-    /// The leg of the other design that is missed most, from 1.
+    /// The leg of the other design with the greatest error of length, from 1.
     pub leg: usize,
-    /// By how much its squared length is missed, relative to the squared size.
+    /// The error of its squared length, relative to the squared size.
     pub miss: Number,
-    /// Rounding to expect in this number.
+    /// The rounding error expected in this number.
     pub rounding: Number,
 }
 
@@ -220,13 +220,13 @@ fn parts(pose: &ComplexPose) -> ComplexRecord<PoseRecord> {
 /// The random poses at which designs were compared.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SamplingRecord {
-    /// How many.
+    /// Number of poses.
     pub count: usize,
-    /// The middle of the box.
+    /// The centre of the box, base frame, design units.
     pub home_position: [f64; 3],
     /// Half widths of the box of positions, design units.
     pub translation_half_widths: [f64; 3],
-    /// Half widths of the box of rotation vectors.
+    /// Half widths of the box of rotation vectors, radians.
     pub rotation_half_widths_rad: [f64; 3],
 }
 

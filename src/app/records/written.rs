@@ -1,4 +1,4 @@
-//! Answers of commands whose result is a text, a picture or a file, and that have little to say besides.
+//! Answers of commands that write a text, a picture or a file.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -23,7 +23,7 @@ pub struct ConvertAnswer {
     pub name: String,
     /// The file written.
     pub output: String,
-    /// Its notation.
+    /// The notation of the file.
     pub format: Format,
 }
 
@@ -37,7 +37,7 @@ pub struct ManAnswer {
 /// The answer of `plot`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PlotAnswer {
-    /// What is drawn.
+    /// The kind of picture.
     pub figure: FigureWord,
     /// The picture.
     #[serde(flatten)]
@@ -48,19 +48,19 @@ pub struct PlotAnswer {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PictureRecord {
-    /// Written.
+    /// The picture was written to a file.
     Written {
         /// The file written.
         output: String,
     },
-    /// Given.
+    /// The picture is part of the answer.
     Given {
-        /// The picture.
+        /// The picture as SVG.
         svg: String,
     },
 }
 
-/// What `plot` draws; the answer of `plot locus` is its own.
+/// The kinds of pictures of `plot`; `plot locus` has its own answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FigureWord {
@@ -72,13 +72,13 @@ pub enum FigureWord {
     Det,
     /// Two designs at the same pose.
     Pair,
-    /// A front of `optimize`.
+    /// A Pareto front of `optimize`.
     Pareto,
     /// A curve of poses with constant leg lengths.
     SelfMotion,
-    /// Where det J vanishes over two freedoms.
+    /// The singular poses over two freedoms: zeros of det J.
     SingularPoses,
-    /// Columns of the table of a sweep.
+    /// Columns of a sweep's table.
     Sweep,
     /// Ways to share joints.
     Topologies,
@@ -98,16 +98,16 @@ pub struct ReferenceAnswer {
 pub struct ReportAnswer {
     /// The page.
     pub output: String,
-    /// How many files it shows.
+    /// Number of files shown.
     pub files: usize,
-    /// What `assess` says of the design that the page shows; null: there is none, or it requires nothing.
+    /// The result of `assess` for the design on the page; null: there is none, or it has no requirements.
     pub assessment: Option<AssessAnswer>,
 }
 
 /// The answer of `design schema`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SchemaAnswer {
-    /// What the schema describes.
+    /// The subject of the schema.
     pub of: String,
     /// A JSON Schema, draft 2020-12.
     pub schema: Map<String, Value>,
@@ -120,10 +120,10 @@ pub struct ViewAnswer {
     pub name: String,
     /// The page.
     pub output: String,
-    /// Its size.
+    /// The size of the page, bytes.
     pub bytes: usize,
-    /// The page has the core in WebAssembly.
+    /// Whether the page contains the WebAssembly core.
     pub live: bool,
-    /// What `assess` says of the platform that the page shows first; null: it requires nothing.
+    /// The result of `assess` for the platform that the page shows first; null: it has no requirements.
     pub assessment: Option<AssessAnswer>,
 }

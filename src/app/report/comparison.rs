@@ -18,8 +18,8 @@ pub struct Comparison {
     pub thumbnails: Vec<String>,
 }
 
-/// What the figures are about, and a row for every design. A click on the title of a column sorts by it where the page
-/// has the script.
+/// The comparison as a section: notes on the figures, and a row for every design. With the script of the page, a click
+/// on the title of a column sorts by it.
 pub(super) fn section(comparison: &Comparison, sortable: bool) -> Markup {
     let columns = comparison.answer.columns();
     let titles = ["design".to_owned()].into_iter().chain(columns.iter().map(FigureColumn::heading));
@@ -65,7 +65,7 @@ fn cell(cell: Option<&FigureCell>) -> Markup {
     }
 }
 
-/// What the figures are about, a sentence each.
+/// Notes on the figures, one sentence each.
 fn notes(answer: &CompareAnswer) -> Markup {
     html! {
         p.note {

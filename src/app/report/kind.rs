@@ -1,15 +1,15 @@
-//! What a result says in a word.
+//! The verdict of a result, in a word.
 
 use serde_json::{Map, Value};
 
-/// The answer of a result.
+/// The verdict of a result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ResultVerdict {
     /// The word of the result itself, for instance `equivalent`.
     pub word: String,
     /// Yes, no, or neither.
     pub holds: Option<bool>,
-    /// Its sentence with the numbers that decided, where it has one.
+    /// The explanation with the numbers that decided, if the result has one.
     pub explanation: Option<String>,
 }
 
@@ -26,11 +26,11 @@ const YES: [&str; 10] = [
     "found",
     "identical",
 ];
-/// Words for no.
+/// Words of the commands for no.
 const NO: [&str; 7] =
     ["not_equivalent", "not equivalent", "infeasible", "singular", "not_realizable", "violated", "none"];
 
-/// The answer, where the result has one.
+/// The verdict, if the result has one.
 pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {
     let text = |key: &str| fields.get(key).and_then(Value::as_str).map(str::to_owned);
     let explanation = text("explanation").or_else(|| text("completeness_reason"));

@@ -16,7 +16,7 @@ use sheet::{Cell, Sheet, Tone, answers, badge, shown};
 
 pub(super) const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 
-/// What a file is.
+/// The kind of a file.
 enum Content {
     Design(Box<Design>, String),
     Result(Map<String, Value>),
@@ -105,7 +105,7 @@ pub fn html(report: &Report) -> String {
     document(&report.title, &policy(&[STYLE]), &html! { body { (body) } })
 }
 
-/// A page with its title and the rules of what it may load.
+/// A page with its title and its content security policy.
 pub(super) fn document(title: &str, policy: &str, body: &Markup) -> String {
     shown(&html! {
         (DOCTYPE)
@@ -127,12 +127,12 @@ fn section(id: &str, title: &str, parts: &[Markup]) -> Markup {
     html! { @if !parts.is_empty() { section id=(id) { h2 { (title) } @for part in parts { (part) } } } }
 }
 
-/// A verdict as a cell that a badge shows.
+/// A verdict as a cell with a badge.
 fn judged(v: &ResultVerdict) -> Cell {
     Cell::toned(v.word.as_str(), Tone::of(v.holds))
 }
 
-/// An answer at the top.
+/// A verdict at the top of the page.
 fn verdict_line(name: &str, fields: &Map<String, Value>) -> Option<Markup> {
     let v = verdict(fields)?;
     Some(html! {
@@ -160,8 +160,8 @@ fn anchor(name: &str) -> String {
     format!("file-{}", name.chars().map(plain).collect::<String>())
 }
 
-/// A link to the file beside the page or in a folder there. Nothing is empty between two slashes: a path that begins
-/// with two of them leads to another host.
+/// A link to the file beside the page or in a folder there. Empty path segments are dropped, since a path that begins
+/// with `//` leads to another host.
 fn link(name: &str) -> Markup {
     let parts = name.split('/').filter(|part| !part.is_empty());
     let encoded: Vec<String> =
@@ -178,7 +178,7 @@ fn title(fields: &Map<String, Value>) -> String {
     )
 }
 
-/// A result folded away: its answer is among the verdicts, and whoever doubts it unfolds the numbers.
+/// A result, folded: the verdicts tell its answer, and a reader unfolds it for the numbers.
 fn result(name: &str, fields: &Map<String, Value>) -> Markup {
     html! {
         details.card id=(anchor(name)) {
@@ -192,7 +192,7 @@ fn result(name: &str, fields: &Map<String, Value>) -> Markup {
     }
 }
 
-/// A design with its legs, and the file as it is.
+/// A design with its legs, and the text of the file.
 fn input(name: &str, text: &str, design: &Design) -> Markup {
     html! {
         section.card {
@@ -209,15 +209,15 @@ fn input(name: &str, text: &str, design: &Design) -> Markup {
     }
 }
 
-/// The text of a node without markup: the five entities of XML as the characters they stand for.
+/// The text of a node without markup, with the five entities of XML replaced by their characters.
 fn unescape(text: &str) -> String {
     let known = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
     known.iter().fold(text.to_owned(), |text, (entity, character)| text.replace(entity, character))
 }
 
-/// As an image: scripts and styles of one picture reach neither the page nor other pictures.
+/// A picture as an image element, so that its scripts and styles reach neither the page nor other pictures.
 fn picture(name: &str, svg: &str) -> Markup {
-    // the file may be anybody's: what it calls escaped is read, and escaped here
+    // the file is untrusted: its escaped text is unescaped here and escaped again
     let inner = |from: &str, to: &str| {
         unescape(svg.split(from).nth(1).and_then(|rest| rest.split(to).next()).unwrap_or_default().trim())
     };
@@ -232,7 +232,7 @@ fn picture(name: &str, svg: &str) -> Markup {
     }
 }
 
-/// The address of a picture that stands in the page.
+/// The picture as a data address.
 pub(super) fn data(svg: &str) -> String {
     format!("data:image/svg+xml,{}", utf8_percent_encode(svg, NON_ALPHANUMERIC))
 }
@@ -275,7 +275,7 @@ fn provenance(contents: &[(&ReportFile, Content)]) -> Markup {
     }
 }
 
-/// What the result calls tolerances, at the top or one level below.
+/// The tolerances of the result, from its top level or one level below.
 fn tolerances(fields: &Map<String, Value>) -> Option<String> {
     let below = fields.values().filter_map(Value::as_object).filter_map(|o| o.get("tolerances"));
     let tables = fields.get("tolerances").into_iter().chain(below).filter_map(Value::as_object);

@@ -4,11 +4,11 @@ use maud::{Markup, html};
 
 use sheet::{Sheet, Table, answers::words, left};
 
-/// How the line of titles of a bill of materials begins.
+/// The beginning of the line of titles of a bill of materials.
 const TITLES: &str = "part,count,";
 
-/// The table of a bill of materials as `export` writes it (`parts.csv`), without columns that say nothing; `None` for
-/// another text. `link` leads to its file.
+/// The table of a bill of materials as written by `export` (`parts.csv`), without empty columns; `None` for another
+/// text. `link` leads to its file.
 pub(super) fn section(link: &Markup, text: &str) -> Option<Markup> {
     let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
     let titles = cells(lines.next().filter(|line| line.starts_with(TITLES))?);

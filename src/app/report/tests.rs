@@ -80,7 +80,7 @@ fn files_cannot_break_out_of_their_place() {
     assert!(!text.contains("<script") && !text.contains("</td>\"") && !text.contains("<b>"));
     assert!(text.contains("srcdoc=\"&lt;!doctype html&gt;&lt;script&gt;let a = &quot;b&quot; &amp;&amp; 1"));
     assert!(text.contains("alt=\"c\"") && text.contains("<figcaption>a &amp; b ("));
-    // what cannot be read is listed, not dropped
+    // unreadable files are listed too
     assert!(text.contains("broken.json") && text.contains("broken.toml"));
 }
 
@@ -114,8 +114,8 @@ const PIECES: [&str; 16] = [
     "name",
 ];
 
-/// Tags with their attributes; text between them is not looked at. What a browser takes for a tag begins with `<` and a
-/// letter, `/`, `!` or `?`.
+/// Tags with their attributes; the text between them is ignored. For a browser a tag begins with `<` and a letter, `/`,
+/// `!` or `?`.
 fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut out = Vec::new();
     let mut rest = html;
@@ -151,8 +151,8 @@ fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
     out
 }
 
-/// The tags and attributes of the page itself, links within it, to the files beside it, and pictures that are data:
-/// nothing else.
+/// Checks that the page holds only its own tags and attributes, links within it and to the files beside it, and
+/// pictures as data.
 fn only_its_own(html: &str) -> Result<(), String> {
     const TAGS: [&str; 29] = [
         "!DOCTYPE", "html", "head", "meta", "title", "style", "body", "main", "section", "h1", "h2", "h3",
@@ -247,7 +247,7 @@ fn foreign_texts_never_become_markup() {
         only_its_own(&text).unwrap_or_else(|tag| panic!("round {round}: {tag} in\n{text}"));
         assert!(text.contains("default-src 'none'; script-src 'sha256-") && !text.contains("unsafe-inline"));
     }
-    // the reader notices what it is for
+    // the reader recognises its purpose
     for bad in [
         "<p>a</p><script>",
         "<p onclick=\"x\">",
@@ -290,7 +290,7 @@ fn assessment(name: &str, role: &str, margin: f64) -> String {
     )
 }
 
-/// The margins of another platform once stood under the title of the design, and two tables had one title.
+/// The margins of another platform once stood under the title of the design, and two tables had the same title.
 #[test]
 fn every_table_of_requirements_has_the_role_of_its_design() {
     let text = report(vec![
@@ -322,7 +322,7 @@ fn every_table_of_requirements_has_the_role_of_its_design() {
     let carried = assessment("mine", "design", 1.5);
     let carried = report(vec![file("a.json", &format!(r#"{{"schema_version":1,"assessment":{carried}}}"#))]);
     assert!(carried.contains(tables[0].split("From").next().unwrap()), "{carried}");
-    // an answer of an earlier version lacks fields: all that it has are listed
+    // an answer of an earlier version lacks fields: all fields it has are listed
     let old = assessment("mine", "design", 1.5).replace("\"role\"", "\"rule\"");
     let text = report(vec![file("old.json", &old)]);
     assert!(text.contains("<td>1.5</td>") && !text.contains("Original"), "{text}");

@@ -1,4 +1,4 @@
-//! HTML, for reports and notebooks. Every text is escaped where it is written.
+//! HTML, for reports and notebooks. Every text is escaped during writing.
 
 use maud::{Markup, html};
 
@@ -6,7 +6,7 @@ use super::{Block, Cell, Sheet, Table, Tone};
 use files::plot::visible;
 
 impl Sheet {
-    /// Paragraphs, lists of what belongs to the line above, tables, and details that can be unfolded.
+    /// The sheet as HTML: paragraphs, lists of indented lines, tables, and details that can be unfolded.
     #[must_use]
     pub fn html(&self) -> Markup {
         let indented = |block: &Block| matches!(block, Block::Line(line) if line.starts_with("  "));
@@ -50,7 +50,7 @@ fn body(table: &Table) -> Markup {
     }
 }
 
-/// The text with the sign of its tone, so that colour is not all that tells it.
+/// The text with the sign of its tone, so that colour is not the only cue.
 fn judged(cell: &Cell) -> Markup {
     html! { @if let Some(sign) = sign(cell.tone) { span aria-hidden="true" { (sign) } " " } (cell.text) }
 }
@@ -78,7 +78,7 @@ pub fn badge(cell: &Cell) -> Markup {
     html! { strong class=[class(cell.tone)] { (judged(cell)) } }
 }
 
-/// Markup whose characters all show: those that steer a terminal or the direction of a text are replaced.
+/// Markup with all characters visible: terminal control and text direction characters are replaced.
 pub fn shown(markup: &Markup) -> String {
     visible(&markup.0)
 }

@@ -1,7 +1,7 @@
 //! An answer as people read it: lines, facts and tables, rendered as terminal text, Markdown and HTML.
 //!
-//! [`Sheet`] holds the content. [`answers`] makes a sheet of each answer, once; the command line, the report, the page
-//! and notebooks render it. It knows the records of answers, and nothing of files, terminals or pages.
+//! [`Sheet`] holds the content. [`answers`] makes one sheet of each answer; the command line, the report, the page and
+//! notebooks render it. This package knows the records of answers; files, terminals and pages are left to its callers.
 
 /// Adds a formatted line to a sheet.
 macro_rules! say {
@@ -19,15 +19,15 @@ pub use html::{badge, shown};
 pub use markdown::escaped as markdown_escaped;
 use num::shown::fixed;
 
-/// What there is to read, from top to bottom.
+/// The content of an answer from top to bottom.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Sheet(Vec<Block>);
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Block {
-    /// A sentence; leading spaces say that it belongs to the line above.
+    /// A sentence; leading spaces mark that it belongs to the line above.
     Line(String),
-    /// What follows is about something else.
+    /// A gap before another subject.
     Space,
     Table(Table),
     /// Details under a title.
@@ -39,13 +39,13 @@ enum Block {
 }
 
 impl Sheet {
-    /// Without content.
+    /// An empty sheet.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a line for each line of the text; an empty one is a space.
+    /// Adds a line for each line of the text; an empty line becomes a gap.
     pub fn line(&mut self, text: impl Display) {
         let text = text.to_string();
         self.0
@@ -59,12 +59,12 @@ impl Sheet {
         self.0.push(Block::Space);
     }
 
-    /// Adds a table; one without rows adds nothing.
+    /// Adds a table, unless it has no rows.
     pub fn table(&mut self, table: Table) {
         self.0.extend((!table.rows.is_empty()).then_some(Block::Table(table)));
     }
 
-    /// Adds all that another sheet has.
+    /// Adds the content of another sheet.
     pub fn add(&mut self, other: Self) {
         self.0.extend(other.0);
     }
@@ -83,12 +83,12 @@ impl From<Table> for Sheet {
     }
 }
 
-/// Numbers with so many decimals, in brackets; a number that rounds to zero has no sign.
+/// Numbers with this number of decimals, in brackets; a number that rounds to zero has no sign.
 fn listed(numbers: impl IntoIterator<Item = f64>, decimals: usize) -> String {
     format!("[{}]", numbers.into_iter().map(|x| fixed(x, decimals)).collect::<Vec<_>>().join(", "))
 }
 
-/// Rows of cells.
+/// A table: rows of cells.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     columns: Vec<Column>,
@@ -96,19 +96,19 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table without rows; where no column has a title, there is no line of titles.
+    /// A table without rows; the line of titles is left out if no column has a title.
     pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
         Self { columns: columns.into_iter().collect(), rows: Vec::new() }
     }
 
-    /// Names and values.
+    /// A table of names and values.
     pub fn facts(width: usize, facts: impl IntoIterator<Item = (impl Into<Cell>, impl Into<Cell>)>) -> Self {
         let mut table = Self::new([left("", width), left("", 0)]);
         facts.into_iter().for_each(|(name, value)| table.row([name.into(), value.into()]));
         table
     }
 
-    /// Adds a row; columns without a cell stay empty.
+    /// Adds a row; missing cells stay empty.
     pub fn row(&mut self, cells: impl IntoIterator<Item = impl Into<Cell>>) {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
@@ -134,7 +134,7 @@ impl Table {
     }
 }
 
-/// A column; width and gap are for text.
+/// A column; width and gap apply to text output.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
     title: String,
@@ -143,32 +143,32 @@ pub struct Column {
     gap: usize,
 }
 
-/// A column of words, at least so wide.
+/// A column of words with this least width.
 pub fn left(title: impl Into<String>, width: usize) -> Column {
     Column { title: title.into(), width, right: false, gap: 1 }
 }
 
-/// A column of numbers, at least so wide.
+/// A column of numbers with this least width.
 pub fn right(title: impl Into<String>, width: usize) -> Column {
     Column { title: title.into(), width, right: true, gap: 1 }
 }
 
 impl Column {
-    /// The number of spaces before it, 1 unless said.
+    /// Sets the number of spaces before the column; the default is 1.
     #[must_use]
     pub fn gap(self, gap: usize) -> Self {
         Self { gap, ..self }
     }
 }
 
-/// A text, and what it says of a requirement.
+/// A text with its judgement of a requirement.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cell {
     text: String,
     tone: Tone,
 }
 
-/// What a cell says.
+/// The judgement of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
     /// No judgement.
@@ -184,7 +184,7 @@ pub enum Tone {
 }
 
 impl Tone {
-    /// The tone of an answer.
+    /// The tone of a verdict.
     #[must_use]
     pub fn of(holds: Option<bool>) -> Self {
         match holds {

@@ -3,7 +3,7 @@
 use super::{Block, Sheet, Table};
 
 impl Sheet {
-    /// Paragraphs, lists of what belongs to the line above, and tables.
+    /// The sheet as Markdown: paragraphs, lists of indented lines, and tables.
     #[must_use]
     pub fn markdown(&self) -> String {
         let mut parts: Vec<String> = Vec::new();
@@ -43,7 +43,7 @@ fn rows(table: &Table) -> String {
     format!("{titles}|{rules}\n{}", rows.collect::<String>())
 }
 
-/// Text that cannot become markup: `>` and `#` mark only the beginning of a line, and `_` means nothing inside a word.
+/// Text escaped against markup: `>` and `#` matter only at the beginning of a line, and `_` never inside a word.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Write as _};
 
 use super::{Block, Column, Sheet, Table, Tone};
 
-/// Lines as they are, tables in columns of their widths.
+/// The sheet as text: lines as they are, tables in columns of their widths.
 impl Display for Sheet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for block in &self.0 {
@@ -19,7 +19,7 @@ impl Display for Sheet {
     }
 }
 
-/// Cells that are longer than this push their row aside instead of making the column wide.
+/// The greatest width of a column, characters; longer cells push their row aside.
 const WIDEST: usize = 40;
 
 fn rows(table: &Table) -> String {
@@ -58,7 +58,7 @@ fn mark(tone: Tone) -> char {
     }
 }
 
-/// A mark stands before its word at the end of the gap, and directly before its number.
+/// The mark of a word stands at the end of the gap, and the mark of a number directly before it.
 fn line<'a>(out: &mut String, cells: impl Iterator<Item = (&'a Column, usize, &'a str, char)>) {
     let mut row = String::new();
     for (k, (column, width, text, mark)) in cells.enumerate() {

@@ -1,4 +1,4 @@
-//! A candidate: the platform that the values of the free quantities make, and what is worked out of it once.
+//! A candidate: the platform for given values of the free quantities, with results that are computed once.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -18,11 +18,11 @@ use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 use synthesis::Pattern;
 
-/// What follows from the text of a base design.
+/// The data derived from the text of a base design.
 #[derive(Debug, Clone)]
 pub(super) struct Ground {
     pub(super) design: Design,
-    /// The octahedral platform, where offsets or patterns vary.
+    /// The octahedral platform, if offsets or patterns vary.
     original: Option<Original>,
     pub(super) home: Pose,
     pub(super) poses: Vec<Pose>,
@@ -30,7 +30,7 @@ pub(super) struct Ground {
 
 impl Ground {
     /// # Errors
-    /// Why the design has no equivalents, where they vary.
+    /// The reason why the design has no equivalents, if they vary.
     pub(super) fn new(design: Design, sweep: &Sweep) -> Result<Self, String> {
         let original = if sweep.has_equivalents() {
             Some(Original::of(&design).ok_or("the design is not octahedral")?)
@@ -68,9 +68,9 @@ pub(super) struct SweepCandidate<'a> {
     /// The values of the free quantities.
     values: &'a [SweepCell],
     placed: Option<PlacedPattern<'a>>,
-    /// The drive in all legs; `None`: what the design says of its legs.
+    /// The drive in all legs; `None`: the data of the design apply.
     pub(super) drive: Option<&'a Drive>,
-    /// `None`: that of the design.
+    /// The manipulator; `None`: the manipulator of the design.
     manipulator: Option<Manipulator>,
     whole: OnceCell<Result<Design, String>>,
     solved: OnceCell<Result<FkSolutions, String>>,
@@ -80,7 +80,7 @@ pub(super) struct SweepCandidate<'a> {
 
 impl<'a> SweepCandidate<'a> {
     /// # Errors
-    /// Why the values make no platform.
+    /// The reason why the values make no platform.
     pub(super) fn new(sweep: &'a Sweep, values: &'a [SweepCell]) -> Result<Self, String> {
         let ground = match &sweep.ground {
             Some(fixed) => Cow::Borrowed(fixed),
@@ -112,15 +112,15 @@ impl<'a> SweepCandidate<'a> {
         placed.pattern.determinant(&placed.offsets).ok()
     }
 
-    /// The length that turns angles into lengths: one for all candidates, so that their conditioning can be compared.
+    /// The characteristic length, common to all candidates, so that their conditioning can be compared.
     pub(super) fn characteristic_length(&self) -> f64 {
         self.ground.design.characteristic_length()
     }
 
-    /// The candidate as a design, with all tables of the base design, and home as it is there.
+    /// The candidate as a design, with all tables of the base design and its home.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why there is none.
     pub(super) fn design(&self) -> Result<&Design, String> {
         let make = || match (&self.placed, &self.ground.original) {
             (Some(p), Some(original)) => {
@@ -138,11 +138,11 @@ impl<'a> SweepCandidate<'a> {
         self.whole.get_or_init(|| make().map(driven)).as_ref().map_err(Clone::clone)
     }
 
-    /// The squared leg lengths of the candidate: those that vary, those at the pose that varies, those of the design
-    /// (moved to the equivalent platform), or those at home.
+    /// The squared leg lengths of the candidate. Varying lengths come first, then the lengths at a varying pose.
+    /// Otherwise the lengths of the design (mapped to the equivalent platform), or the lengths at home.
     ///
     /// # Errors
-    /// Why there are none.
+    /// The reason why there are none.
     pub(super) fn squares(&self) -> Result<SquaredLegLengths, String> {
         let (mut lengths, mut pose) = ([None; 6], [None; 6]);
         for (quantity, value) in self.sweep.plan.quantities().zip(self.values) {
@@ -184,7 +184,7 @@ impl<'a> SweepCandidate<'a> {
     /// The poses at the lengths of the candidate.
     ///
     /// # Errors
-    /// Why there is no answer.
+    /// The reason why there is no answer.
     pub(super) fn solved(&self) -> Result<&FkSolutions, String> {
         let make = || {
             let squares = self.squares()?;
@@ -197,7 +197,7 @@ impl<'a> SweepCandidate<'a> {
     }
 
     /// # Errors
-    /// Why there is no answer.
+    /// The reason why there is no answer.
     pub(super) fn assessed(&self) -> Result<&AssessReport, String> {
         let make = || {
             let effort = self.sweep.plan.assess;
@@ -213,7 +213,7 @@ impl<'a> SweepCandidate<'a> {
     }
 
     /// # Errors
-    /// Why there is no answer.
+    /// The reason why there is no answer.
     pub(super) fn checked(&self) -> Result<&CheckReport, String> {
         let make = || self.design()?.check_with(self.sweep.seed).map_err(|e| e.to_string());
         let found = if self.sweep.plan.platform_is_fixed() {
@@ -245,7 +245,7 @@ fn changed(sweep: &Sweep, values: &[SweepCell]) -> Result<Design, String> {
     read.map_err(|violations| violations.first().map(ToString::to_string).unwrap_or_default())
 }
 
-/// A value as both notations of design files have it.
+/// A value in the notation that both formats of design files share.
 fn as_written(value: &SweepCell) -> String {
     match value {
         SweepCell::Number(x) => format!("{x:?}"),
@@ -254,7 +254,7 @@ fn as_written(value: &SweepCell) -> String {
     }
 }
 
-/// The pattern of a candidate with as many offsets as it takes.
+/// The pattern of a candidate with the offsets that it uses.
 fn placed<'a>(sweep: &'a Sweep, values: &[SweepCell]) -> Result<PlacedPattern<'a>, String> {
     let mut offsets = [None; 6];
     let mut pattern = &sweep.joint_free;
@@ -272,11 +272,11 @@ fn placed<'a>(sweep: &'a Sweep, values: &[SweepCell]) -> Result<PlacedPattern<'a
 }
 
 impl SweepCandidate<'_> {
-    /// The text of the candidate as a design file: that of the base design with other numbers or, for an equivalent
-    /// platform, one of its own.
+    /// The text of the candidate as a design file: the text of the base design with changed numbers. An equivalent
+    /// platform has a text of its own.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why there is none.
     pub(super) fn text(&self) -> Result<String, String> {
         Ok(match (&self.placed, &self.sweep.ground) {
             (None, None) if self.drive.is_none() => self.ground.design.text(),

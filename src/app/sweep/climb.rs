@@ -1,13 +1,13 @@
-//! Designs with many real poses: pairs of conjugate complex poses are led together by moving joints and lengths, until
-//! they meet and go on as two real ones.
+//! Searches for designs with many real poses. Moving joints and lengths brings pairs of conjugate complex poses
+//! together, until they meet and become two real ones.
 //!
-//! The method is Dietmaier's (1998), who found a platform with 40 real poses: the derivatives of all poses with respect
-//! to joints and squared lengths are known from the leg equations, a step brings one pair of complex poses together as
-//! far as it can while no two real ones come nearer to each other than a bound (a conic program: linear but for the
-//! length of the step), and all poses are computed again. A pair has one real number `q`, the sum of squared
-//! differences of all entries of its two poses, which is negative for conjugates and positive for real poses. It goes
-//! through zero smoothly where they meet, though the poses themselves have infinite derivatives there, so that the same
-//! step leads a pair together, through the double pose, and apart again.
+//! The method is due to Dietmaier (1998), who found a platform with 40 real poses. The leg equations give the
+//! derivatives of all poses with respect to joints and squared lengths. A step brings one pair of complex poses
+//! together as far as it can, while no two real poses come nearer than a bound. This is a conic program, linear except
+//! for the length of the step. Then all poses are computed again. A pair has one real number `q`, the sum of squared
+//! differences of all entries of its two poses. It is negative for conjugates and positive for real poses. It passes
+//! smoothly through zero at a double pose, although the poses themselves have infinite derivatives there. The same kind
+//! of step thus brings a pair together, through the double pose, and apart again.
 
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use num_complex::Complex64;
@@ -18,58 +18,58 @@ use num::{Purpose, Rng};
 use platform::geom::ComplexPose;
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
-/// Length of the first step, in units of the size, and of the longest one.
+/// Length of the first and of the longest step, in units of the size.
 const FIRST: f64 = 0.05;
 const LONGEST: f64 = 0.3;
-/// Imaginary parts squared have to shrink by this factor for a step to count.
+/// A step counts if it shrinks the squared imaginary parts by this factor.
 const SHRUNK: f64 = 0.999;
-/// A pair is given up when steps as short as this do not bring it together.
+/// A pair is given up if steps of this length do not bring it together.
 const SHORTEST: f64 = 1e-4;
-/// What becomes of the length of a step that was refused, and of one that was not.
+/// The factors on the step length after a rejected and after an accepted step.
 const SHORTER: f64 = 0.5;
 const LONGER: f64 = 1.5;
-/// A pair is given up as well when a spell of steps does not shrink its imaginary part squared to this share.
+/// A pair is also given up if a spell of steps does not shrink its squared imaginary part to this share.
 const SPELL_SHRINKS: f64 = 0.5;
-/// Steps of a spell: few at first, since from another place a pair that hardly moves here may meet in some steps, and
-/// twice as many each time no pair can be led together, up to the most.
+/// Number of steps of a spell. It is small at first, since a pair that hardly moves here may meet quickly from another
+/// place. It doubles each time no pair can be brought together, up to the greatest number.
 const SHORTEST_SPELL: usize = 3;
 const LONGEST_SPELL: usize = 40;
-/// Squared distance that real poses are to keep; those that are nearer may not come nearer still.
+/// Squared distance that real poses keep; nearer pairs may not approach further.
 const APART: f64 = 0.3;
-/// Pairs of real poses within so many times that distance bound a step.
+/// Pairs of real poses within this multiple of the distance limit a step.
 const WITHIN: f64 = 10.0;
-/// The largest share of its distance that a pair of real poses loses at a step.
+/// The largest share of its distance that a pair of real poses may lose in one step.
 const LOST: f64 = 0.5;
-/// Shares of the most that two real poses without distance could gain at a step, of which they gain the first that is
-/// possible for all.
+/// Shares of the greatest possible gain of two real poses at zero distance; the first share that is possible for all is
+/// used.
 const PARTING: [f64; 4] = [0.5, 0.25, 0.1, 0.0];
-/// How far, in units of the length of the step, a step may fall short of what it was asked for.
+/// Tolerance on the constraints of a step, in units of its length.
 const RESIDUAL: f64 = 1e-4;
-/// Weight of pushing near pairs of real poses apart, where 1 is that of the pair that is led together.
+/// Weight of separating close pairs of real poses; the weight of the target pair is 1.
 const OPENING: f64 = 0.3;
-/// Pairs of complex poses that are followed one after the other.
+/// Number of pairs of complex poses that are tried in turn.
 const PAIRS: usize = 4;
-/// Steps in a random direction after every pair has been given up, and their length.
+/// Number and length of steps in a random direction, after every pair has been given up.
 const WANDERING: usize = 5;
 const WANDERED: f64 = 0.15;
 
-/// Where a search ended.
+/// The end of a search.
 #[derive(Debug, Clone)]
 pub(super) struct Climb {
     pub(super) manipulator: Manipulator,
     pub(super) squares: SquaredLegLengths,
-    /// All poses there, with their evidence.
+    /// All poses at the end, with their evidence.
     pub(super) found: FkSolutions,
-    /// Real poses at the start.
+    /// Number of real poses at the start.
     pub(super) began: usize,
-    /// Steps taken.
+    /// Number of steps taken.
     pub(super) steps: usize,
 }
 
-/// What a search may move: which coordinates of which joints, and six squared lengths.
+/// The freedoms of a search: coordinates of joints, and six squared lengths.
 #[derive(Debug)]
 struct ClimbFreedoms {
-    /// Body, joint, axis.
+    /// The coordinates as body, joint, axis.
     coordinates: Vec<(Body, usize, usize)>,
     pairs: [(usize, usize); 6],
     size: f64,
@@ -84,7 +84,7 @@ struct Stand {
     real: usize,
 }
 
-/// A pair of poses: `q` in units of the size, and how it changes with the freedoms.
+/// A pair of poses: `q` in units of the size, and its derivatives with respect to the freedoms.
 #[derive(Debug)]
 struct PosePair {
     q: f64,
@@ -92,7 +92,7 @@ struct PosePair {
 }
 
 impl ClimbFreedoms {
-    /// Every coordinate of the joints that carry legs; a body whose joints all have `z = 0` stays flat.
+    /// Every coordinate of the joints that carry legs; a body with all joints at `z = 0` stays flat.
     fn of(m: &Manipulator) -> Self {
         let pairs = m.pairs();
         let mut coordinates = Vec::new();
@@ -122,8 +122,8 @@ impl ClimbFreedoms {
         Some((moved, SquaredLegLengths::try_new(squares).ok()?))
     }
 
-    /// How a pose moves with each of them: turns `w` (`dR = [w]x R`) and shifts in units of the size. `None` at a
-    /// singular pose.
+    /// The derivatives of a pose with respect to each freedom: rotations `w` (`dR = [w]x R`) and shifts in units of the
+    /// size. `None` at a singular pose.
     ///
     /// With `d = R b + p - a` the leg equation `d.d = s` gives `2 d.(dp + w x R b) = ds + 2 d.da - 2 (R^T d).db`.
     fn derivatives(&self, m: &Manipulator, pose: &ComplexPose) -> Option<Vec<Vector6<Complex64>>> {
@@ -140,7 +140,7 @@ impl ClimbFreedoms {
             }
             ends[i] = (d, pose.rotation.transpose() * d);
         }
-        // unknowns are w and dp / size; both sides over the size
+        // unknowns are w and dp / size; both sides are divided by the size
         let inverse = rows.try_inverse()?;
         let half = Complex64::new(0.5, 0.0);
         let mut out = Vec::with_capacity(self.coordinates.len() + 6);
@@ -163,8 +163,8 @@ impl ClimbFreedoms {
     }
 }
 
-/// The derivatives of `sum f(entry)^2` over rotation and position (in units of the size) of a pose, where `f` takes a
-/// real number from the entries and `at` has the values of `f` there.
+/// The derivatives of `sum f(entry)^2` over rotation and position (in units of the size) of a pose. The function `f`
+/// takes a real number from the entries, and `at` has the values of `f` there.
 fn slope(
     pose: &ComplexPose,
     moves: &[Vector6<Complex64>],
@@ -188,7 +188,7 @@ fn imaginary(pose: &ComplexPose, size: f64) -> (Matrix3<f64>, Vector3<f64>) {
     (pose.rotation.map(|z| z.im), pose.position.map(|z| z.im / size))
 }
 
-/// The sum of their squares.
+/// The sum of squares of the imaginary parts.
 fn measure(pose: &ComplexPose, size: f64) -> f64 {
     let (r, p) = imaginary(pose, size);
     r.norm_squared() + p.norm_squared()
@@ -218,7 +218,7 @@ impl ClimbFreedoms {
         self.coordinates.len() + 6
     }
 
-    /// Changes that do not enlarge the whole.
+    /// The changes without their component that scales the whole platform.
     fn without_scale(&self, stand: &Stand, mut v: DVector<f64>) -> DVector<f64> {
         let joints = Body::BOTH.map(|body| stand.manipulator.joints(body));
         let own = self.coordinates.iter().map(|(body, j, axis)| joints[body.index()][*j][*axis] / self.size);
@@ -228,13 +228,13 @@ impl ClimbFreedoms {
         v
     }
 
-    /// The step of a length at most `radius` that goes farthest along `aim`, while pairs of real poses keep their
-    /// distance and those that are too near part.
+    /// The step of length at most `radius` that goes farthest along `aim`. Pairs of real poses keep their distance, and
+    /// those that are too close separate.
     fn step(&self, aim: &DVector<f64>, kept: &[PosePair], radius: f64) -> Option<DVector<f64>> {
         PARTING.iter().find_map(|parting| self.step_parting(aim, kept, radius, *parting))
     }
 
-    /// The same, where a pair without any distance gains this share of the most that it could.
+    /// The same with this share of the greatest possible gain for a pair at zero distance.
     fn step_parting(
         &self,
         aim: &DVector<f64>,
@@ -271,7 +271,7 @@ impl ClimbFreedoms {
 
 impl Stand {
     fn new(manipulator: Manipulator, squares: SquaredLegLengths, seed: u64) -> Option<Self> {
-        // completeness is asked for at the end
+        // completeness is checked at the end
         let options = FkOptions::new().seed(seed).pose_count(PoseCounting::Never);
         let found = solver(None).solve(&manipulator, &squares, &options).ok()?;
         let real = found.assembly_modes().count();
@@ -282,7 +282,7 @@ impl Stand {
         self.found.roots.iter().filter(|r| r.reality == Reality::NonReal)
     }
 
-    /// One pose of each pair of conjugates, the nearest pairs by the length of a step that would make them meet first.
+    /// One pose of each pair of conjugates, ordered by the length of a step that would make them meet.
     fn targets(&self, freedoms: &ClimbFreedoms) -> Vec<ComplexPose> {
         let mut near: Vec<(f64, f64, &ComplexPose)> = self
             .complex()
@@ -292,18 +292,18 @@ impl Stand {
             })
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // conjugates have the same measure, but for rounding
+        // conjugates have the same measure, up to rounding
         near.dedup_by(|a, b| (a.1 - b.1).abs() <= 1e-6 * b.1);
         near.into_iter().map(|(_, _, pose)| *pose).collect()
     }
 
-    /// The complex pose nearest to one.
+    /// The complex pose nearest to a given one.
     fn nearest(&self, pose: &ComplexPose, size: f64) -> Option<ComplexPose> {
         let far = |r: &&FkRoot| r.pose.distance(pose, size);
         self.complex().min_by(|a, b| far(a).total_cmp(&far(b))).map(|r| r.pose)
     }
 
-    /// Squared distances of pairs of real poses, the least ones first.
+    /// Squared distances of pairs of real poses, ascending.
     fn distances(&self, size: f64) -> Vec<f64> {
         let real: Vec<&ComplexPose> = self.found.assembly_modes().map(|r| &r.pose).collect();
         let mut out = Vec::new();
@@ -317,7 +317,7 @@ impl Stand {
         out
     }
 
-    /// Pairs of real poses near to each other.
+    /// Pairs of real poses close to each other.
     fn kept(&self, freedoms: &ClimbFreedoms) -> Vec<PosePair> {
         let size = freedoms.size;
         let real: Vec<&ComplexPose> = self.found.assembly_modes().map(|r| &r.pose).collect();
@@ -341,27 +341,27 @@ impl Stand {
     }
 }
 
-/// Along the pair that is led together, and a little along those of real poses that are too near.
+/// The direction that brings the target pair together, plus a small part that separates real poses that are too close.
 fn aim(target: &PosePair, kept: &[PosePair]) -> DVector<f64> {
     let near = kept.iter().filter(|pair| pair.q < APART);
     let opening = near.map(|pair| pair.slope.normalize() * (OPENING * (1.0 - pair.q / APART)));
     opening.fold(target.slope.normalize(), |sum, v| sum + v)
 }
 
-/// A search under way.
+/// A running search.
 struct SingularClimb {
     freedoms: ClimbFreedoms,
     seed: u64,
     here: Stand,
     radius: f64,
-    /// Steps of a spell.
+    /// Number of steps of a spell.
     spell: usize,
     steps: usize,
     most: usize,
 }
 
 impl SingularClimb {
-    /// The platform after a step; `None` where poses get lost, real ones become complex, or real ones come too near to
+    /// The platform after a step; `None` if poses get lost, real ones become complex, or real ones come too close to
     /// each other.
     fn at(&self, by: &DVector<f64>) -> Option<Stand> {
         let (m, s) = self.freedoms.moved(&self.here, by)?;
@@ -371,7 +371,7 @@ impl SingularClimb {
         }
         let least = |stand: &Stand| stand.distances(self.freedoms.size);
         let (near, was) = (least(&there), least(&self.here));
-        // pairs that have just met are the nearest ones, and may be
+        // pairs that have just met are the closest ones, and may be
         let allowed = was.iter().map(|q| LOST * q).fold(LOST * APART, f64::min);
         let fresh = (there.real - self.here.real) / 2;
         (near.get(fresh).is_none_or(|q| *q >= allowed)).then_some(there)
@@ -381,7 +381,7 @@ impl SingularClimb {
         self.steps >= self.most || self.here.complex().next().is_none()
     }
 
-    /// Leads a pair of complex poses together until it is real (`true`) or no step brings it nearer.
+    /// Brings a pair of complex poses together until it is real (`true`) or no step brings it nearer.
     fn follow(&mut self, mut pose: ComplexPose) -> bool {
         self.radius = self.radius.max(FIRST);
         let mut milestone = f64::NEG_INFINITY;
@@ -412,7 +412,7 @@ impl SingularClimb {
         false
     }
 
-    /// Follows the nearest pairs one after the other, each from here, until one has become real.
+    /// Tries the nearest pairs in turn, each from here, until one has become real.
     fn follow_nearest(&mut self) -> bool {
         let before = self.here.clone();
         for pose in before.targets(&self.freedoms).into_iter().take(PAIRS) {
@@ -427,8 +427,8 @@ impl SingularClimb {
         false
     }
 
-    /// The first step, from long to short, after which there are more real poses, or the pair is nearer to being real;
-    /// with the pose of the pair there.
+    /// The first step, from long to short, that gives more real poses or brings the pair nearer to being real. Returned
+    /// with the new pose of the pair.
     fn forward(
         &mut self,
         aim: &DVector<f64>,
@@ -461,7 +461,7 @@ impl SingularClimb {
         None
     }
 
-    /// Steps in a random direction that lose no real pose.
+    /// Takes steps in a random direction that lose no real pose.
     fn wander(&mut self, rng: &mut Rng) {
         let n = self.freedoms.number();
         let direction = |rng: &mut Rng| DVector::from_iterator(n, (0..n).map(|_| rng.normal())).normalize();
@@ -483,10 +483,10 @@ impl SingularClimb {
     }
 }
 
-/// Searches from a platform with lengths for one with more real poses, in at most so many steps.
+/// Searches for a platform with more real poses, from a given one with its lengths, in at most `steps` steps.
 ///
 /// # Errors
-/// Where the poses of the start or of the end cannot be computed.
+/// An error if the poses at the start or at the end cannot be computed.
 pub(super) fn climb(
     m: &Manipulator,
     squares: &SquaredLegLengths,
@@ -554,8 +554,8 @@ mod tests {
         }
     }
 
-    /// A step goes as far as it may along what is aimed at, and where a pair of real poses would come too near, along
-    /// what does not bring it nearer.
+    /// A step goes as far as possible along the aim. If a pair of real poses would come too close, it follows a
+    /// direction that does not bring it nearer.
     #[test]
     fn a_step_keeps_near_real_poses_apart() {
         let (m, _) = octahedral();
@@ -565,7 +565,7 @@ mod tests {
         let aim = (unit(0) + unit(1)).normalize();
         let free = freedoms.step(&aim, &[], 0.1).unwrap();
         assert!((free - &aim * 0.1).norm() < 1e-5);
-        // at the bound, under it (it has to part), and far above it (it does not bind)
+        // at the bound, below it (the pair has to separate), and far above it (not active)
         for (q, least) in [(APART, 0.0), (0.5 * APART, 1e-3), (9.0 * APART, -0.1)] {
             let near = PosePair { q, slope: -unit(0) };
             let by = freedoms.step(&aim, &[near], 0.1).unwrap();
@@ -579,7 +579,7 @@ mod tests {
         }
     }
 
-    /// Dietmaier's result from a platform drawn at random: all 40 poses are real.
+    /// Dietmaier's result, starting from a random platform: all 40 poses are real.
     #[test]
     #[ignore = "evidence"]
     fn a_general_platform_is_led_to_forty_real_poses() {

@@ -1,9 +1,9 @@
-//! Columns of the table of a sweep, and what their cells hold.
+//! Columns of the table of a sweep, and the types of their cells.
 
 /// The first column: the numbers of the candidates.
 pub(crate) const CANDIDATE: &str = "candidate";
 
-/// What the cells of a column hold.
+/// The type of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColumnKind {
     /// Doubles.
@@ -34,13 +34,13 @@ impl ColumnKind {
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SweepColumn {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// What its cells hold.
+    /// The type of its cells.
     pub kind: ColumnKind,
-    /// The unit; `None` for pure numbers and for what has none.
+    /// The unit; `None` for pure numbers, texts and truth values.
     pub unit: Option<String>,
-    /// What it is, in words.
+    /// The meaning of the column, in words.
     pub meaning: String,
 }
 
@@ -55,10 +55,10 @@ impl SweepColumn {
     }
 }
 
-/// What stands in a cell.
+/// The value of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SweepCell {
-    /// Nothing: not decided, not computed, no such thing.
+    /// Empty: not decided, not computed, or not applicable.
     Empty,
     /// A double.
     Number(f64),
@@ -71,22 +71,22 @@ pub enum SweepCell {
 }
 
 impl SweepCell {
-    /// A number of things.
+    /// A count as an integer cell.
     pub fn count(n: usize) -> Self {
         i64::try_from(n).map_or(Self::Empty, Self::Integer)
     }
 
-    /// A number, empty where there is none.
+    /// A number, or an empty cell.
     pub fn number(x: Option<f64>) -> Self {
         x.map_or(Self::Empty, Self::Number)
     }
 
-    /// A truth value, empty where it is undecided.
+    /// A truth value, or an empty cell if undecided.
     pub fn truth(x: Option<bool>) -> Self {
         x.map_or(Self::Empty, Self::Truth)
     }
 
-    /// A text, empty where there is none.
+    /// A text, or an empty cell.
     pub fn text(x: Option<&str>) -> Self {
         x.map_or(Self::Empty, |x| Self::Text(x.into()))
     }
@@ -101,7 +101,7 @@ impl SweepCell {
         }
     }
 
-    /// Whether two cells hold the same bits: numbers that are none are the same as themselves.
+    /// Whether two cells hold the same bits; a NaN equals itself.
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
@@ -110,7 +110,7 @@ impl SweepCell {
     }
 }
 
-/// For people.
+/// The cell as text for people.
 impl std::fmt::Display for SweepCell {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -1,11 +1,11 @@
-//! SHA-256 of what is written or read, without holding it.
+//! SHA-256 of data that is written or read, without keeping it in memory.
 
 use std::io::{Read, Result, Write};
 
 use data_encoding::HEXLOWER;
 use sha2::{Digest, Sha256};
 
-/// A writer that knows what went through it.
+/// A writer that computes the digest of its data.
 #[derive(Debug)]
 pub struct Digested<W> {
     inner: W,
@@ -14,7 +14,7 @@ pub struct Digested<W> {
 }
 
 impl<W: Write> Digested<W> {
-    /// Digests what is written to `inner`.
+    /// Computes the digest of data written to `inner`.
     pub fn new(inner: W) -> Self {
         Self { inner, hash: Sha256::new(), bytes: 0 }
     }
@@ -41,7 +41,7 @@ impl<W: Write> Write for Digested<W> {
 /// The number of bytes and their SHA-256 in hexadecimal digits.
 ///
 /// # Errors
-/// Those of the reader.
+/// The errors of the reader.
 pub fn digest_of(mut from: impl Read) -> Result<(u64, String)> {
     let mut sink = Digested::new(std::io::sink());
     std::io::copy(&mut from, &mut sink)?;

@@ -1,4 +1,4 @@
-//! Rows of the table: the free quantities of candidate `k`, and what is computed for it.
+//! Rows of the table: the free quantities of candidate `k`, and its computed results.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,42 +22,42 @@ use records::{AssessAnswer, CheckAnswer, SolvedRecord};
 use synthesis::Pattern;
 use synthesis::singularity::regular_box;
 
-/// Poses over which joints are toleranced, as of `compare`.
+/// Number of poses for the joint tolerances, as in `compare`.
 const TOLERANCE_POSES: usize = 300;
 
-/// A pattern and how many offsets it takes.
+/// A pattern with the number of its offsets.
 #[derive(Debug, Clone)]
 pub(super) struct KnownPattern {
     pub(super) pattern: Pattern,
     pub(super) offsets: usize,
 }
 
-/// A plan made ready: candidate `k` has one row, whoever asks for it.
+/// A prepared plan: candidate `k` always has the same row.
 #[derive(Debug)]
 pub struct Sweep {
     /// The plan.
     pub plan: SweepPlan,
-    /// The base design and the files that belong to it.
+    /// The base design and its files.
     pub base: BasePlan,
     /// The seed of all samples.
     pub seed: u64,
     /// The columns of the table.
     pub columns: Vec<SweepColumn>,
-    /// What is the same for all candidates, unless the text of the base design changes.
+    /// The data common to all candidates, unless the text of the base design changes.
     pub(super) ground: Option<Ground>,
-    /// Forward kinematics prepared, where the platform is the same for all.
+    /// Forward kinematics prepared once, if all candidates have the same platform.
     pub(super) solver: Option<Solver>,
     pub(super) patterns: BTreeMap<String, KnownPattern>,
-    /// That of offsets without a pattern.
+    /// The pattern for offsets without a named pattern.
     pub(super) joint_free: KnownPattern,
     kinds: Vec<TermKind>,
-    /// What `check` says of the platform, where it is the same for all candidates.
+    /// The result of `check`, if all candidates have the same platform.
     pub(super) checked: OnceLock<Result<CheckReport, String>>,
 }
 
 impl Sweep {
     /// # Errors
-    /// Why the base design has no candidates at all.
+    /// The reason why the base design has no candidates at all.
     pub fn new(plan: SweepPlan, base: BasePlan, seed: u64) -> Result<Self, String> {
         let words = plan.blocks.iter().flat_map(|b| &b.axes).filter(|a| a.quantity == FreeQuantity::Pattern);
         let words =
@@ -99,20 +99,19 @@ impl Sweep {
         self.plan.quantities().any(|q| matches!(q, FreeQuantity::Pattern | FreeQuantity::Offset(_)))
     }
 
-    /// The row of candidate `k`; `None` where the plan does not keep it. What cannot be computed is a row with its
-    /// error.
+    /// The row of candidate `k`; `None` if the plan does not keep it. A failed computation gives a row with its error.
     pub fn row(&self, k: u64) -> Option<Vec<SweepCell>> {
         let mut row = Vec::with_capacity(self.columns.len());
         self.row_onto(k, &mut row).then_some(row)
     }
 
-    /// Puts the row of candidate `k` behind others; `false` where the plan does not keep it, and nothing is put there.
+    /// Appends the row of candidate `k` to others; `false` without a row if the plan does not keep it.
     pub(super) fn row_onto(&self, k: u64, rows: &mut Vec<SweepCell>) -> bool {
         let values = self.plan.values(self.seed, k);
         if self.repeats(k, &values) {
             return false;
         }
-        // a fault of the program in one candidate is no reason to lose the others
+        // a panic in one candidate must not lose the others
         let found = catch_unwind(AssertUnwindSafe(|| self.computed(&values)));
         let (cells, error) = match found {
             Ok(Kept::Row(cells)) => (cells, None),
@@ -133,8 +132,8 @@ impl Sweep {
         true
     }
 
-    /// Whether the pattern of a candidate leaves offsets unused, so that the same platform stands at another place:
-    /// where those of a block have their first values.
+    /// Whether another candidate has the same platform, because the pattern leaves offsets unused: the one with first
+    /// values for these offsets.
     fn repeats(&self, k: u64, values: &[SweepCell]) -> bool {
         let pattern =
             self.plan.quantities().zip(values).find_map(|(quantity, value)| match (quantity, value) {
@@ -147,7 +146,7 @@ impl Sweep {
     /// The text of candidate `k` as a design file.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why there is none.
     pub fn design_text(&self, k: u64) -> Result<String, String> {
         let values = self.plan.values(self.seed, k);
         SweepCandidate::new(self, &values)?.text()
@@ -187,7 +186,7 @@ impl Sweep {
         Kept::Row(row.split_off(first))
     }
 
-    /// The cells of a task, as many as it has columns.
+    /// The cells of a task, one for each of its columns.
     fn cells(&self, task: &SweepTask, c: &SweepCandidate<'_>) -> Result<Vec<SweepCell>, String> {
         let m = c.manipulator();
         Ok(match task {
@@ -279,7 +278,7 @@ impl Sweep {
         })
     }
 
-    /// The least gap over the poses of two legs that share no joint.
+    /// The least clearance, over the poses, of two legs that share no joint.
     fn clearance(&self, c: &SweepCandidate<'_>) -> Option<f64> {
         let (m, poses) = (c.manipulator(), &c.ground.poses);
         let Some(body) = self.base.design.hardware.leg_body else { return least_axis_distance(m, poses) };
@@ -300,7 +299,7 @@ impl Sweep {
     }
 
     fn optimum(&self, c: &SweepCandidate<'_>) -> Result<Vec<SweepCell>, String> {
-        // one thread: the candidates of a shard have the others
+        // one thread: the other threads work on other candidates of the shard
         let threads = Threads::Count(std::num::NonZeroUsize::MIN);
         let mut options = OptimizeOptions::new().seed(self.seed).threads(threads).freedoms(false);
         let design = c.design()?;
@@ -317,7 +316,7 @@ impl Sweep {
     }
 }
 
-/// What became of a candidate.
+/// The outcome of a candidate.
 enum Kept {
     /// Its cells.
     Row(Vec<SweepCell>),
@@ -331,7 +330,7 @@ fn as_json(record: &impl serde::Serialize) -> Result<Value, String> {
     serde_json::to_value(record).map_err(|e| e.to_string())
 }
 
-/// The field of an answer as a cell: empty where it is null or not there.
+/// The field of an answer as a cell: empty if it is null or absent.
 fn field_of(field: &AnswerField, c: &SweepCandidate<'_>) -> Result<SweepCell, String> {
     let answer = match field.answer {
         AnswerName::Assess => as_json(&AssessAnswer::new(c.design()?, c.assessed()?))?,

@@ -1,9 +1,9 @@
 //! Sweeps: many designs from a plan, computed one by one, as rows of a table.
 //!
-//! A plan ([`plan`]) names a base design, what varies, what is computed and what is kept. Candidate `k` depends on
-//! plan, seed and `k` alone (`sample`), so that a table may be computed in any parts, on any machines, in any order.
-//! A [`Sweep`] computes rows; [`part`] writes them as Parquet and reads them back. Files and folders are for the
-//! command line.
+//! A plan ([`plan`]) names a base design, its free quantities, the computed results and the conditions on rows.
+//! Candidate `k` depends only on plan, seed and `k` (`sample`). A table may thus be computed in any parts, on any
+//! machines, in any order. A [`Sweep`] computes rows; [`part`] writes them as Parquet and reads them back. The command
+//! line handles files and folders.
 
 #![allow(
     clippy::cast_sign_loss,

@@ -1,24 +1,24 @@
-//! Figures of a platform over many poses, for many platforms: each is what its definition says, and poses that cannot
-//! be the worst are passed over.
+//! Figures of a platform over many poses, for many platforms. Each follows its definition, but poses that cannot be the
+//! worst are skipped.
 
 use nalgebra::{Matrix6, Point3};
 
 use platform::geom::{Pose, segment_distance};
 use platform::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
 
-/// What rounding may take from the bounds below, as a share: they are products of some tens of operations, of matrices
-/// with condition numbers below `1 / ILL`.
+/// The rounding error allowed in the bounds below, as a share. They are products of some tens of operations, of
+/// matrices with condition numbers below `1 / ILL`.
 const ROUNDING: f64 = 1e-9;
-/// Below this the inverse has too few digits for a bound.
+/// Below this inverse condition number the inverse has too few digits for a bound.
 const ILL: f64 = 1e-6;
 
-/// The least `sigma_6 / sigma_1` of the Jacobian over the poses, and the number of the first pose that has it; `None`
+/// The least `sigma_6 / sigma_1` of the Jacobian over the poses, with the index of the first pose that has it; `None`
 /// without poses.
 ///
-/// With `|.|` the Frobenius norm, `1 / (|J| |J^-1|)` is never above it and at most six times below, and
-/// `1 / (|(J^T J)^4| |(J J^T)^-4|)^(1/8)` at most 1.26 times. Poses are taken in the order of the first bound, those
-/// from the first one on whose bound exceeds the least value found are passed over, and so is any other whose second
-/// bound exceeds it.
+/// With the Frobenius norm `|.|`, `1 / (|J| |J^-1|)` is a lower bound, at most six times smaller. The second bound
+/// `1 / (|(J^T J)^4| |(J J^T)^-4|)^(1/8)` is at most 1.26 times smaller. Poses are taken in the order of the first
+/// bound. They are skipped from the first one on whose bound exceeds the least value found. Any other pose is skipped
+/// if its second bound exceeds this value.
 pub(super) fn worst_conditioning(
     legs: &[Leg; 6],
     poses: &[Pose],
@@ -49,9 +49,9 @@ pub(super) fn worst_conditioning(
     worst
 }
 
-/// A number that `sigma_6 / sigma_1` is not below, at most `6^(1/8)` times smaller; zero where there is none.
+/// A lower bound of `sigma_6 / sigma_1`, at most `6^(1/8)` times smaller; zero if there is none.
 fn close_bound(j: &Matrix6<f64>, inverse: &Matrix6<f64>) -> f64 {
-    // the sixteenth root of the sum of the sixteenth powers of the singular values is not below the largest
+    // the sixteenth root of the sum of the sixteenth powers of the singular values is at least the largest one
     let largest = |m: &Matrix6<f64>| {
         let scale = m.norm();
         let gram = m.tr_mul(m) / (scale * scale);
@@ -62,7 +62,7 @@ fn close_bound(j: &Matrix6<f64>, inverse: &Matrix6<f64>) -> f64 {
     if bound.is_finite() { bound } else { 0.0 }
 }
 
-/// The least distance over the poses of the axes of two legs that share no joint; `None` where every two share one.
+/// The least distance, over the poses, of the axes of two legs that share no joint; `None` if every two share one.
 pub(super) fn least_axis_distance(m: &Manipulator, poses: &[Pose]) -> Option<f64> {
     let (legs, pairs) = (m.legs(), m.pairs());
     let apart: Vec<(usize, usize)> = (0..6)
@@ -83,7 +83,7 @@ pub(super) fn least_axis_distance(m: &Manipulator, poses: &[Pose]) -> Option<f64
     least
 }
 
-/// A number that the distance of two lines is not below; zero for parallel ones.
+/// A lower bound of the distance of two lines; zero for parallel ones.
 fn lines_apart([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) -> f64 {
     let normal = (p1 - p0).cross(&(q1 - q0));
     let square = normal.norm_squared();

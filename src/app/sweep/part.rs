@@ -1,4 +1,4 @@
-//! Parquet: rows written as a file that says what its columns are, and read back.
+//! Parquet: rows written as a file that describes its columns, and read back.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -20,25 +20,24 @@ use super::column::{CANDIDATE, ColumnKind, SweepCell, SweepColumn};
 use super::rows::SweepRow;
 use num::Purpose;
 
-/// Rows that are held before they are written.
+/// Number of rows collected before they are written.
 const ROWS: usize = 1 << 14;
 
-/// Bytes of the dictionary of a column in a group of rows, at most: 1024 numbers. A column with more different values
-/// is written plainly from there on, since a table of values that hardly repeat makes the file larger and takes most of
-/// the time of writing.
+/// Greatest size of a column's dictionary in a group of rows, bytes: 1024 numbers. From there on the column is written
+/// plainly. A dictionary of values that hardly repeat makes the file larger and takes most of the writing time.
 const DICTIONARY: usize = 1 << 13;
 
-/// Cells of a column that are looked at to tell whether anything repeats in it, one of each of so many equal parts of
-/// the column. Among so many of 1024 numbers there is a repetition in all but some of ten thousand cases.
+/// Number of sampled cells for detecting repetition in a column, one from each of as many equal parts. Sampled from
+/// 1024 different numbers, they show a repetition in all but a few of ten thousand cases.
 const LOOKED_AT: usize = 128;
 
-/// The key under which the columns are described.
+/// The key of the description of the columns.
 const COLUMNS_KEY: &str = "equipod.columns";
 
-/// Why a part cannot be written or read.
+/// The reason why a part cannot be written or read.
 #[derive(Debug, Error)]
 pub enum PartError {
-    /// Parquet, or the file below it.
+    /// An error of Parquet, or of the file below it.
     #[error("{0}")]
     Parquet(#[from] ParquetError),
     /// A file that is no part of a sweep.
@@ -47,7 +46,7 @@ pub enum PartError {
 }
 
 impl PartError {
-    /// What the system said, where it was that.
+    /// The error of the system, if there is one.
     pub fn system(&self) -> Option<&std::io::Error> {
         match self {
             Self::Parquet(ParquetError::External(inner)) => inner.downcast_ref(),
@@ -56,7 +55,7 @@ impl PartError {
     }
 }
 
-/// A column as it is described in the file.
+/// The description of a column in the file.
 #[derive(Debug, Serialize, Deserialize)]
 struct DescribedColumn {
     name: String,
@@ -87,10 +86,10 @@ fn columns_from(text: &str) -> Option<Vec<SweepColumn>> {
     all.into_iter().map(column).collect()
 }
 
-/// The cells of a column that wait to be written.
+/// The cells of a column that wait for writing.
 #[derive(Debug)]
 struct WaitingColumn {
-    /// Of each row 1, or 0 where its cell is empty; none until there is an empty cell.
+    /// The level of each row: 1, or 0 for an empty cell; no list until the first empty cell.
     levels: Vec<i16>,
     /// The cells that are not empty.
     values: WaitingValues,
@@ -105,7 +104,7 @@ enum WaitingValues {
 }
 
 impl WaitingColumn {
-    /// With room for so many cells, but for texts, which are rarely in every row.
+    /// A column with space for this number of cells; texts get less, since they are rarely in every row.
     fn new(kind: ColumnKind, room: usize) -> Self {
         let values = match kind {
             ColumnKind::Number => WaitingValues::Numbers(Vec::with_capacity(room)),
@@ -116,7 +115,7 @@ impl WaitingColumn {
         Self { levels: Vec::new(), values }
     }
 
-    /// Takes the cell of row number `row` of the group; `false` for one of another kind.
+    /// Takes the cell of row `row` of the group; `false` for a cell of another kind.
     fn push(&mut self, cell: &mut SweepCell, row: usize) -> bool {
         match (&mut self.values, cell) {
             (WaitingValues::Numbers(to), SweepCell::Number(x)) => to.push(*x),
@@ -140,16 +139,16 @@ impl WaitingColumn {
         true
     }
 
-    /// Whether a table of values or a compressor may find something: of the numbers that are looked at two have equal
-    /// lower halves, as equal numbers have them, and whole numbers. Numbers that are computed hardly ever do, and then
-    /// both are half of the time of writing for nothing.
+    /// Whether a dictionary or compression may help. It may if two of the sampled numbers have equal lower halves, as
+    /// equal numbers and whole numbers have. Computed numbers hardly ever do, and then both would waste half of the
+    /// writing time.
     fn repeats(&self) -> bool {
         let WaitingValues::Numbers(values) = &self.values else { return true };
         let each = values.len() / LOOKED_AT;
         if each == 0 {
             return true;
         }
-        // places at equal distances would not see numbers that come in turn
+        // places at equal distances would miss numbers that alternate
         let mut rng = Purpose::SWEPT_CELLS.rng(0);
         let half = |part: &[f64]| part[(rng.next_u64() % part.len() as u64) as usize].to_bits() as u32;
         let mut halves: Vec<u32> = values.chunks(each).map(half).collect();
@@ -157,8 +156,8 @@ impl WaitingColumn {
         halves.windows(2).any(|w| w[0] == w[1])
     }
 
-    /// Writes the cells and forgets them; the room for the next ones stays. `full` are the levels of a column without
-    /// empty cells. `false` for a column of another type.
+    /// Writes the cells and removes them, keeping the memory. The argument `full` holds the levels of a column without
+    /// empty cells. Returns `false` for a column of another type.
     fn write(&mut self, to: &mut ColumnWriter<'_>, full: &[i16]) -> Result<bool, ParquetError> {
         let levels = Some(if self.levels.is_empty() { full } else { &self.levels });
         match (&mut self.values, to) {
@@ -185,19 +184,19 @@ impl WaitingColumn {
     }
 }
 
-/// What a file is begun with, once the first rows say how their columns are best written.
+/// The data for beginning a file, once the first rows show how to write their columns.
 struct PartHead<W> {
     to: W,
     schema: Arc<Type>,
     notes: Vec<KeyValue>,
 }
 
-/// Writes rows; what it writes depends on columns, notes and rows alone.
+/// Writes rows; the output depends only on columns, notes and rows.
 #[allow(missing_debug_implementations, reason = "the writer of Parquet has none")]
 pub struct PartWriter<W: Write + Send> {
-    /// Until the first rows are written.
+    /// Present until the first rows are written.
     head: Option<PartHead<W>>,
-    /// From then on.
+    /// Present from then on.
     writer: Option<SerializedFileWriter<W>>,
     columns: Vec<SweepColumn>,
     waiting: Vec<WaitingColumn>,
@@ -205,11 +204,11 @@ pub struct PartWriter<W: Write + Send> {
 }
 
 impl<W: Write + Send> PartWriter<W> {
-    /// Begins a file with these columns and, as its metadata, these keys and values. There is room for so many rows
-    /// from the start, as far as a group has them.
+    /// Begins a file with these columns, and with these keys and values as its metadata. Memory for `rows` rows is
+    /// reserved from the start, up to the size of a group.
     ///
     /// # Errors
-    /// Those of the file.
+    /// The errors of the file.
     pub fn new(
         to: W,
         columns: &[SweepColumn],
@@ -239,10 +238,10 @@ impl<W: Write + Send> PartWriter<W> {
         Ok(Self { head, writer: None, columns: columns.to_vec(), waiting, rows: 0 })
     }
 
-    /// Adds a row, whose texts are taken out of it.
+    /// Adds a row and takes its texts.
     ///
     /// # Errors
-    /// Those of the file; a row that the columns do not fit.
+    /// The errors of the file; a row that does not fit the columns.
     pub fn push(&mut self, row: &mut [SweepCell]) -> Result<(), PartError> {
         if row.len() != self.columns.len() {
             let message = format!("a row has {} cells for {} columns", row.len(), self.columns.len());
@@ -257,7 +256,7 @@ impl<W: Write + Send> PartWriter<W> {
         if self.rows == ROWS { self.write_group() } else { Ok(()) }
     }
 
-    /// How the columns are written: as the rows that wait are best written.
+    /// The writing properties of the columns, as suits the waiting rows best.
     fn properties(&self, notes: Vec<KeyValue>) -> WriterProperties {
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
@@ -271,7 +270,7 @@ impl<W: Write + Send> PartWriter<W> {
                     .set_column_dictionary_enabled(path(), false)
                     .set_column_compression(path(), Compression::UNCOMPRESSED);
             } else if column.name == CANDIDATE && self.rows >= LOOKED_AT {
-                // numbers that grow, mostly by one
+                // increasing numbers, mostly by one
                 properties = properties
                     .set_column_dictionary_enabled(path(), false)
                     .set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED);
@@ -280,7 +279,7 @@ impl<W: Write + Send> PartWriter<W> {
         properties.build()
     }
 
-    /// Begins the file, unless it is begun.
+    /// Begins the file, if this is not done yet.
     fn begin(&mut self) -> Result<(), PartError> {
         if let Some(PartHead { to, schema, notes }) = self.head.take() {
             let properties = Arc::new(self.properties(notes));
@@ -312,10 +311,10 @@ impl<W: Write + Send> PartWriter<W> {
     /// Writes the rest and the end of the file.
     ///
     /// # Errors
-    /// Those of the file.
+    /// The errors of the file.
     pub fn finish(mut self) -> Result<W, PartError> {
         self.write_group()?;
-        // there may be no rows at all
+        // the file may have no rows
         self.begin()?;
         Ok(self.writer.ok_or_else(not_begun)?.into_inner()?)
     }
@@ -329,7 +328,7 @@ fn other_type(column: &SweepColumn) -> PartError {
     PartError::Foreign(format!("{} has another type", column.name))
 }
 
-/// A part that is read, one group of rows after the other.
+/// A reader of a part, one group of rows after the other.
 #[allow(missing_debug_implementations, reason = "the reader of Parquet has none")]
 pub struct PartReader {
     reader: Box<dyn FileReader>,
@@ -338,7 +337,7 @@ pub struct PartReader {
 }
 
 impl PartReader {
-    /// Opens a part: its end is read, and what it says of its columns.
+    /// Opens a part: reads its end, and its description of the columns.
     ///
     /// # Errors
     /// A file that is not Parquet, or no part of a sweep.
@@ -354,12 +353,12 @@ impl PartReader {
         Ok(Self { reader, columns })
     }
 
-    /// What the metadata has under a key.
+    /// The metadata under a key.
     pub fn note(&self, key: &str) -> Option<String> {
         note_of(self.reader.as_ref(), key)
     }
 
-    /// Groups of rows.
+    /// Number of groups of rows.
     pub fn groups(&self) -> usize {
         self.reader.num_row_groups()
     }
@@ -367,7 +366,7 @@ impl PartReader {
     /// The rows of a group, of some columns or all.
     ///
     /// # Errors
-    /// A file that is torn or altered.
+    /// A truncated or altered file.
     pub fn group(&self, group: usize, wanted: &[usize]) -> Result<Vec<SweepRow>, PartError> {
         let group = self.reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
@@ -526,10 +525,10 @@ mod tests {
         let computed = |k: usize| 1.0 / (1.5 + k as f64);
         let plain = (true, Compression::UNCOMPRESSED, false);
         assert_eq!([200, 5000, ROWS].map(|n| described(n, &computed)), [plain; 3]);
-        // with few rows nothing is known
+        // few rows show nothing
         assert_eq!(described(LOOKED_AT - 1, &computed), (false, Compression::SNAPPY, true));
-        // in turn, with lengths that have factors in common with everything here and with nothing; whole numbers; the
-        // same number always
+        // alternating numbers with periods that share factors with everything here, or with nothing; whole numbers; a
+        // constant number
         for turn in [2, 64, 127, 128, 625, 1000, 1009, 1024] {
             let repeated = |k: usize| computed(k % turn);
             assert_eq!(

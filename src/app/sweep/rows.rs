@@ -1,4 +1,4 @@
-//! The rows of a range of candidates, in their order, from several threads.
+//! The rows of a range of candidates, in order, computed by several threads.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,17 +10,17 @@ use super::evaluate::Sweep;
 use num::Cancel;
 use num::stream::Stream;
 
-/// A row as the columns of its sweep have it.
+/// A row in the columns of its sweep.
 pub type SweepRow = Vec<SweepCell>;
 
-/// Candidates that a thread takes at a time, at most: many are done in some microseconds each.
+/// Greatest number of candidates that a thread takes at a time; many take only some microseconds each.
 const AT_ONCE: u64 = 32;
 
-/// What they may take together: below the first more are taken, above the second fewer, so that slow candidates are
-/// spread over all threads, and an interrupt waits for few of them.
+/// Bounds on the time of candidates taken together. Below the first, more are taken; above the second, fewer. Slow
+/// candidates are thus spread over all threads, and an interrupt waits for few of them.
 const TOGETHER: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(20)];
 
-/// How many candidates are taken next, after so many took this time. Rows do not depend on it.
+/// The number of candidates to take next, after `n` took this time. Rows do not depend on it.
 fn next_at_once(n: u64, took: Duration) -> u64 {
     if took < TOGETHER[0] {
         (2 * n).min(AT_ONCE)
@@ -31,26 +31,25 @@ fn next_at_once(n: u64, took: Duration) -> u64 {
     }
 }
 
-/// What came of some candidates that follow one another: the rows that are kept, in one piece, which takes less time
-/// than rows that are allocated and freed one by one.
+/// The results of consecutive candidates: the rows kept, in one allocation, which is faster than one for each row.
 #[derive(Debug, PartialEq)]
 pub struct RowChunk {
-    /// How many candidates they are, kept or not.
+    /// Number of candidates, kept or not.
     pub candidates: u64,
     cells: Vec<SweepCell>,
     columns: usize,
 }
 
 impl RowChunk {
-    /// The rows that are kept.
+    /// The rows kept.
     pub fn rows(&mut self) -> impl Iterator<Item = &mut [SweepCell]> {
         self.cells.chunks_exact_mut(self.columns)
     }
 }
 
 impl Sweep {
-    /// What came of the candidates of a range, in their order. Results do not depend on the number of threads, and
-    /// what waits to be taken is limited, so that memory does not grow with the range. Ends early when it is cancelled.
+    /// The results of the candidates of a range, in order. They do not depend on the number of threads. The number of
+    /// waiting results is limited, so that memory does not grow with the range. Ends early when cancelled.
     pub fn rows(
         self: &Arc<Self>,
         range: Range<u64>,
@@ -58,7 +57,7 @@ impl Sweep {
         cancel: &Cancel,
     ) -> impl Iterator<Item = RowChunk> + use<> {
         let sweep = Arc::clone(self);
-        // one at first: nothing is known of their time
+        // one at first, since their time is unknown
         let at_once = Arc::new(AtomicU64::new(1));
         let (asked, mut next) = (Arc::clone(&at_once), range.start);
         let ranges = std::iter::from_fn(move || {
@@ -80,8 +79,7 @@ impl Sweep {
     }
 }
 
-/// The candidates of shard `shard` of `shards`: the ranges of all shards are as equal as they can be, and follow one
-/// another.
+/// The candidates of shard `shard` of `shards`; the ranges of the shards are consecutive and as equal as possible.
 pub fn shard_range(count: u64, shard: u64, shards: u64) -> Range<u64> {
     let at = |s: u64| (u128::from(count) * u128::from(s) / u128::from(shards)) as u64;
     at(shard)..at(shard + 1)
@@ -98,7 +96,7 @@ mod tests {
         };
         assert_eq!([1e-6, 30e-6].map(|each| after(1, each)), [AT_ONCE; 2]);
         assert_eq!([0.05, 30.0].map(|each| after(AT_ONCE, each)), [1; 2]);
-        // between both as many as take some milliseconds
+        // in between, as many as take some milliseconds
         let some = after(1, 4e-4);
         assert!(1 < some && some < AT_ONCE && after(AT_ONCE, 4e-4) > 1, "{some}");
     }

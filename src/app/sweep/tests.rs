@@ -1,4 +1,4 @@
-//! Rows against the figures that the rest of the library has for the same designs.
+//! Rows compared with the figures of the rest of the library for the same designs.
 
 use std::sync::Arc;
 
@@ -54,7 +54,7 @@ fn figures_are_those_of_the_design_that_the_candidate_is() {
         let at_home = home.lengths(m).unwrap().get();
         assert!(number("least_length") <= at_home[0] && at_home[0] <= number("greatest_length"));
         assert!((number("base_1_x") - m.legs()[0].base.x).abs() < 1e-12);
-        // the lengths of the design are moved along with the map
+        // the leg map also moves the lengths of the design
         let moved = design.lengths.unwrap().get();
         assert!((0..6).all(|i| (number(&format!("length_{}", i + 1)) - moved[i]).abs() < 1e-9));
     }
@@ -75,7 +75,7 @@ fn a_candidate_with_a_drive_is_judged_by_its_limits() {
         let row = sweep.row(k as u64).unwrap();
         assert_eq!(row[row.len() - 1], SweepCell::Empty);
         assert_eq!(cell(&sweep, &row, "drive_price").as_number(), drive.price);
-        // the same as the design with these limits says of itself
+        // the same result as for the design with these limits
         let alone = original.with_drive(drive);
         let options =
             machine::requirements::AssessOptions::new().points(200).searches(1).seed(1).close(false);
@@ -146,7 +146,7 @@ fn rows_do_not_depend_on_threads_nor_on_the_range() {
         OCTAHEDRAL,
         "compute = ['det_a', 'conditioning']\nkeep = ['det_a > 0']\n[vary]\nby = 'sobol'\ncount = 200\nvalues = { offsets = { from = 0.1, to = 0.9 } }\n",
     ));
-    // how many candidates there were, and the rows of those that are kept
+    // numbers of candidates, and the rows kept
     let all = |range, threads| {
         let mut candidates = 0;
         let mut rows: Vec<SweepRow> = Vec::new();
@@ -171,7 +171,7 @@ fn numbers_of_the_text_change_and_failures_are_rows() {
         OCTAHEDRAL,
         "compute = ['home_conditioning', 'spacing']\nkeep = ['home_conditioning > 2']\n[vary]\nby = 'grid'\nvalues = { 'base.P2.y' = [11.0, 0.0], 'base.P1.x' = ['-1/3', 'sqrt(0-1)'] }\n",
     );
-    // a good candidate that is not kept
+    // a valid candidate that is not kept
     assert!(sweep.row(0).is_none());
     let failed = sweep.row(1).unwrap();
     assert!(cell(&sweep, &failed, "error").to_string().contains("negative"), "{failed:?}");
@@ -221,8 +221,8 @@ fn margins_have_a_column_for_each_kind_of_requirement() {
     }
 }
 
-/// det J of an equivalent platform is that of the original times det A: the same poses are singular, and the two bounds
-/// hold one number for all candidates.
+/// `det J` of an equivalent platform is `det J` of the original times `det A`. The same poses are singular, and all
+/// candidates share one number between the two bounds.
 #[test]
 #[ignore = "evidence"]
 fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of_their_own() {
@@ -262,7 +262,7 @@ fn a_base_design_with_cranks_is_refused_at_its_place() {
     assert!(refused.help.contains("squared leg lengths"), "{refused}");
 }
 
-/// Patterns take so many of the offsets that vary: what is left over makes no further platform.
+/// Patterns use some of the varying offsets; the unused ones make no further platform.
 #[test]
 fn a_platform_whose_pattern_leaves_offsets_unused_has_one_row() {
     let plan = |vary: &str| format!("compute = ['shared_joints', 'spacing']\n{vary}");

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use platform::topology::{NamedTopology, catalogue};
 
-/// Which bodies have their joints in a plane.
+/// The bodies that have their joints in a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Planar {
     /// Neither.
@@ -18,7 +18,7 @@ pub enum Planar {
 }
 
 impl Planar {
-    /// What follows the name of a topology.
+    /// The suffixes of the name of a topology.
     const SUFFIXES: [(Self, &'static str); 4] = [
         (Self::Neither, ""),
         (Self::Base, "-planar-base"),
@@ -64,17 +64,17 @@ pub enum Class {
     DoubleRoot,
     /// [`Class::Hexapod`] at its home pose.
     HexapodHome,
-    /// Joints shared as in a topology of the catalogue.
+    /// A topology of the catalogue, with its shared joints.
     Topology {
-        /// Which.
+        /// The topology.
         topology: NamedTopology,
-        /// Planes that the joints lie in beside those that three joints span anyway.
+        /// Bodies whose joints lie in a plane, beyond the planes that three joints span anyway.
         planar: Planar,
     },
 }
 
 impl Class {
-    /// All classes but those of the topologies, in the order of the tables.
+    /// All classes except topologies, in the order of the tables.
     pub const ALL: [Self; 17] = [
         Self::General,
         Self::SharedPlatformJoint,
@@ -144,7 +144,7 @@ impl Class {
         fixed.or_else(|| topology(planar?.0))
     }
 
-    /// Whether the leg lengths may be drawn without a pose, as Martyushev does; the others are about real poses.
+    /// Whether the leg lengths may be drawn without a pose, as Martyushev does; the other classes need real poses.
     #[must_use]
     pub fn allows_uniform_lengths(self) -> bool {
         let by_martyushev = [
@@ -158,7 +158,7 @@ impl Class {
         by_martyushev.contains(&self)
     }
 
-    /// A number that sets the class's random streams apart: its place in [`Class::ALL`] never enters.
+    /// A number that separates the class's random streams; it does not depend on its place in [`Class::ALL`].
     pub(super) fn stream(self) -> u64 {
         // FNV-1a of the name
         self.name()

@@ -1,15 +1,15 @@
-//! The validator's Newton method far out.
+//! The validator's Newton method for distant roots.
 //!
-//! With `|R|` of `10^7` doubles hold `R`, `p` so coarsely that Newton's method in them does not converge. In dual
-//! quaternions `(e, g)`, `g = p e`, the same root is an ordinary point: here the claimed pose is carried there,
-//! improved on `|g + e b_i - a_i e|^2 = s_i e.e`, `e.g = 0`, `e_k = 1`, and carried back. All in double-double.
+//! At `|R|` of `10^7` doubles hold `R`, `p` too coarsely for Newton's method to converge. In dual quaternions `(e, g)`,
+//! `g = p e`, the same root is an ordinary point. The claimed pose is carried there, improved on
+//! `|g + e b_i - a_i e|^2 = s_i e.e`, `e.g = 0`, `e_k = 1`, and carried back, all in double-double.
 
 use num_complex::Complex64;
 
 use super::newton::{Point, ValidationEquations, solve};
 use num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
 
-/// Corrections that no longer shrink below this, relative to the largest of `e`, `g`, are rounding.
+/// Corrections that stop shrinking below this value, relative to the largest of `e`, `g`, are rounding.
 const SETTLED: f64 = 1e-17;
 
 type Quaternion = [Z; 4];
@@ -64,10 +64,10 @@ fn quaternion(x: &Point) -> (Quaternion, usize) {
     (columns[k].map(|z| z / columns[k][k]), k)
 }
 
-/// The root in dual quaternions near `start`, as a pose, and its relative error (the last correction, grown by what the
-/// division by `e.e` loses); `None` when Newton's method fails.
+/// The root in dual quaternions near `start`, as a pose with its relative error; `None` if Newton's method fails. The
+/// error is the last correction, increased by the loss of the division by `e.e`.
 ///
-/// It starts at the claimed dual quaternion, or where there is none at that of the pose.
+/// It starts at the claimed dual quaternion, or else at the dual quaternion of the pose.
 pub(super) fn refine_dual(
     legs: &ValidationEquations,
     start: &Point,
@@ -90,7 +90,7 @@ pub(super) fn refine_dual(
         }
         let scale = g.iter().map(|z| z.hi().norm()).fold(1.0, f64::max);
         let length = step.iter().map(|z| z.hi().norm()).fold(0.0, f64::max) / scale;
-        // halving instead of squaring, from nearby: a multiple root
+        // near a multiple root the steps halve instead of converging quadratically
         slow += u32::from(length >= 0.1 * last && (SETTLED..1e-6).contains(&length));
         if !(length < 1.0) || slow > 3 {
             return None;
@@ -109,7 +109,7 @@ pub(super) fn refine_dual(
 /// Eight equations in `(e, g)`: leg 1, the differences of the others to it, `e.g = 0`, and `e_patch` fixed.
 ///
 /// With `v = g + e b - a e` of leg 1 and `u = v_i - v = e (b_i - b) - (a_i - a) e`, the difference of two legs is
-/// `u.(2 v + u) - (s_i - s) e.e`: the square of a large `g` is not in it.
+/// `u.(2 v + u) - (s_i - s) e.e`. It avoids the square of a large `g`.
 fn linearised(
     legs: &ValidationEquations,
     e: &Quaternion,

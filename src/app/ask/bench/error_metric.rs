@@ -82,7 +82,7 @@ fn quaternion(pose: &ComplexPose) -> [Complex64; 4] {
     rows[best]
 }
 
-/// The polynomials of a problem as eq. (18) has them: the Macaulay matrix `M` with rows of norm one.
+/// The polynomials of a problem in the form of eq. (18): the Macaulay matrix `M` with rows of norm one.
 #[derive(Debug, Clone)]
 pub(super) struct MacaulayMatrix {
     rows: [[f64; MONOMIALS]; 6],
@@ -97,7 +97,7 @@ impl MacaulayMatrix {
     }
 
     /// `eps_i = |M z_i| / |z_i|`, eq. (18), infinite for candidates at infinity. `z_i` is the monomial vector in the
-    /// Cayley vector and `t`, written homogeneously, so that half turns are no exception.
+    /// Cayley vector and `t`. It is written homogeneously, so that it includes half turns.
     pub(super) fn residual(&self, candidate: &RawCandidate) -> f64 {
         let (e, t) = (&candidate.quaternion, &candidate.position);
         let mut z = [Complex64::ZERO; MONOMIALS];

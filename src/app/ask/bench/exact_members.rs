@@ -1,7 +1,8 @@
-//! Members of the classes whose joints satisfy relations: drawn as exact numbers, so that they are of the class.
+//! Members of classes whose joints satisfy relations; they are drawn as exact numbers, so that the relations hold
+//! exactly.
 //!
-//! Numbers drawn are multiples of `2^-12`, which keeps those that follow short: but for the thirds of a turn of
-//! hexapods they are doubles.
+//! Drawn numbers are multiples of `2^-12`, which keeps derived numbers short. All are doubles, except for the rotations
+//! by 120 degrees of hexapods.
 
 use num::Rng;
 use num::surd::Surd;
@@ -9,7 +10,7 @@ use platform::manipulator::ExactEnds;
 
 type Coordinates = [Surd; 3];
 
-/// Multiples of `2^-12` are drawn.
+/// Drawn numbers are multiples of `2^-12`.
 const GRID: f64 = 4096.0;
 
 /// The legs of a member; `None` when a number became too long.
@@ -38,8 +39,8 @@ fn zip(base: &[Coordinates; 6], platform: &[Coordinates; 6]) -> [ExactEnds; 6] {
     std::array::from_fn(|i| [base[i].clone(), platform[i].clone()])
 }
 
-/// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`; the end of leg `i` that differs from leg `i + 1` is moved
-/// towards the latter's by a part of the edge between 0.1 and 0.45.
+/// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`. Legs `i` and `i + 1` differ in one end; this end of leg `i`
+/// moves towards the other by 0.1 to 0.45 of the edge.
 pub(super) fn griffis_duffy(rng: &mut Rng) -> ExactMember {
     let mut triangle = || [(); 3].map(|()| point(rng, false));
     let (b, p) = (triangle(), triangle());
@@ -67,13 +68,13 @@ pub(super) fn identity() -> PlaneMap {
     [Surd::integer(1), Surd::zero(), Surd::zero(), Surd::integer(1)]
 }
 
-/// Any.
+/// Any linear map.
 pub(super) fn linear(rng: &mut Rng) -> PlaneMap {
     std::array::from_fn(|_| number(rng, -1.0, 1.0))
 }
 
-/// A planar hexagon as base and its image under a linear map of the plane as platform: a turn of the platform's frame
-/// would change coordinates, not the platform.
+/// A planar hexagon as base and its image under a linear map of the plane as platform. Rotating the platform's frame
+/// would change coordinates only.
 pub(super) fn images(rng: &mut Rng, map: impl FnOnce(&mut Rng) -> PlaneMap) -> ExactMember {
     let base = [(); 6].map(|()| point(rng, true));
     let map = map(rng);
@@ -85,14 +86,14 @@ pub(super) fn images(rng: &mut Rng, map: impl FnOnce(&mut Rng) -> PlaneMap) -> E
     Some(zip(&base, &platform.try_into().ok()?))
 }
 
-/// `((1 - q^2) / (1 + q^2), 2 q / (1 + q^2))`: cosine and sine of twice the angle with tangent `q`.
+/// Cosine and sine of twice the angle with tangent `q`: `((1 - q^2) / (1 + q^2), 2 q / (1 + q^2))`.
 fn turn(q: &Surd) -> Option<(Surd, Surd)> {
     let (one, square) = (Surd::integer(1), q.times(q)?);
     let inverse = one.plus(&square)?.inverse()?;
     Some((one.minus(&square)?.times(&inverse)?, q.plus(q)?.times(&inverse)?))
 }
 
-/// Three base joints of legs 1-3 on a line, three platform joints of legs 4-6 on a line; the first joints at the
+/// Base joints of legs 1-3 on a line, and platform joints of legs 4-6 on a line. The first joint of each body is at the
 /// origin.
 pub(super) fn collinear(rng: &mut Rng) -> ExactMember {
     let mut body = || -> [Coordinates; 6] {
@@ -106,8 +107,8 @@ pub(super) fn collinear(rng: &mut Rng) -> ExactMember {
     Some(zip(&base, &platform))
 }
 
-/// Pairs of joints on circles of radius 1 and `radius` with half the angle of a pair in `[5, 25]` degrees, threefold
-/// symmetric, base pairs between platform pairs.
+/// Pairs of joints on circles of radius 1 and `radius`, threefold symmetric, with base pairs between platform pairs.
+/// Half the angle of a pair is 5 to 25 degrees.
 pub(super) fn hexapod(rng: &mut Rng) -> ExactMember {
     let radius = number(rng, 0.4, 0.9);
     let half = |rng: &mut Rng| {
@@ -131,7 +132,7 @@ pub(super) fn hexapod(rng: &mut Rng) -> ExactMember {
         for side in [-1, 1] {
             let mirrored =
                 |(c, s): &(Surd, Surd)| (c.clone(), if side < 0 { s.negated() } else { s.clone() });
-            // a platform pair sits between two base pairs: at 60 degrees less its half angle to either side
+            // a platform pair sits between two base pairs, each joint at 60 degrees minus its half angle
             let inner = turned(&sixth, &(platform.0.clone(), platform.1.negated()))?;
             let (a, b) = (turned(&mirrored(&base), direction)?, turned(&mirrored(&inner), direction)?);
             let scaled = [b.0.times(&radius)?, b.1.times(&radius)?];

@@ -1,4 +1,4 @@
-//! How many finite poses a class has: computed, not written down.
+//! The number of finite poses of a class, computed instead of tabulated.
 
 use std::collections::BTreeMap;
 
@@ -8,12 +8,12 @@ use super::run::claims_of;
 use super::validator::validate;
 use fk::{FkOptions, ForwardKinematics, PoseCounting};
 
-/// Members solved to learn the count.
+/// Number of members solved to find the number of poses.
 const MEMBERS: u64 = 7;
-/// Members are drawn with another seed than the problems.
+/// Members and problems are drawn with different seeds.
 const APART: u64 = 0x5eed_0fc0;
 
-/// The mode, over several members, of the validated number of roots (the better of two starts each). `None` when
+/// The most frequent validated number of roots over several members, each with the better of two starts. `None` if
 /// nothing could be solved.
 pub(super) fn expected_count(
     class: Class,
@@ -35,6 +35,6 @@ pub(super) fn expected_count(
             *votes.entry(count).or_default() += 1;
         }
     }
-    // of equally frequent counts the larger: what fails loses roots
+    // of equally frequent counts take the larger, since a failure loses roots
     votes.into_iter().max_by_key(|(count, votes)| (*votes, *count)).map(|(count, _)| count)
 }

@@ -1,4 +1,4 @@
-//! Problem `k` of a class: joints, lengths and, where the lengths come from one, a pose.
+//! Problem `k` of a class: joints, lengths and the pose behind the lengths, if there is one.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 use thiserror::Error;
@@ -11,7 +11,7 @@ use platform::geom::{Pose, any_pose};
 use platform::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
 use platform::topology::NamedTopology;
 
-/// Where leg lengths come from.
+/// The source of the leg lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "files",
@@ -32,40 +32,40 @@ pub struct Problem {
     pub manipulator: Manipulator,
     /// Squared leg lengths.
     pub squares: SquaredLegLengths,
-    /// The pose the lengths come from; it solves the problem up to the rounding of the lengths.
+    /// The pose behind the lengths; it solves the problem up to the rounding of the lengths.
     pub pose: Option<Pose>,
 }
 
-/// Why a problem could not be drawn.
+/// The reason why a problem could not be drawn.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotDrawn {
     /// The joints make no manipulator.
     #[error(transparent)]
     Joints(#[from] InvalidManipulator),
-    /// The lengths of the pose are not finite.
+    /// The leg lengths at the pose are not finite.
     #[error("the leg lengths of the pose are not finite")]
     Lengths,
-    /// No leg of the drawn direction has a length.
+    /// No leg in the drawn direction has a length.
     #[error("the drawn legs have no length")]
     NoLeg,
     /// A coordinate has too many digits to be exact.
     #[error("the exact coordinates of the joints are too long")]
     TooLong,
-    /// The class is about real poses.
+    /// The class needs a real pose.
     #[error("the class {0} takes its lengths from real poses")]
     NeedsPose(Class),
 }
 
 /// Draws problem `k` of `class`; it depends on `seed`, `class`, `lengths` and `k` only.
 ///
-/// Joints lie in `[-2, 2]^3`, planar bodies in `z = 0`; the first joint of each body is at the origin for the classes
-/// of Martyushev. [`Class::Hexapod`] is drawn about its home pose, [`Class::ClosePair`] from a singular pose with
-/// squared lengths `1e-12` off it, [`Class::DoubleRoot`] exactly at one, [`Class::Spread`] from leg lengths spaced
-/// evenly by ratio between `10^-1.5` and `10^1.5`.
+/// Joints lie in `[-2, 2]^3`, and planar bodies in `z = 0`. The first joint of each body is at the origin for the
+/// classes of Martyushev. [`Class::Hexapod`] is drawn about its home pose. [`Class::ClosePair`] starts from a singular
+/// pose with squared lengths `1e-12` off it, and [`Class::DoubleRoot`] exactly at one. [`Class::Spread`] has leg
+/// lengths spaced evenly by ratio between `10^-1.5` and `10^1.5`.
 ///
 /// # Errors
-/// [`NotDrawn`]; only [`NotDrawn::NeedsPose`] ever happened.
+/// [`NotDrawn`]; in practice only [`NotDrawn::NeedsPose`].
 pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<Problem, NotDrawn> {
     if lengths == LengthsFrom::Uniform && !class.allows_uniform_lengths() {
         return Err(NotDrawn::NeedsPose(class));
@@ -104,7 +104,7 @@ fn exact(legs: ExactMember) -> Result<Manipulator, NotDrawn> {
     Ok(Manipulator::from_exact_ends(&legs.ok_or(NotDrawn::TooLong)?)?)
 }
 
-/// A random member of a topology; its joints are all in use.
+/// A random member of a topology, with all its joints in use.
 fn sharing(t: NamedTopology, planar: Planar, rng: &mut Rng) -> Result<Manipulator, InvalidManipulator> {
     let t = t.topology();
     let mut points = |n: usize, flat: bool| (0..n).map(|_| point(rng, flat)).collect::<Vec<_>>();
@@ -135,7 +135,7 @@ pub(super) fn legs(base: [Point3<f64>; 6], platform: [Point3<f64>; 6]) -> [Leg; 
 
 fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
     match class {
-        // those with a generator of their own do not come here
+        // classes with their own generator are drawn elsewhere
         Class::General
         | Class::ClosePair
         | Class::Spread
@@ -178,8 +178,8 @@ fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
     }
 }
 
-/// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most `off` times 20 degrees
-/// and a fifth of the base radius off home.
+/// Pairs of joints on circles, threefold symmetric, with base pairs between platform pairs. The pose is off home by at
+/// most `off` times 20 degrees and a fifth of the base radius.
 fn hexapod(rng: &mut Rng, off: f64) -> Result<Problem, NotDrawn> {
     let manipulator = exact(exact_members::hexapod(rng))?;
     let axis = nalgebra::Unit::new_normalize(Vector3::from_fn(|_, _| rng.normal()));

@@ -1,11 +1,11 @@
-//! Shows how reliable and how fast the solver is: this module draws random problems of a class, solves them, validates
-//! every answer with code that shares nothing with the solver, counts and times.
+//! Measures reliability and speed of the solver. It draws random problems of a class, solves and times them, and
+//! validates every answer independently of the solver's code.
 //!
-//! Generator ([`Class`], [`problem`]) -> any [`ForwardKinematics`](fk::ForwardKinematics) -> [`validate`]
-//! (double-double Newton in the twelve entries of `R` and `p`, on the data as given) -> [`BenchReport`]. Problem `k` of
-//! a class depends on the seed, the class and `k` only, so that a failure is named by three values.
+//! The chain is generator ([`Class`], [`problem`]) -> any [`ForwardKinematics`](fk::ForwardKinematics) -> [`validate`]
+//! -> [`BenchReport`]. The validator is a double-double Newton method in the twelve entries of `R` and `p`, on the data
+//! as given. Problem `k` of a class depends only on the seed, the class and `k`, so these three values name a failure.
 //!
-//! This module measures time; nothing else below `cli` does.
+//! Below `cli` only this module measures time.
 
 mod classes;
 mod dual;

@@ -1,7 +1,7 @@
-//! Newton's method in double-double on the twelve numbers `R`, `p`: the validator's own idea of a root.
+//! Newton's method in double-double on the twelve numbers `R`, `p`: the validator's own definition of a root.
 //!
-//! Equations: the six leg equations and the six of `R^T R = I`, twelve in twelve unknowns, on the data as given
-//! (divided by a power of two, which is exact). No parameters, no elimination, nothing a solver here uses.
+//! The twelve equations are the six leg equations and the six of `R^T R = I`, on the data as given. They are divided by
+//! a power of two, which is exact. The method shares no parametrisation and no elimination with the solvers.
 
 use std::ops::{Div, Mul, Sub};
 
@@ -14,7 +14,7 @@ use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 const N: usize = 12;
 
-/// A pose in double-double: rows of `R`, then `p` in units of [`ValidationEquations`].
+/// A pose in double-double: rows of `R`, then `p` in the unit of [`ValidationEquations`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point(pub(super) [Z; N]);
 
@@ -36,7 +36,7 @@ impl Point {
         self.0.iter().map(|z| z.im.hi().abs()).fold(0.0, f64::max)
     }
 
-    /// `det R` is 1 and not -1. In double-double: far out the products are larger than `10^16`.
+    /// Whether `det R` is 1 rather than -1. In double-double, since for distant roots the products exceed `10^16`.
     pub(super) fn is_rotation(&self) -> bool {
         let r = &self.0;
         let minor = |i: usize, j: usize| r[3 + i] * r[6 + j] - r[3 + j] * r[6 + i];
@@ -48,24 +48,24 @@ impl Point {
 /// The equations of one problem.
 #[derive(Debug, Clone)]
 pub(super) struct ValidationEquations {
-    /// Joints in double-double: those that are known exactly are no doubles.
+    /// Joints in double-double, since exact joints are not always doubles.
     pub(super) base: [[DoubleDouble; 3]; 6],
     pub(super) platform: [[DoubleDouble; 3]; 6],
     pub(super) squares: [f64; 6],
     unit: f64,
 }
 
-/// What an iteration led to.
+/// The result of an iteration.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NewtonEnd {
     pub(super) point: Point,
-    /// Largest entry of the first point's residual, over the squared scale of the point.
+    /// Largest entry of the first point's residual, divided by the squared scale of the point.
     pub(super) residual: f64,
-    /// Length of the last correction over the scale: the error, when it converged.
+    /// Length of the last correction divided by the scale: the error, if the iteration converged.
     pub(super) error: f64,
-    /// Corrections fell to rounding level and stopped there.
+    /// Whether corrections fell to rounding level and stopped there.
     pub(super) converged: bool,
-    /// `R` is a rotation and no reflection.
+    /// Whether `R` is a rotation rather than a reflection.
     pub(super) proper: bool,
 }
 
@@ -87,7 +87,7 @@ impl ValidationEquations {
         }
     }
 
-    /// The length positions are divided by.
+    /// The unit of positions: the power of two that they are divided by.
     pub(super) fn unit(&self) -> f64 {
         self.unit
     }
@@ -143,23 +143,23 @@ impl ValidationEquations {
         out
     }
 
-    /// Largest equation error over the square of the point's scale.
+    /// Largest equation error divided by the square of the point's scale.
     pub(super) fn residual(&self, x: &Point) -> f64 {
         let reach = self.base.iter().flatten().fold(1.0f64, |m, v| m.max(v.hi().abs()));
         let scale = x.scale().max(reach).powi(2);
         self.values(x).iter().map(|z| z.hi().norm() / scale).fold(0.0, f64::max)
     }
 
-    /// Newton from `start` until corrections stop shrinking. Corrections are solved for in double; where that does not
-    /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double,
-    /// and where even that does not in dual quaternions.
+    /// Runs Newton's method from `start` until corrections stop shrinking. Corrections are computed in double first.
+    /// For distant roots near `e.e = 0` this may fail, since the condition of the Jacobian grows with a power of the
+    /// pose. It then uses double-double, and finally dual quaternions.
     pub(super) fn refine(&self, start: &Point) -> NewtonEnd {
         self.refine_from(start, None)
     }
 
-    /// Lengths of the first Newton steps from a relative distance beside a point, relative to its scale, in
-    /// double-double: they halve where the root is a double one (Reddien 1978), shrink to two thirds where it is
-    /// threefold, and quadratically where it is simple.
+    /// Lengths of the first Newton steps from a point at this relative distance, relative to its scale, in
+    /// double-double. Near a double root the steps halve (Reddien 1978), near a threefold one they shrink to two
+    /// thirds, near a simple one quadratically.
     pub(super) fn steps_from_beside(&self, point: &Point, distance: f64) -> Vec<f64> {
         let scale = point.scale();
         let mut x = *point;
@@ -175,7 +175,7 @@ impl ValidationEquations {
         out
     }
 
-    /// [`refine`](Self::refine), with the digits that a dual quaternion has and the pose has not.
+    /// [`refine`](Self::refine), with the additional digits of a dual quaternion.
     pub(super) fn refine_from(&self, start: &Point, dual: Option<&[Complex64; 8]>) -> NewtonEnd {
         let residual = self.residual(start);
         let (point, error) = iterate(start, |x| {
@@ -187,7 +187,7 @@ impl ValidationEquations {
         }
         let (point, error) = iterate(start, |x| solve(self.jacobian(x), self.values(x)));
         if !(error < CLOSE) {
-            // what comes from a dual quaternion is a rotation
+            // a dual quaternion always gives a rotation
             if let Some((point, error)) = refine_dual(self, start, dual) {
                 return NewtonEnd { point, residual, error, converged: true, proper: true };
             }
@@ -197,22 +197,22 @@ impl ValidationEquations {
     }
 }
 
-/// Steps that [`ValidationEquations::steps_from_beside`] takes.
+/// Number of steps of [`ValidationEquations::steps_from_beside`].
 const STEPS_BESIDE: usize = 9;
 
-/// Corrections of this relative length are as good as `R`, `p` ever give.
+/// Corrections of this relative length are the best that `R`, `p` allow.
 const CLOSE: f64 = 1e-20;
 
-/// Relative length below which the last correction of an iteration that has converged lies.
+/// Bound on the relative length of the last correction of a converged iteration.
 ///
-/// Far out the condition of the Jacobian, and with it the rounding of a correction, grows like the power 2.5 of the
-/// pose (measured: `1e-19` at `1e5`). Near by the limit must be small: from close to a double root even halving gets
-/// below `1e-17`.
+/// The condition of the Jacobian, and with it the rounding of a correction, grows like the power 2.5 of the pose
+/// (measured: `1e-19` at `1e5`). For small poses the bound must be small: from close to a double root even halving
+/// steps fall below `1e-17`.
 fn converged_below(scale: f64) -> f64 {
     (1e-30 * scale * scale * scale.sqrt()).max(1e-20)
 }
 
-/// Where the iteration leads and the relative length of its last correction.
+/// The end of the iteration and the relative length of its last correction.
 fn iterate(start: &Point, step: impl Fn(&Point) -> Option<[Z; N]>) -> (Point, f64) {
     let (mut x, mut error) = (*start, f64::INFINITY);
     for _ in 0..20 {
@@ -236,7 +236,7 @@ fn times(z: Z, x: DoubleDouble) -> Z {
     Z { re: z.re * x, im: z.im * x }
 }
 
-/// What Gaussian elimination needs of a number.
+/// The operations on numbers that Gaussian elimination uses.
 pub(super) trait EliminationNumber:
     Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -265,7 +265,7 @@ impl EliminationNumber for Z {
     }
 }
 
-/// Gaussian elimination with partial pivoting, rows scaled to largest entry about one.
+/// Gaussian elimination with partial pivoting; rows are scaled to a largest entry of about one.
 pub(super) fn solve<T: EliminationNumber, const K: usize>(
     mut m: [[T; K]; K],
     mut y: [T; K],

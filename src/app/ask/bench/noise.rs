@@ -1,4 +1,4 @@
-//! How far the poses move when leg lengths are known with an error: Martyushev (2025), sec. 5.2 and Fig. 4.
+//! Displacements of poses for leg lengths with errors: Martyushev (2025), sec. 5.2 and Fig. 4.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -11,15 +11,14 @@ use num::Rng;
 use platform::geom::{Pose, turn_between};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Standard deviations of the relative error of a leg length that are looked at by default; the published figure ends
-/// at `8e-4`.
+/// Default standard deviations of the relative error of a leg length; the published figure ends at `8e-4`.
 pub const NOISE_LEVELS: [f64; 16] =
     [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1e-3, 1e-2, 1e-1];
 
-/// Sets the poses and errors apart from the joints of the same problem.
+/// Seed offset that separates poses and errors from the joints of the same problem.
 const APART: u64 = 0x0015_e000;
 
-/// What to run.
+/// The plan of a noise run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoisePlan {
     /// Class of the platforms.
@@ -28,43 +27,43 @@ pub struct NoisePlan {
     pub count: u64,
     /// Seed of platforms, poses, errors, and of the solver's generic constants.
     pub seed: u64,
-    /// Threads.
+    /// Number of threads.
     pub threads: Threads,
     /// Standard deviations of the relative errors of the leg lengths.
     pub levels: Vec<f64>,
 }
 
-/// How angles spread over problems, radians.
+/// The distribution of angles over problems, radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "SpreadRecord", transform = num::nullable))]
 pub struct Spread {
-    /// A quarter of the values is at most this.
+    /// The lower quartile.
     pub lower_quartile: f64,
-    /// Half of them.
+    /// The median.
     pub median: f64,
-    /// Three quarters.
+    /// The upper quartile.
     pub upper_quartile: f64,
-    /// 99 of a hundred.
+    /// The 99th percentile.
     pub p99: f64,
-    /// All.
+    /// The maximum.
     pub max: f64,
 }
 
-/// What one level of noise does.
+/// The effect of one level of noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "NoiseLevelRecord", transform = num::nullable))]
 pub struct NoiseLevel {
-    // spreads are over the problems that have a real pose
+    // the statistics are over the problems that have a real pose
     /// Relative error of the leg lengths.
     pub sigma: f64,
-    /// Problems without a real pose.
-    // two of them met and became complex
+    /// Number of problems without a real pose.
+    // here two real poses met and became complex
     #[cfg_attr(feature = "files", serde(rename = "without_real_pose"))]
     pub without_pose: u64,
-    /// Angle of the rotation to the nearest real pose; null: no problem has one.
+    /// Angle of the rotation to the nearest real pose, radians; null: no problem has one.
     #[cfg_attr(feature = "files", serde(rename = "rotation_rad"))]
     pub rotation: Option<Spread>,
-    /// Angle between the position vectors.
+    /// Angle between the position vectors, radians.
     #[cfg_attr(feature = "files", serde(rename = "position_rad"))]
     pub position: Option<Spread>,
 }
@@ -76,7 +75,7 @@ fn vector_angle(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }
 
-/// The least errors over the real poses, each for itself, as published.
+/// The least errors over the real poses; rotation and position are minimised separately, as published.
 fn errors(found: &FkSolutions, truth: &Pose) -> Errors {
     let real = found.roots.iter().filter(|r| r.reality == Reality::Real).map(|root| {
         let found = root.pose.real_part();
@@ -96,7 +95,7 @@ fn draw(class: Class, seed: u64, k: u64) -> Result<(Manipulator, Pose, [f64; 6])
     Ok((manipulator, Pose { rotation, position }, std::array::from_fn(|_| rng.normal())))
 }
 
-/// `s_i (1 + sigma n_i)^2`.
+/// The disturbed squared lengths `s_i (1 + sigma n_i)^2`.
 fn disturbed(s: &SquaredLegLengths, sigma: f64, n: &[f64; 6]) -> Option<SquaredLegLengths> {
     let s = s.get();
     SquaredLegLengths::try_new(std::array::from_fn(|i| s[i] * (1.0 + sigma * n[i]).powi(2))).ok()
@@ -124,11 +123,11 @@ fn spread(values: &[f64]) -> Option<Spread> {
     })
 }
 
-/// Disturbs the leg lengths of random poses and measures how far the nearest real pose is from the true one.
+/// Disturbs the leg lengths of random poses and measures the distance of the nearest real pose from the true one.
 ///
-/// Platforms as [`problem`] draws them, position and Cayley vector of the pose standard normal, squared lengths
-/// `s_i (1 + sigma n_i)^2` with standard normal `n_i`, errors by eqs. (20) and (21) of Martyushev (2025). Unlike there,
-/// all levels share platforms, poses and `n_i`, so that what differs between levels is the noise.
+/// Platforms come from [`problem`]; position and Cayley vector of the pose are standard normal. Squared lengths are
+/// `s_i (1 + sigma n_i)^2` with standard normal `n_i`, and errors follow eqs. (20) and (21) of Martyushev (2025).
+/// Unlike there, all levels share platforms, poses and `n_i`, so that levels differ only by the noise.
 ///
 /// # Errors
 /// [`RunError::NotDrawn`].

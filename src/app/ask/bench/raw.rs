@@ -1,6 +1,6 @@
-//! The published eliminations by themselves: their candidates before any refinement, and the time of each step.
+//! The published eliminations alone: their candidates before any refinement, and the time of each step.
 //!
-//! The errors are those of Martyushev (2025), sec. 5.1, in frames turned at random and in the units of the design.
+//! The errors follow Martyushev (2025), sec. 5.1, in randomly rotated frames and in the units of the design.
 
 use std::time::Instant;
 
@@ -13,7 +13,7 @@ use fk::solve::sylvester::Eliminant;
 use fk::solve::template::TemplateLayout;
 use num::Purpose;
 
-/// Poses of a general platform: so many candidates with the smallest residuals count.
+/// Number of poses of a general platform; only this number of candidates, those with the smallest residuals, count.
 const POSES: usize = 40;
 /// Width of a bin of the histogram of errors.
 const BIN: f64 = 0.5;
@@ -27,10 +27,10 @@ pub enum Elimination {
     Template,
 }
 
-/// Figures of one problem's elimination.
+/// The result of one problem's elimination.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RawOutcome {
-    /// Residuals of the candidates, eq. (18), ascending; `None` where the elimination does not apply.
+    /// Residuals of the candidates, eq. (18), ascending; `None` if the elimination does not apply.
     residuals: Option<Vec<f64>>,
     /// Share of zeros in the matrix of the template.
     zeros: f64,
@@ -41,15 +41,15 @@ pub(super) struct RawOutcome {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "EliminationMatrixRecord", transform = num::nullable))]
 pub struct EliminationMatrix {
-    /// Rows.
+    /// Number of rows.
     pub rows: usize,
-    /// Columns.
+    /// Number of columns.
     pub columns: usize,
-    /// Median share of entries that are zero; null: not counted.
+    /// Median share of zero entries; null: not counted.
     pub zeros: Option<f64>,
 }
 
-/// How sharply the fortieth residual is set off from the next one.
+/// The ratio between the fortieth residual and the next one, as a decimal logarithm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "GapRecord", transform = num::nullable))]
 pub struct GapStatistics {
@@ -64,11 +64,11 @@ pub struct GapStatistics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ErrorBinRecord", transform = num::nullable))]
 pub struct ErrorBin {
-    /// Its lower end, decimal logarithm.
+    /// The lower end, decimal logarithm.
     pub from: f64,
-    /// Its upper end, which belongs to the next bin.
+    /// The upper end, decimal logarithm; it belongs to the next bin.
     pub to: f64,
-    /// Problems in it.
+    /// Number of problems in the bin.
     pub count: u64,
 }
 
@@ -78,7 +78,7 @@ pub struct ErrorBin {
 pub struct StepTime {
     /// The step: `template`, `plu`, `qz` as in Table 2 of Martyushev, or `determinants`, `roots`, `back_substitution`.
     pub step: &'static str,
-    /// Its median time, microseconds.
+    /// The median time, microseconds.
     pub median_us: f64,
     /// The library that computes it; null: equipod itself.
     pub library: Option<&'static str>,
@@ -90,24 +90,25 @@ pub struct StepTime {
 pub struct RawReport {
     /// The matrix.
     pub matrix: EliminationMatrix,
-    /// Candidates of a problem, of which forty are poses.
+    /// Number of candidates of a problem; forty of them are poses.
     pub candidates: usize,
-    /// Problems on which the elimination degenerates, in frames drawn once; they are not in the statistics.
+    /// Number of problems with a degenerate elimination in frames drawn once; the statistics leave them out.
     pub refused: u64,
-    /// Problems with fewer than forty finite candidates; they are not in the statistics.
+    /// Number of problems with fewer than forty finite candidates; the statistics leave them out.
     pub infinite: u64,
-    /// The error of the forty best candidates (Martyushev, eq. 19), decimal logarithm; null: all refused.
+    /// The error of the forty best candidates (Martyushev, eq. 19), decimal logarithm; null: all problems degenerate.
     pub epsilon: Option<ErrorStatistics>,
-    /// Decimal logarithm of the fortieth residual over the next one (Martyushev, Table 1); null: there is no next one.
+    /// Decimal logarithm of the fortieth residual divided by the next one (Martyushev, Table 1); null: there is no next
+    /// one.
     pub gap: Option<GapStatistics>,
     /// Histogram of the error (Martyushev, Fig. 3a).
     pub bins: Vec<ErrorBin>,
-    /// Times of the steps, in their order.
+    /// Times of the steps, in order.
     pub steps: Vec<StepTime>,
 }
 
 impl Elimination {
-    /// The elimination that a method is, if it is one.
+    /// The elimination of a method, if it is one.
     #[must_use]
     pub fn of(method: Method) -> Option<Self> {
         match method {
@@ -117,7 +118,7 @@ impl Elimination {
         }
     }
 
-    /// One elimination of problem `k`, in frames drawn for it.
+    /// One elimination of problem `k`, in frames drawn for this problem.
     pub(super) fn measure(self, problem: &Problem, seed: u64, k: u64) -> RawOutcome {
         let rng = &mut Purpose::GENERIC_FRAMES.item(seed, k);
         let framed = GenericProblem::draw(&problem.manipulator, &problem.squares, rng);
@@ -191,7 +192,7 @@ impl Elimination {
     }
 }
 
-/// Takes the times of steps, and counts zeros outside of them.
+/// Measures the times of steps; zeros are counted outside these times.
 struct Watch {
     begin: Instant,
     times: Vec<f64>,
@@ -199,7 +200,7 @@ struct Watch {
 }
 
 impl Watch {
-    /// Ends a step.
+    /// Ends a step and records its time.
     fn lap(&mut self) {
         let now = Instant::now();
         self.times.push(now.duration_since(self.begin).as_secs_f64() * 1e6);
@@ -207,7 +208,7 @@ impl Watch {
     }
 }
 
-/// The candidates of the template; `None` where it loses rank.
+/// The candidates of the template; `None` if it loses rank.
 fn by_template(problem: &GenericProblem, watch: &mut Watch) -> Option<Vec<RawCandidate>> {
     let layout = TemplateLayout::shipped().ok()?;
     let filled = layout.fill(problem);
@@ -221,7 +222,7 @@ fn by_template(problem: &GenericProblem, watch: &mut Watch) -> Option<Vec<RawCan
     Some(pairs.iter().map(|pair| layout.candidate(pair)).collect())
 }
 
-/// The candidates of the determinant; `None` where it is not a polynomial of degree 40.
+/// The candidates of the determinant; `None` if it is not a polynomial of degree 40.
 fn by_determinant(problem: &GenericProblem, watch: &mut Watch) -> Option<Vec<RawCandidate>> {
     let eliminant = Eliminant::of(problem).ok()?;
     watch.lap();

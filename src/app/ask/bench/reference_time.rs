@@ -8,11 +8,11 @@ use num::{Purpose, Rng};
 
 const RUNS: usize = 12;
 
-/// Two computations of every linear algebra, in microseconds or as what times are multiples of.
+/// Two reference timings on this machine, in microseconds, or ratios to these timings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ReferenceRecord", transform = num::nullable))]
 pub struct ReferenceTimes {
-    /// Generalised eigenvalues of a random 69 x 69 pair.
+    /// Generalised eigenvalues of a random pair of 69 x 69 matrices.
     pub qz69: f64,
     /// Eigenvalues of a random 40 x 40 matrix.
     pub eig40: f64,
@@ -38,7 +38,7 @@ fn median_of_runs(mut once: impl FnMut() -> Result<(), LinalgError>) -> Result<f
 /// Measures both references.
 ///
 /// # Errors
-/// When an iteration does not converge, which does not happen for random matrices.
+/// An iteration that does not converge, which does not happen for random matrices.
 pub fn reference_times(seed: u64) -> Result<ReferenceTimes, LinalgError> {
     let mut rng = Purpose::REFERENCE_MATRICES.rng(seed);
     let (a, b) = (random_matrix(69, &mut rng), random_matrix(69, &mut rng));

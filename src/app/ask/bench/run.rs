@@ -1,4 +1,5 @@
-//! Runs a plan: draws, solves, certifies again for the enclosures, validates, in as many threads as asked for.
+//! Runs a plan in several threads: draws problems, solves and validates them, and certifies again to obtain the
+//! enclosures.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -16,28 +17,28 @@ use fk::solve::certify::Certifier;
 use fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
 use platform::geom::ComplexPose;
 
-/// What to run.
+/// The plan of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
     /// Class of the problems.
     pub class: Class,
-    /// Where leg lengths come from.
+    /// The source of the leg lengths.
     pub lengths: LengthsFrom,
     /// Number of problems.
     pub count: u64,
-    /// Index of the first problem: to repeat one that failed.
+    /// Index of the first problem, to repeat a failed one.
     pub first: u64,
     /// Seed of the problems and of the solver's generic constants.
     pub seed: u64,
-    /// Threads; each problem is solved on one.
+    /// Number of threads; each problem is solved on one.
     pub threads: usize,
-    /// Whether poses are counted modulo random primes where completeness is not proved.
+    /// Whether poses are counted modulo random primes if completeness is not proved.
     pub count_poses: bool,
-    /// Every so many problems the reference solver solves it again from two other starts; 0 for never.
+    /// The reference solver solves every n-th problem again from two other starts; 0: never.
     pub recheck_every: u64,
 }
 
-/// A run that could not be made.
+/// The reason why a run failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -46,7 +47,7 @@ pub enum RunError {
     NotDrawn {
         /// Index of the problem.
         k: u64,
-        /// Why.
+        /// The reason.
         why: NotDrawn,
     },
     /// The reference solver could not solve a single member of the class.
@@ -54,24 +55,24 @@ pub enum RunError {
     NoExpectation(Class),
 }
 
-/// A problem whose answer is not right.
+/// A problem with a wrong answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrongAnswer {
-    /// Index of the problem: with class and seed it names the problem.
+    /// Index of the problem; class, seed and index name it.
     pub k: u64,
-    /// Roots that are missing.
+    /// Number of missing roots.
     pub missed: usize,
-    /// Claims that are not roots.
+    /// Number of claims that are no roots.
     pub spurious: usize,
-    /// Certificates that are wrong.
+    /// Number of wrong certificates.
     pub false_certificates: usize,
-    /// Distinct right roots.
+    /// Number of distinct correct roots.
     pub found: usize,
-    /// What the solver said of its own answer.
+    /// The solver's own statement about its answer.
     pub solver: String,
 }
 
-/// What one problem gave.
+/// The result of one problem.
 #[derive(Debug, Clone)]
 pub(super) struct ProblemOutcome {
     pub(super) k: u64,
@@ -89,8 +90,7 @@ pub(super) struct ProblemOutcome {
     pub(super) raw: Option<RawOutcome>,
 }
 
-/// The claims of a set of solutions, with the enclosures of their certificates, and the time that making certificates
-/// again takes.
+/// The claims of a set of solutions, with the enclosures of their certificates, and the time of certifying again.
 pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, f64) {
     let start = Instant::now();
     let certifier = Certifier::new(&problem.manipulator, &problem.squares).ok();
@@ -177,11 +177,11 @@ fn one(
     })
 }
 
-/// Runs `plan` with `solver`; `reference` computes the number of poses to expect and looks for missed ones from other
+/// Runs `plan` with `solver`; `reference` computes the expected number of poses and searches for missed ones from other
 /// starts.
 ///
 /// # Errors
-/// [`RunError`]; a problem the solver fails on is a failure in the report, not an error.
+/// [`RunError`]; a problem that the solver fails on is a failure in the report.
 pub fn run(
     plan: &Plan,
     solver: &dyn ForwardKinematics,
@@ -207,7 +207,7 @@ pub fn run(
         let others: Vec<_> = (1..plan.threads.max(1)).map(|_| scope.spawn(work)).collect();
         let mut parts = vec![work()];
         for other in others {
-            // a panic in a worker goes on in the caller
+            // a panic in a worker continues in the caller
             parts.push(other.join().unwrap_or_else(|payload| std::panic::resume_unwind(payload)));
         }
         parts

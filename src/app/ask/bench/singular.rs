@@ -1,4 +1,4 @@
-//! Problems at and next to singular poses.
+//! Problems at and near singular poses.
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
@@ -7,9 +7,9 @@ use num::Rng;
 use platform::geom::{Pose, any_pose};
 use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
-/// At a random pose the last base joint is moved so that the six leg lines belong to one linear complex (the leg's
-/// vector `d` normal to `v + w x R b` for the twist `(v, w)` reciprocal to the other five): two poses meet there, and
-/// squared lengths about `1e-12` off part them by about `1e-6`.
+/// A close pair of poses. At a random pose the last base joint is moved so that the six leg lines belong to one linear
+/// complex. For this the leg's vector `d` is normal to `v + w x R b` for the twist `(v, w)` reciprocal to the other
+/// five. Two poses meet there, and squared lengths about `1e-12` off separate them by about `1e-6`.
 pub(super) fn close_pair(rng: &mut Rng) -> Result<Problem, NotDrawn> {
     let mut joints = legs(body(rng, false), body(rng, false));
     let pose = any_pose(rng);
@@ -45,7 +45,7 @@ fn integers(rng: &mut Rng, limit: u64) -> Vector3<f64> {
     Vector3::from_fn(|_, _| integer(rng, limit))
 }
 
-/// One of the 24 rotations of the cube: exact in doubles.
+/// One of the 24 rotations of the cube, which doubles represent exactly.
 fn cube_rotation(rng: &mut Rng) -> Matrix3<f64> {
     let mut order = [0, 1, 2];
     for i in (1..3).rev() {
@@ -58,16 +58,17 @@ fn cube_rotation(rng: &mut Rng) -> Matrix3<f64> {
     if r.determinant() < 0.0 { -r } else { r }
 }
 
-/// A pose at which all leg lines belong to one linear complex, all of it integers over 32.
+/// A pose at which all leg lines belong to one linear complex; all its coordinates are integers over 32.
 ///
-/// For a twist `(v, w)` of small integers every leg vector is `d = (v + w x t) x e`, `t` its tip on the platform, so
-/// that no leg length changes to first order along the twist. The pose turns by a rotation of the cube. Joints and
-/// squared lengths are then computed without rounding and the pose is a double root, not two close ones.
+/// For a twist `(v, w)` of small integers every leg vector is `d = (v + w x t) x e`, with `t` its tip on the platform.
+/// No leg length then changes to first order along the twist. The rotation of the pose is a rotation of the cube.
+/// Joints and squared lengths are computed without rounding, so the pose is an exact double root.
 pub(super) fn double_root(rng: &mut Rng) -> Result<Problem, NotDrawn> {
     singular_design(rng).map(|(problem, _)| problem)
 }
 
-/// A problem with a double root, and the root. The harness is not told the latter: it would be taken for a regular one.
+/// A problem with a double root, and the root. The harness does not use the root, since it would take it for a regular
+/// one.
 fn singular_design(rng: &mut Rng) -> Result<(Problem, Pose), NotDrawn> {
     let (rotation, position) = (cube_rotation(rng), integers(rng, 8) / 8.0);
     let (v, w) = (integers(rng, 16) / 8.0, integers(rng, 2));
@@ -100,7 +101,7 @@ mod tests {
             for (leg, s) in m.legs().iter().zip(s) {
                 let on_grid = |x: &f64| (32.0 * x).fract() == 0.0 && x.abs() < 1e3;
                 assert!(leg.base.iter().chain(leg.platform.iter()).all(on_grid));
-                // nothing is rounded on such a grid, so that this is an identity between rational numbers
+                // this grid avoids rounding, so the identity holds between rational numbers
                 assert!((pose.squared_length(leg) - s).abs() == 0.0 && s > 0.0);
             }
             let sines = jacobian(m, &pose, m.size()).singular_values();

@@ -1,4 +1,4 @@
-//! From single outcomes to the row of a table.
+//! Statistics of single outcomes: the row of a table.
 
 use std::collections::BTreeMap;
 
@@ -16,19 +16,19 @@ pub struct ErrorStatistics {
     pub mean: f64,
     /// The largest.
     pub max: f64,
-    /// Share of the problems above -5.
+    /// Share of the problems with a value above -5.
     pub above_minus_5: f64,
-    /// Share of the problems above -6.
+    /// Share of the problems with a value above -6.
     pub above_minus_6: f64,
 }
 
-/// Medians of the parts of a solver call and of its validation.
+/// Median times of the parts of a solver call and of its validation, microseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "TimeSplitRecord", transform = num::nullable))]
 pub struct TimeSplit {
     /// The solver call without certification.
     pub solve: f64,
-    /// Certification of the roots, made once more on its own.
+    /// Certification of the roots, measured separately.
     pub certify: f64,
     /// Validation; not part of the solver's time.
     pub validate: f64,
@@ -37,76 +37,76 @@ pub struct TimeSplit {
 /// The result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BenchReport {
-    /// What was run.
+    /// The plan of the run.
     pub plan: Plan,
-    /// Finite poses a member of the class has, as computed.
+    /// Computed number of finite poses of a member of the class.
     pub expected: usize,
-    /// Problems whose set of roots is right and complete.
+    /// Number of problems with a correct and complete set of roots.
     pub complete: u64,
-    /// Problems in which every root has a certificate.
+    /// Number of problems in which every root has a certificate.
     pub certified: u64,
-    /// Problems with a proof of completeness.
+    /// Number of problems with a proof of completeness.
     pub proved: u64,
-    /// Problems for which the solver itself says that roots may be missing.
+    /// Number of problems for which the solver itself warns that roots may be missing.
     pub doubted: u64,
-    /// Problems that look complete to the solver but are not: the worst kind.
+    /// Number of problems that look complete to the solver but lack roots: the worst kind.
     pub silent_failures: u64,
-    /// Problems solved again from two other starts.
+    /// Number of problems solved again from two other starts.
     pub rechecked: u64,
-    /// Claimed roots.
+    /// Number of claimed roots.
     pub roots: u64,
-    /// Claimed roots with a certificate.
+    /// Number of claimed roots with a certificate.
     pub certified_roots: u64,
-    /// True roots not found.
+    /// Number of true roots that the solver missed.
     pub missed_roots: u64,
-    /// Claims that are not a root, or a second time the same.
+    /// Number of claimed roots that are wrong or listed twice.
     pub spurious_roots: u64,
-    /// Certificates, of roots or of completeness, that are wrong.
+    /// Number of wrong certificates, of roots or of completeness.
     pub false_certificates: u64,
     /// Median time of a solver call, microseconds.
     pub median_us: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile of the time of a solver call, microseconds.
     pub p99_us: f64,
-    /// Mean of the same.
+    /// Mean time of a solver call, microseconds.
     pub mean_us: f64,
-    /// Largest residual of a claim in double-double, relative to the square of the pose's own numbers.
+    /// Largest residual of a claimed root in double-double, relative to the square of the pose's own numbers.
     pub worst_residual: f64,
-    /// How the time splits.
+    /// Median times of the parts of a solver call.
     pub split: TimeSplit,
     /// Wall-clock seconds of the whole run.
     pub seconds: f64,
-    /// Number of problems by number of right finite roots.
+    /// Number of problems by their number of correct finite roots.
     pub finite_counts: BTreeMap<usize, u64>,
-    /// Number of problems by number of real ones.
+    /// Number of problems by their number of correct real roots.
     pub real_counts: BTreeMap<usize, u64>,
     /// Accuracy in Martyushev's measure.
     pub epsilon: ErrorStatistics,
-    /// The candidates before refinement, where the method is a published elimination.
+    /// The candidates before refinement, for a published elimination.
     pub raw: Option<RawReport>,
-    /// Problems whose answer is not right.
+    /// Problems with a wrong answer.
     pub failures: Vec<WrongAnswer>,
 }
 
 impl BenchReport {
-    /// Nothing missed, nothing spurious, no false certificate.
+    /// Whether nothing is missed, nothing spurious, and no certificate false.
     #[must_use]
     pub fn passed(&self) -> bool {
         self.missed_roots == 0 && self.spurious_roots == 0 && self.false_certificates == 0
     }
 }
 
-/// Value below which the part `q` of the values lies (nearest rank); 0 for no values.
+/// The value at the share `q` of the sorted values (nearest rank); 0 for an empty list.
 pub(super) fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     let n = values.len() as f64;
-    // the first value with at least the part q of the values up to and including it
+    // the first value with at least the share q of the values up to and including it
     values.iter().enumerate().find(|(i, _)| (*i + 1) as f64 >= q * n).map_or(0.0, |(_, value)| *value)
 }
 
-/// Statistics of errors that are finite.
+/// Statistics of the finite errors.
 pub(super) fn error_statistics(values: &[f64]) -> ErrorStatistics {
-    // of no values: not a number
+    // without values: not a number
     let n = values.len() as f64;
     let above = |limit: f64| values.iter().filter(|e| **e > limit).count() as f64 / n;
     ErrorStatistics {
@@ -147,7 +147,7 @@ pub(super) fn summarise(
         found: o.verdict.distinct,
         solver: o.solver.clone(),
     });
-    // no roots, or residuals that are all zero: nothing to take the logarithm of
+    // without roots or with zero residuals there is no logarithm
     let errors: Vec<f64> = outcomes.iter().map(|o| o.metric).filter(|e| e.is_finite()).collect();
     let raw: Vec<_> = outcomes.iter().filter_map(|o| o.raw.clone()).collect();
     BenchReport {

@@ -1,8 +1,8 @@
-//! Roots that must come in pairs.
+//! Roots that come in pairs by symmetry.
 //!
-//! When base and platform are planar, reflecting the scene in the base plane and the platform in its own leaves all leg
-//! lengths alone: `x -> S R S' x + ...` is a pose again. (One planar body is not enough: the mirror image of the other
-//! is another body.)
+//! Let base and platform be planar, and reflect the scene in the base plane and the platform in its own plane. All leg
+//! lengths stay, and `x -> S R S' x + ...` is a pose again. Both bodies must be planar, since the mirror image of a
+//! spatial body is another body.
 
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
@@ -24,7 +24,7 @@ pub(super) struct PlanarReflections {
     platform: Reflection,
 }
 
-/// The plane through the points, `None` when they are farther than `1e-12` of their spread from it.
+/// The plane through the points; `None` if they are off it by more than `1e-12` of their spread.
 fn reflection(points: [Vector3<f64>; 6]) -> Option<Reflection> {
     let mut normal = Vector3::zeros();
     for i in 0..6 {

@@ -1,4 +1,4 @@
-//! Whether a claimed set of roots is right: by refinement in double-double, symmetry and roots from elsewhere.
+//! Validates a claimed set of roots by refinement in double-double, by symmetry, and by roots from other starts.
 
 use num_complex::Complex64;
 
@@ -13,28 +13,28 @@ use super::symmetry::PlanarReflections;
 
 /// Largest residual of a root, relative to the square of the pose's own numbers.
 const RESIDUAL: f64 = 1e-9;
-/// A root that Newton moves farther than this, relative to the pose's own numbers, was none.
+/// A claim that Newton's method moves farther than this, relative to the pose's own numbers, is no root.
 const MOVED: f64 = 1e-6;
-/// Singular roots are known to this accuracy only.
+/// The accuracy to which singular roots are known.
 const SINGULAR_RADIUS: f64 = 1e-3;
-/// Two refined roots closer than this are one.
+/// Two refined roots closer than this count as one.
 const SAME: f64 = 1e-14;
-/// Relative distances from a multiple root at which the steps of Newton's method are looked at: nearer than the next
-/// root.
+/// Relative distances from a multiple root at which the steps of Newton's method are checked; the next root is farther
+/// away.
 const BESIDE: [f64; 3] = [1e-5, 1e-9, 1e-13];
-/// What a certificate without an enclosure claims: half of the digits of a double.
+/// The accuracy claimed by a certificate without an enclosure: half of the digits of a double.
 const CLAIMED: f64 = 4e-8;
 
-/// What is claimed about one root.
+/// The claims about one root.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
     /// The pose.
     pub pose: ComplexPose,
-    /// The same as a dual quaternion, see [`FkRoot::dual_quaternion`](fk::FkRoot::dual_quaternion).
+    /// The pose as a dual quaternion, see [`FkRoot::dual_quaternion`](fk::FkRoot::dual_quaternion).
     pub dual_quaternion: Option<[Complex64; 8]>,
     /// Whether existence is claimed to be proved.
     pub certified: bool,
-    /// Discs said to hold `R` (row by row) and `p` (design units) of the root.
+    /// Discs claimed to contain `R` (row by row) and `p` (design units) of the root.
     pub enclosure: Option<Vec<Disc>>,
     /// Claimed reality.
     pub reality: Reality,
@@ -42,37 +42,38 @@ pub struct Claim {
     pub multiplicity: u32,
 }
 
-/// What validation found.
+/// The result of a validation.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Validation {
-    /// Distinct roots that are right.
+    /// Number of distinct correct roots.
     pub distinct: usize,
-    /// The same, singular ones counted with their claimed multiplicity.
+    /// Number of correct roots; singular ones count with their claimed multiplicity.
     pub counted: usize,
-    /// Real ones among them.
+    /// Number of real correct roots.
     pub real: usize,
-    /// Claims that are not a root or repeat one.
+    /// Number of claims that are no root or repeat one.
     pub spurious: usize,
-    /// True roots that are not among the claims.
+    /// Number of true roots that are not among the claims.
     pub missed: usize,
-    /// Certificates whose root is not where they say, or not as real as they say.
+    /// Number of certificates with a wrong place or a wrong reality of the root.
     pub false_certificates: usize,
     /// Largest residual of the claims as given, in double-double, relative to the square of the pose's own numbers.
     pub worst_residual: f64,
 }
 
-/// A claim that is right.
+/// A correct claim.
 struct Root {
     point: Point,
-    /// What is as near as this is accounted for by it.
+    /// A pose within this distance counts as this root.
     radius: f64,
-    /// A claim as near as this repeats it: smaller where discs hold a multiple root, since another may be close.
+    /// A claim within this distance repeats the root. It is smaller for discs that hold a multiple root, since another
+    /// root may be close.
     own: f64,
 }
 
-/// Validates `claims` for `problem`. `others` are poses believed to be roots (the generating pose, roots found from
-/// another start): each that refines to a regular root must be among the claims, as must conjugates and, for two planar
-/// bodies, mirror images.
+/// Validates `claims` for `problem`. `others` are probable roots: the generating pose, and roots from another start.
+/// Each of them that refines to a regular root must be among the claims. So must conjugates and, for two planar bodies,
+/// mirror images.
 #[must_use]
 pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> Validation {
     let equations = ValidationEquations::new(&problem.manipulator, &problem.squares);
@@ -83,7 +84,7 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         let refined = equations.refine_from(&start, claim.dual_quaternion.as_ref());
         verdict.worst_residual = verdict.worst_residual.max(refined.residual);
         let multiple = claim.multiplicity > 1 && is_multiple(&equations, claim, &start);
-        // from close to a double root even halving looks like convergence
+        // from close to a double root even halving steps look like convergence
         let regular = !multiple
             && (is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit()));
         let as_claimed =
@@ -91,7 +92,7 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         if claim.certified && !as_claimed {
             verdict.false_certificates += 1;
         }
-        // a double root is found to about the root of rounding: its residual is small all the same
+        // a double root is accurate to about the square root of rounding, still with a small residual
         let singular = !regular && refined.residual <= RESIDUAL && claim.multiplicity > 1;
         let root = if singular {
             let radius = SINGULAR_RADIUS * start.scale();
@@ -115,13 +116,13 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
     verdict
 }
 
-/// The iteration converged near where it started.
+/// Whether the iteration converged near its start.
 fn is_regular(start: &Point, refined: &NewtonEnd) -> bool {
     refined.converged && start.distance(&refined.point) <= MOVED * start.scale()
 }
 
-/// Steps of Newton's method from beside a root of multiplicity `m` shrink by `(m - 1) / m`, once the directions in
-/// which the root is simple are settled; the claimed discs hold the pose.
+/// Steps of Newton's method from near a root of multiplicity `m` shrink by `(m - 1) / m` once the regular directions
+/// have converged. The claimed discs hold the pose.
 fn is_multiple(equations: &ValidationEquations, claim: &Claim, start: &Point) -> bool {
     let expected = 1.0 - 1.0 / f64::from(claim.multiplicity);
     let shrink_so = |distance: f64| {
@@ -135,7 +136,7 @@ fn is_multiple(equations: &ValidationEquations, claim: &Claim, start: &Point) ->
     slow && held
 }
 
-/// The claimed discs hold both what is claimed and the root the iteration converged to. Far out, where discs are wider
+/// Whether the claimed discs hold both the claim and the root of the iteration. For distant roots, with discs wider
 /// than [`MOVED`], this is the better rule.
 fn encloses(claim: &Claim, start: &Point, refined: &NewtonEnd, unit: f64) -> bool {
     let discs = claim.enclosure.as_deref().filter(|_| claim.certified && refined.converged);
@@ -145,7 +146,7 @@ fn encloses(claim: &Claim, start: &Point, refined: &NewtonEnd, unit: f64) -> boo
     })
 }
 
-/// All twelve entries lie in their discs, but for `slack` times the point's own scale.
+/// Whether all twelve entries lie in their discs, up to `slack` times the point's own scale.
 fn in_discs(discs: &[Disc], x: &Point, slack: f64, unit: f64) -> bool {
     let scale = x.scale();
     let holds = |(k, disc): (usize, &Disc)| {
@@ -175,7 +176,7 @@ fn holds(roots: &[Root], x: &Point) -> bool {
     roots.iter().any(|r| r.point.distance(x) <= r.radius)
 }
 
-/// The refined root lies in the claimed discs and is as real as claimed.
+/// Whether the refined root lies in the claimed discs and has the claimed reality.
 fn is_as_claimed(claim: &Claim, refined: &NewtonEnd, unit: f64) -> bool {
     let x = &refined.point;
     let scale = x.scale();
@@ -196,7 +197,7 @@ fn is_as_claimed(claim: &Claim, refined: &NewtonEnd, unit: f64) -> bool {
     in_place && real
 }
 
-/// Counts regular roots known from symmetry or from elsewhere that no claim accounts for.
+/// Counts the regular roots known by symmetry or from other starts that no claim accounts for.
 fn missed(
     problem: &Problem,
     equations: &ValidationEquations,
@@ -234,7 +235,7 @@ fn missed(
     absent.len()
 }
 
-/// Close enough to a known root, and alone there, to need no refinement.
+/// Whether the point is so close to a known, isolated root that it needs no refinement.
 fn holds_nearly(roots: &[Root], x: &Point) -> bool {
     let near = |limit: f64| roots.iter().filter(|r| r.point.distance(x) <= limit * x.scale()).count();
     near(1e-9) == 1 && near(1e-5) == 1

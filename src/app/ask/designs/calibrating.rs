@@ -15,9 +15,9 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 
 impl Design {
-    /// The joints and leg offsets of the machine that was built from this design, from poses and lengths that were
-    /// measured on it: in the frames of the measured poses, with standard deviations, and with what says how far to
-    /// trust them. Offsets of an earlier calibration are taken as nominal.
+    /// Fits the joints and leg offsets of the machine built from this design to measured poses and lengths. The result
+    /// is in the frames of the measured poses, with standard deviations and diagnostics. Offsets of an earlier
+    /// calibration count as nominal.
     ///
     /// ```
     /// use equipod::methods::calibration::{CalibrateOptions, CalibrationStatus, Measurement};
@@ -40,8 +40,7 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Calibration`]: measurements or options with which nothing can be computed. That measurements do not say
-    /// everything is an answer.
+    /// [`Error::Calibration`]: unusable measurements or options. Incomplete identification is an answer, not an error.
     pub fn calibrate(
         &self,
         measurements: &[Measurement],
@@ -50,14 +49,14 @@ impl Design {
         Ok(calibrate(&self.leg_model(), measurements, options)?)
     }
 
-    /// The joints with the offsets of an earlier calibration, zero where there is none.
+    /// The joints with the offsets of an earlier calibration, or zero offsets.
     #[must_use]
     pub fn leg_model(&self) -> LegModel {
         LegModel::new(self.manipulator(), self.leg_offsets())
     }
 
-    /// The design with calibrated joints and the table `[calibration]`, in the frames of the measurements or, with
-    /// `frames`, in its own.
+    /// The design with calibrated joints and the table `[calibration]`, in the frames of the measurements, or with
+    /// `frames` in the design frames.
     ///
     /// # Errors
     /// Joints that make no manipulator.
@@ -71,7 +70,7 @@ impl Design {
         for body in Body::BOTH {
             let points = body.of((&model.base, &model.platform));
             for (joint, point) in points.iter().enumerate() {
-                // carried joints move although they were held
+                // carried joints move, even if they were held
                 if found.unknowns.joint(body, joint).is_some() || frames.is_some() {
                     let name = format!("{body}.{}", self.joint_names(body)[joint]);
                     out.set_joint(&name, *point)?;
@@ -99,8 +98,8 @@ impl Design {
         Ok(out)
     }
 
-    /// What the calibration of the design does not know of the machine, by its standard deviations and their
-    /// correlations; zero for joints and offsets of which it says nothing. `None` where it has no deviation at all.
+    /// The uncertainty of the machine: standard deviations of its calibration and their correlations, zero for joints
+    /// and offsets without a value. `None` if there is no standard deviation at all.
     #[must_use]
     pub fn machine_uncertainty(&self) -> Option<MachineUncertainty> {
         let table = self.calibration.as_ref()?;
@@ -118,8 +117,8 @@ impl Design {
         MachineUncertainty::new(&deviations, &matrix)
     }
 
-    /// Poses that may be measured: those of the workspace at which all requirements of the design are met, about
-    /// `count` and as many random ones looked at.
+    /// Poses that may be measured: poses of the workspace at which all requirements of the design are met. About
+    /// `count` regular and as many random poses are tried.
     pub fn measurable_poses(&self, count: usize, seed: u64) -> Vec<Pose> {
         let home = self.home_or_default();
         let space = self.workspace_or_default().space(&home);
@@ -132,7 +131,7 @@ impl Design {
     }
 }
 
-/// The unknowns of a calibration as a design names them.
+/// The unknowns of a calibration by the names of the design.
 fn numbers(unknowns: &Unknowns) -> Vec<CalibratedNumber> {
     let of = |unknown: &Unknown| match *unknown {
         Unknown::Joint { body, joint, axis } => CalibratedNumber::Coordinate { body, joint, axis },
@@ -141,7 +140,7 @@ fn numbers(unknowns: &Unknowns) -> Vec<CalibratedNumber> {
     unknowns.list().iter().map(of).collect()
 }
 
-/// The machine and a root of the covariance of its unknowns, in the frames asked for.
+/// The machine and a root of the covariance of its unknowns, in the requested frames.
 pub fn carried(found: &Calibration, frames: Option<&CarriedFrames>) -> (LegModel, DMatrix<f64>) {
     match frames {
         None => (found.model.clone(), found.root.clone()),
@@ -149,7 +148,7 @@ pub fn carried(found: &Calibration, frames: Option<&CarriedFrames>) -> (LegModel
     }
 }
 
-/// What a column of the unknowns is called: `base.A1.x`, `offset.3`.
+/// The names of the unknowns: `base.A1.x`, `offset.3`.
 pub fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String> {
     numbers(unknowns).iter().map(|number| number.name(design)).collect()
 }

@@ -13,68 +13,68 @@ use num::Purpose;
 use platform::geom::Pose;
 use platform::manipulator::{Body, jacobian};
 
-/// Steps between two poses of a trajectory.
+/// Number of steps between two poses of a trajectory.
 const STEPS: usize = 10;
-/// Lengths at home that differ by less than this share of the size are one: a drawing does not tell them apart.
+/// Lengths at home that differ by less than this share of the size count as equal, as in a drawing.
 const SAME_LENGTH: f64 = 1e-6;
 
-/// What is looked at.
+/// The options of the figures.
 #[derive(Debug, Clone)]
 pub struct FigureOptions<'a> {
-    /// Points of a Halton sequence, and as many random ones, in the region of poses.
+    /// Number of points of a Halton sequence in the region of poses; as many random points are added.
     pub points: usize,
     /// Seed of the random poses.
     pub seed: u64,
     /// Motions about home.
     pub motions: &'a [PlatformMotion],
-    /// What forces along them are computed from.
+    /// The masses for the forces along the motions.
     pub masses: Option<&'a MotionMasses>,
-    /// The accuracy for which joints are toleranced.
+    /// The accuracy for the joint tolerances.
     pub accuracy: Option<ErrorBound>,
-    /// Characteristic length of the conditioning: one for all designs that are compared.
+    /// Characteristic length of the conditioning, common to all designs compared.
     pub characteristic_length: f64,
 }
 
-/// Figures of a design over the poses of its workspace, at home where it states none. What a design says nothing about
-/// has none; an infinite force stands for a singular pose.
+/// Figures of a design over the poses of its workspace, or at home if it states none. A figure is `None` if the design
+/// does not specify its quantity; an infinite force stands for a singular pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignFigures {
-    /// What `assess` says; `None` where nothing is required.
+    /// The result of `assess`; `None` without requirements.
     pub assessment: Option<AssessReport>,
-    /// Poses looked at.
+    /// Number of poses evaluated.
     pub poses: usize,
-    /// Least and greatest leg length; not numbers where the legs are rods on cranks.
+    /// Least and greatest leg length; not a number for rods on cranks.
     pub lengths: [f64; 2],
-    /// What cranks do, where the legs are rods on cranks.
+    /// The figures of the cranks; `None`: the legs change their lengths.
     pub cranks: Option<CrankFigures>,
-    /// Lengths at home that differ; of cranks lengths of rods.
+    /// Number of different leg lengths at home, or of rod lengths.
     pub different_legs: usize,
     /// Greatest leg force under the loads.
     pub force: Option<f64>,
-    /// Greatest leg speed under the speed of the platform.
+    /// Greatest leg speed at the required speed of the platform.
     pub speed: Option<f64>,
     /// Greatest force, speed and power (watts) of a leg along the motions.
     pub motion: MotionFigures,
-    /// Least inverse condition number over the poses that `assess` looks at.
+    /// Least inverse condition number over the poses of `assess`.
     pub conditioning: f64,
     /// Least stiffness against a force.
     pub stiffness: Option<f64>,
     /// Lowest natural frequency, hertz.
     pub frequency: Option<f64>,
-    /// Least distance of two joint centres of base and platform; `None` where a body has one.
+    /// Least distance of two joint centres, for base and platform; `None` for a body with a single joint.
     pub spacing: [Option<f64>; 2],
-    /// Least gap between two legs.
+    /// Least clearance between two legs.
     pub clearance: Option<f64>,
-    /// Greatest distance of a joint of base and platform from the centroid of the joints of its body.
+    /// Greatest distance of a joint from the centroid of its body's joints, for base and platform.
     pub radius: [f64; 2],
-    /// How far each joint may be off for the accuracy to be kept: a radius, or why there is none.
+    /// The greatest error of each joint that keeps the accuracy, as a radius, or the reason why there is none.
     pub allowance: Option<Result<f64, NoAllowance>>,
 }
 
-/// Why joints are not toleranced.
+/// The reason why joints are not toleranced.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoAllowance {
-    /// They cannot be.
+    /// The tolerances cannot be computed.
     Error(ToleranceError),
     /// The legs are rods on cranks.
     Cranks,
@@ -91,32 +91,31 @@ impl std::fmt::Display for NoAllowance {
     }
 }
 
-/// The price of separate joints: figures of a design and of a platform made from it, in this order.
+/// The cost of separate joints: figures of a design and of a platform made from it, in this order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// Worst conditioning over the poses judged, both by the characteristic length of the design.
+    /// Worst conditioning over the assessed poses, both by the characteristic length of the design.
     pub conditioning: [f64; 2],
-    /// Least distance of the ends of two legs on base and platform: 0 where they share a joint.
+    /// Least distance of the ends of two legs, on base and platform; 0 for a shared joint.
     pub spacing: [[f64; 2]; 2],
-    /// Radius of base and platform, as in [`DesignFigures`].
+    /// Radii of base and platform, as in [`DesignFigures`].
     pub radius: [[f64; 2]; 2],
 }
 
-/// What cranks do over the poses. Poses that a rod does not reach count for nothing here; `assess` says that there are
-/// some.
+/// Figures of the cranks over the poses. Poses that a rod does not reach are left out here; `assess` reports them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrankFigures {
-    /// Least and greatest angle, degrees; `None` where no pose is reached.
+    /// Least and greatest crank angle, degrees; `None` if no pose is reached.
     pub angles_deg: Option<[f64; 2]>,
     /// Least transmission angle, degrees.
     pub transmission_deg: Option<f64>,
     /// Greatest torque under the loads, force units times design units; infinite at a singular pose.
     pub torque: Option<f64>,
-    /// Greatest speed under the speed of the platform, degrees per second.
+    /// Greatest crank speed at the required speed of the platform, degrees per second.
     pub speed_deg: Option<f64>,
 }
 
-/// The greatest of all legs along all motions.
+/// The greatest values of all legs along all motions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionFigures {
     pub force: Option<f64>,
@@ -142,7 +141,7 @@ impl MotionFigures {
 }
 
 impl Design {
-    /// What separate joints cost in a platform made from this design.
+    /// The cost of separate joints in a platform made from this design.
     pub fn separation(&self, separate: &Self, seed: u64) -> Separation {
         let length = self.characteristic_length();
         let both = [self, separate];
@@ -178,11 +177,11 @@ impl Design {
             options.motions.iter().map(|motion| self.along(motion, options.masses)).collect();
         let required = self.requirements();
         let terms = Terms::new(m, &required, &home);
-        // cranks of a design that was read make a platform
+        // the cranks of a parsed design always make a platform
         let platform = self.rotary().ok().flatten();
         let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length);
         let stiffness = self.hardware.leg_stiffness;
-        // a singular pose has none
+        // a singular pose has no stiffness
         let softest = |pose: &Pose| {
             least_stiffness(&stiffness_matrix(m, pose, stiffness?)).map_or(Some(0.0), |s| Some(s.linear))
         };
@@ -225,7 +224,7 @@ impl Design {
         }
     }
 
-    /// What the cranks do at poses.
+    /// The figures of the cranks over these poses.
     fn crank_figures(&self, platform: &RotaryPlatform, poses: &[Pose]) -> CrankFigures {
         let reached: Vec<(&Pose, [f64; 6])> =
             poses.iter().filter_map(|pose| Some((pose, platform.ik(pose).ok()?))).collect();
@@ -270,8 +269,8 @@ impl Design {
         (0..6).map(of).reduce(f64::max)
     }
 
-    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and where no inertia is
-    /// held against turns.
+    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, or if no inertia
+    /// resists some rotation.
     pub fn lowest_frequency(&self, pose: &Pose, masses: &MotionMasses) -> Option<f64> {
         let m = self.manipulator();
         let stiffness = masses.per_second_squared(self.hardware.leg_stiffness?);
@@ -279,7 +278,7 @@ impl Design {
         Some(found[0].frequency)
     }
 
-    /// The greatest distance of a joint of a body from the centroid of those that carry legs.
+    /// The greatest distance of a joint of a body from the centroid of the joints that carry legs.
     pub fn radius(&self, body: Body) -> f64 {
         let m = self.manipulator();
         let joints: Vec<Point3<f64>> = m.used_joints(body).iter().map(|&i| m.joints(body)[i]).collect();
@@ -288,7 +287,8 @@ impl Design {
     }
 }
 
-/// How many values differ by more than a distance from all before them in their order of size.
+/// The number of different values: in order of size, a value counts if it differs from all before it by more than
+/// `distance`.
 fn different(mut values: [f64; 6], distance: f64) -> usize {
     values.sort_by(f64::total_cmp);
     let mut kinds = 1;

@@ -7,7 +7,7 @@ use platform::manipulator::Manipulator;
 
 /// A platform with names, units, home pose and requirements, read from a file or a text.
 ///
-/// It has the fields and the methods of [`DesignModel`], and methods of its own that answer questions.
+/// It has the fields and the methods of [`DesignModel`]; its own methods answer questions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design(DesignModel);
 
@@ -21,7 +21,7 @@ impl Design {
     /// Gives the joints other names, in joint order ([`DesignModel::with_joint_names`]).
     ///
     /// # Errors
-    /// [`NameCount`] unless there is one name for every joint.
+    /// [`NameCount`] if the numbers of names and joints differ.
     pub fn with_joint_names(self, base: Vec<String>, platform: Vec<String>) -> Result<Self, NameCount> {
         self.0.with_joint_names(base, platform).map(Self)
     }
@@ -60,7 +60,7 @@ fn wrapped(read: Result<(DesignModel, Vec<Warning>), Vec<Violation>>) -> DesignO
     read.map(|(model, warnings)| (model.into(), warnings))
 }
 
-/// Reads a design with [`files::design::parse`], which lists what it refuses.
+/// Reads a design with [`files::design::parse`], which lists unsupported designs.
 ///
 /// # Errors
 /// All violations found.
@@ -68,7 +68,8 @@ pub fn parse(text: &str, format: Format) -> DesignOrViolations {
     wrapped(files::design::parse(text, format))
 }
 
-/// Reads a design with [`files::design::parse_with_cranks`], which takes rods on cranks and joints that are not ideal.
+/// Reads a design with [`files::design::parse_with_cranks`], which accepts rods on cranks and joints that are not
+/// ideal.
 ///
 /// # Errors
 /// All violations found.
@@ -76,7 +77,7 @@ pub fn parse_with_cranks(text: &str, format: Format) -> DesignOrViolations {
     wrapped(files::design::parse_with_cranks(text, format))
 }
 
-/// Reads a design with [`files::design::parse_ideal`], which takes rods on cranks.
+/// Reads a design with [`files::design::parse_ideal`], which accepts rods on cranks.
 ///
 /// # Errors
 /// All violations found.

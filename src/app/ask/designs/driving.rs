@@ -1,5 +1,5 @@
-//! Which drives of a table fit a design: every requirement with the lengths, the force and the speed of the drive as
-//! limits, and along motions.
+//! The fit of the drives of a table to a design. Every requirement is checked with the lengths, force and speed of the
+//! drive as limits, also along motions.
 
 use std::cmp::Ordering;
 
@@ -10,22 +10,22 @@ use files::design::{DesignUnits, Drive};
 use machine::requirements::{MarginProof, Requirements, least_conditioning, prove};
 use synthesis::singularity::regular_workspace;
 
-/// A drive with what it makes of a design.
+/// A drive with the design it leads to.
 #[derive(Debug, Clone)]
 pub struct DriveFit {
     /// The row of the table.
     pub drive: Drive,
     /// The design with the drive.
     pub design: Design,
-    /// What is proved of it.
+    /// The proved margins of this design.
     pub assessed: AssessReport,
-    /// Along each motion, in the order asked for.
+    /// The results along each motion, in the order given.
     pub motions: Vec<MotionReport>,
 }
 
 impl DriveFit {
-    /// Whether the drive fits: proved for every pose of the workspace and without a violation at the instants of the
-    /// motions; refuted; or `None`.
+    /// Whether the drive fits; `None`: undecided. The value `true` is proved for every pose of the workspace, and no
+    /// sampled instant of the motions is a violation. The value `false` is proved.
     pub fn fits(&self) -> Option<bool> {
         let along =
             |m: &MotionReport| m.singular.is_none() && m.margins.iter().all(|m| m.margin.standing.is_met());
@@ -35,7 +35,7 @@ impl DriveFit {
         self.assessed.met()
     }
 
-    /// Whether the reserve on every limit is kept too.
+    /// Whether the safety margin on every limit is kept too.
     pub fn keeps_reserve(&self) -> Option<bool> {
         let fits = self.fits();
         let along = |m: &MotionReport| {
@@ -48,8 +48,8 @@ impl DriveFit {
         self.assessed.met_with_reserve()
     }
 
-    /// Drives that fit first, then those that are undecided; among them the cheapest first, then the lightest, then as
-    /// in the table. What has no price or mass comes last.
+    /// Drives that fit come first, then undecided ones; within a group by price, then mass, then the order of the
+    /// table. A missing price or mass comes last.
     fn order(&self, other: &Self) -> Ordering {
         let rank = |fit: &Self| match fit.fits() {
             Some(true) => 0,
@@ -65,27 +65,26 @@ impl DriveFit {
     }
 }
 
-/// What is known of the lightest drive of a table that suffices for a design.
+/// The lightest drive of a table that suffices for a design, with the undecided ones.
 #[derive(Debug, Clone)]
 pub struct LightestDrive<'t> {
-    /// The drive; `None` where none is proved to suffice.
+    /// The drive; `None` if no drive is proved to suffice.
     pub drive: Option<&'t Drive>,
-    /// Lighter ones, or all others where there is no such drive, of which it is not known.
+    /// Undecided lighter drives; all undecided drives if none is proved to suffice.
     pub undecided: Vec<&'t Drive>,
-    /// Whether what no drive changes is met.
+    /// Whether the requirements that no drive changes are met.
     pub rest: Option<bool>,
 }
 
 impl Design {
-    /// What a table of drives has to be read into.
+    /// The units for reading a table of drives.
     pub fn drive_units(&self) -> DesignUnits<'_> {
         DesignUnits { length: &self.units, force: self.force_unit(), mass: self.mass_unit() }
     }
 
-    /// The design with a drive in each leg: its lengths, and what is known of its force, speed and stiffness, become
-    /// those of `[hardware]`. Where both the drive and the legs of the design have masses, those of cylinder and rod
-    /// are multiplied alike, so that their sum is the mass of the drive; the mass in place of what turns in it stays.
-    /// Everything else is as it was.
+    /// The design with a drive in each leg. The drive's lengths, force, speed and stiffness, as far as known, replace
+    /// those of `[hardware]`. If both the drive and the legs of the design have masses, cylinder and rod are scaled
+    /// alike to the mass of the drive. The mass that stands for the rotating parts stays, as does everything else.
     pub fn with_drive(&self, drive: &Drive) -> Self {
         let mut out = self.clone();
         // the drive is chosen
@@ -106,10 +105,10 @@ impl Design {
         out
     }
 
-    /// Every drive of a table, the one to take first: those that fit by price, then mass. What no drive changes is
-    /// proved once for all of them.
+    /// Fits every drive of a table; the drive to choose comes first: fitting drives by price, then mass. Requirements
+    /// that no drive changes are proved once for all drives.
     ///
-    /// `metres` is the length of a design unit; without it no forces are computed along motions.
+    /// `metres` is the length of a design unit; without it no forces along motions are computed.
     pub fn fit_drives(
         &self,
         drives: &[Drive],
@@ -135,8 +134,8 @@ impl Design {
         all
     }
 
-    /// The lightest drive of a table that is proved to suffice; those without a mass come last. Drives are looked at by
-    /// their mass until one suffices.
+    /// The lightest drive of a table that is proved to suffice; drives without a mass come last. The drives are tried
+    /// in order of mass until one suffices.
     pub fn lightest_drive<'t>(&self, drives: &'t [Drive], seed: u64) -> LightestDrive<'t> {
         let mut order: Vec<&Drive> = drives.iter().collect();
         let mass = |d: &Drive| d.mass.unwrap_or(f64::INFINITY);
@@ -163,7 +162,7 @@ impl Design {
         out
     }
 
-    /// Whether the workspace is free of singular poses, and every requirement that no drive changes.
+    /// The assessment of all requirements that no drive changes, and of singular poses.
     fn assessed_without_drives(&self, seed: u64) -> AssessReport {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
         let [_, rest] = self.requirements().of_drives_and_rest();
@@ -173,9 +172,8 @@ impl Design {
         AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning }
     }
 
-    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets. A lost
-    /// reserve alone does not end it, as it does where a whole design is judged: whether the drive fits is the
-    /// question.
+    /// The proved margins of some requirements, with as many cells as a decision takes, up to the limit of a search. A
+    /// violated safety margin alone does not end the proof, since the question is whether the drive fits.
     fn proved(&self, required: &Requirements, seed: u64) -> MarginProof {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
         let mut found = MarginProof { bounds: Vec::new(), poses: 0 };

@@ -10,11 +10,11 @@ use platform::geom::SamplePlan;
 use synthesis::LegMapOutcome;
 use verify::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
 
-/// Sample poses where nothing is said.
+/// The default number of sample poses.
 pub const SAMPLES: usize = 10;
 
-/// Random poses in the workspace box of the design about its home pose; where it has neither, about the
-/// default home pose, a quarter of the size and 20 degrees each way.
+/// Random poses in the workspace box of the design about its home pose. Without these, poses about the default home
+/// pose, within a quarter of the size and 20 degrees in each direction.
 pub fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
     let widths = (design.workspace.translation, design.workspace.rotation_deg);
     SamplePlan::about(design.manipulator(), design.home_or_default(), widths, (count, seed))
@@ -49,41 +49,42 @@ impl Default for VerifyOptions<'_> {
 }
 
 impl<'a> VerifyOptions<'a> {
-    /// The defaults: ten samples, seed 1, a thread for each processor.
+    /// The defaults: ten samples, seed 1, one thread for each processor.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// How many sets of lengths both platforms are solved at.
+    /// Sets the number of length sets; both platforms are solved at each.
     #[must_use]
     pub fn samples(mut self, samples: usize) -> Self {
         self.samples = samples;
         self
     }
 
-    /// Seed of the sample poses and of forward kinematics. Same seed, same answer, whatever the number of threads.
+    /// Sets the seed of the sample poses and of forward kinematics. The answer depends on the seed and not on the
+    /// number of threads.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// How many threads solve samples.
+    /// Sets the number of threads that solve samples.
     #[must_use]
     pub fn threads(mut self, threads: Threads) -> Self {
         self.run.threads = threads;
         self
     }
 
-    /// What ends the comparison before its time.
+    /// Sets the cancellation of the comparison.
     #[must_use]
     pub fn cancel(mut self, cancel: &Cancel) -> Self {
         self.run.cancel = cancel.clone();
         self
     }
 
-    /// Sees each sample as soon as it and those before it are solved, and may end the comparison.
+    /// Sets a function that sees each sample in order as soon as it is solved, and may end the comparison.
     #[must_use]
     pub fn on_sample(mut self, look: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
         self.on_sample = Some(Box::new(look));
@@ -91,9 +92,9 @@ impl<'a> VerifyOptions<'a> {
     }
 }
 
-/// Are two platforms kinematically equivalent? The leg map says so algebraically, and forward kinematics of both, which
-/// knows nothing of the map, agrees or disagrees at lengths of random poses of `a`. Both are described in the same two
-/// frames and units.
+/// Decides whether two platforms are kinematically equivalent. The leg map gives the algebraic answer. Forward
+/// kinematics of both, computed without the map, confirms or refutes it at lengths of random poses of `a`. Both designs
+/// are given in the same two frames and units.
 ///
 /// ```
 /// use equipod::prelude::*;
@@ -114,7 +115,7 @@ pub fn verify(a: &Design, b: &Design) -> Result<Verification, Error> {
 /// As [`verify()`], with options.
 ///
 /// # Errors
-/// Those of [`verify()`]; [`Error::Cancelled`].
+/// The errors of [`verify()`]; [`Error::Cancelled`].
 pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result<Verification, Error> {
     same_units(a, b)?;
     let VerifyOptions { samples, seed, run, on_sample } = options;
@@ -139,10 +140,10 @@ pub struct ComparedDesigns {
 }
 
 impl ComparedDesigns {
-    /// Two designs in the frames that they are given in, compared at the lengths of so many sample poses of the first.
+    /// Compares two designs in their given frames, at the lengths of `samples` poses of the first.
     ///
     /// # Errors
-    /// The comparison gives these ([`verify::verify`]).
+    /// The errors of the comparison ([`verify::verify`]).
     pub fn of([a, b]: [&Design; 2], samples: usize, options: &FkOptions) -> Result<Self, VerifyError> {
         let plan = sample_plan(a, samples, options.seed);
         let found = verify::verify(a.manipulator(), b.manipulator(), &plan, options)?;
@@ -150,8 +151,8 @@ impl ComparedDesigns {
     }
 }
 
-/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none:
-/// decided in exact arithmetic on the joints as the designs say them, with the level of the proof.
+/// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or the legs without such a
+/// map. It is decided in exact arithmetic on the joints as the designs write them, with the level of the proof.
 ///
 /// # Errors
 /// Designs in different units; a decomposition that does not converge.

@@ -19,34 +19,33 @@ pub struct Original {
     pub octahedral: Octahedral,
     /// The octahedral platform as a design.
     pub design: Design,
-    /// What the names of the equivalents begin with.
+    /// The beginning of the names of the equivalents.
     name: String,
-    /// `P1` .. `P6` in the words of the design.
+    /// The names of `P1` .. `P6` in the design.
     corners: [String; 6],
     /// `Q1`, `Q1b` .. `Q6`, `Q6b`: the joints on the sides of the hexagon.
     on_edges: [[String; 2]; 6],
-    /// The design seen as one of its equivalents, when it is not octahedral itself.
+    /// The design as an equivalent of the octahedral platform; `None` if it is octahedral itself.
     pub seen: Option<(Pattern, Vec<f64>)>,
-    /// The leg map from the octahedral platform to the design, where they are two: decided as everywhere, on the exact
-    /// joints.
+    /// The leg map from the octahedral platform to the design, if they differ; decided on the exact joints.
     pub map: Option<LegMapOutcome>,
 }
 
-/// What a design has to do with an octahedral platform.
+/// The relation of a design to an octahedral platform.
 #[derive(Debug, Clone)]
 pub enum Origins {
-    /// It is one, or made from one by offsets along the sides of its triangles; within rounding or singular, as the map
-    /// says.
+    /// The design is octahedral, or made from an octahedral one by offsets along the sides of its triangles. The map
+    /// tells whether within rounding or singular.
     Of(Box<Original>),
-    /// It looks like one that is made so, and is proved not to be equivalent to it.
+    /// The design looks like such a platform, and is proved not to be equivalent to it.
     Refuted(Box<LegMapOutcome>),
-    /// Nothing.
+    /// There is no relation.
     None,
 }
 
 impl Original {
-    /// The octahedral platform a design is or, without shared joints, is made of by offsets along the sides of two
-    /// triangles; `None` for other designs.
+    /// The octahedral platform of a design. It is the design itself, or for separate joints the platform from which
+    /// offsets along the sides of two triangles make the design. `None` for other designs.
     pub fn of(design: &Design) -> Option<Self> {
         match Self::behind(design) {
             Origins::Of(original) => Some(*original),
@@ -54,7 +53,7 @@ impl Original {
         }
     }
 
-    /// As [`of`](Self::of), with the reason where there is none.
+    /// As [`of`](Self::of), with the reason if there is none.
     pub fn behind(design: &Design) -> Origins {
         if let Ok(octahedral) = Octahedral::recognise(design.manipulator()) {
             return Origins::Of(Box::new(Self::octahedral(design, octahedral)));
@@ -70,7 +69,7 @@ impl Original {
         }
     }
 
-    /// An octahedral design; new joints on its edges are named so that they differ from its own.
+    /// An octahedral design; new joints on its edges get names different from its own.
     pub fn octahedral(design: &Design, octahedral: Octahedral) -> Self {
         let (base, platform) = (octahedral.base_indices(), octahedral.platform_indices());
         let corners = std::array::from_fn(|i| match i {
@@ -90,8 +89,8 @@ impl Original {
         }
     }
 
-    /// A design of Griffis-Duffy type: its joints at the corners are those of the original, leg on side `k` becomes leg
-    /// `k` of the cycle.
+    /// A design of Griffis-Duffy type. Its joints at the corners are those of the original, and the leg on side `k`
+    /// becomes leg `k` of the cycle.
     fn griffis_duffy(design: &Design) -> Option<Self> {
         let m = design.manipulator();
         let found = GriffisDuffy::recognise(m)?;
@@ -138,7 +137,7 @@ impl Original {
         })
     }
 
-    /// The name of a joint: that of the design where it has one.
+    /// The name of a joint, taken from the design if it has one.
     pub fn joint_name(&self, joint: JointLabel) -> String {
         match joint {
             JointLabel::Corner(i) => self.corners[i].clone(),
@@ -153,10 +152,10 @@ impl Original {
 
     /// The equivalent platform of a pattern as a design, with the tables of the original, and its leg map.
     ///
-    /// Leg lengths of the original become those of the same pose.
+    /// It maps leg lengths of the original to those of the equivalent at the same pose.
     ///
     /// # Errors
-    /// Offsets that are too few or too many, not finite, or make no platform.
+    /// A wrong number of offsets, offsets that are not finite, or that make no platform.
     pub fn equivalent(
         &self,
         pattern: &Pattern,
@@ -166,10 +165,10 @@ impl Original {
         self.built(pattern, offsets, &shares)
     }
 
-    /// The same at offsets as they are written, which the joints of the design keep.
+    /// The same with offsets as written, which the joints of the design keep exactly.
     ///
     /// # Errors
-    /// Offsets that are too few or too many, or make no platform.
+    /// A wrong number of offsets, or offsets that make no platform.
     pub fn equivalent_at(
         &self,
         pattern: &Pattern,
@@ -190,7 +189,7 @@ impl Original {
         let [base, platform] = pattern.joints().map(|l| l.iter().map(|j| self.joint_name(*j)).collect());
         let own = &self.design;
         let plain = DesignModel::new(format!("{} {pattern}", self.name), &own.units, m);
-        // a pattern has a name for each joint it has
+        // a pattern has a name for each of its joints
         let built = plain.clone().with_joint_names(base, platform).unwrap_or(plain).with_tables_of(own);
         let [on_base, on_platform] = self.origins(pattern, shares);
         let mut built = built.constructed_from(own, [&on_base, &on_platform]);
@@ -200,14 +199,14 @@ impl Original {
         Ok((built.into(), map))
     }
 
-    /// How the leg map to an equivalent platform of this pattern follows from coplanar joints; `None` for an edge
-    /// without length, which no octahedral platform has.
+    /// The derivation of the leg map to an equivalent platform of this pattern from coplanar joints. `None` for an edge
+    /// of length zero, which no octahedral platform has.
     #[must_use]
     pub fn derivation(&self, pattern: &Pattern, built: &Design) -> Option<Derivation> {
         Derivation::of(&self.octahedral, self.design.manipulator(), pattern, built.manipulator())
     }
 
-    /// Where the joints of a pattern come from: corners, and points between two of them.
+    /// The origins of the joints of a pattern: corners, and points between two corners.
     fn origins(&self, pattern: &Pattern, offsets: &[Share]) -> [Vec<Origin>; 2] {
         let o = &self.octahedral;
         let corner = |i: usize| if i < 3 { o.base_indices()[i] } else { o.platform_indices()[i - 3] };
@@ -227,7 +226,7 @@ impl Original {
     }
 }
 
-/// The name of a joint on an edge, with an `N` before it as often as the design has it already.
+/// The name of a joint on an edge, with one `N` before it for each time the design has the name already.
 fn free_name(design: &Design, side: usize, second: bool) -> String {
     let mut name = JointLabel::OnEdge(Offset { side, second }).to_string();
     while design.base_names().contains(&name) || design.platform_names().contains(&name) {
@@ -236,20 +235,19 @@ fn free_name(design: &Design, side: usize, second: bool) -> String {
     name
 }
 
-/// Every platform equivalent to an octahedral one: patterns of joints on the sides of its triangles, and the designs
-/// they make.
+/// All platforms equivalent to an octahedral one: patterns of joints on the sides of its triangles, and their designs.
 #[derive(Debug, Clone)]
 pub struct Equivalents {
     original: Original,
-    /// Enumerated when it is first asked for.
+    /// Enumerated at the first use.
     family: OnceLock<Family>,
 }
 
 impl Equivalents {
-    /// The class of the platform that a design is, or is made of.
+    /// The class of the octahedral platform that the design is, or is made from.
     ///
     /// # Errors
-    /// Why the design is not octahedral, where it is not made from an octahedral one either.
+    /// The reason why the design is neither octahedral nor made from an octahedral one.
     pub fn of(design: &Design) -> Result<Self, NotOctahedral> {
         match Original::of(design) {
             Some(original) => Ok(Self { original, family: OnceLock::new() }),
@@ -259,7 +257,7 @@ impl Equivalents {
         }
     }
 
-    /// The octahedral platform, the design itself where it is one.
+    /// The octahedral platform; the design itself if it is octahedral.
     #[must_use]
     pub fn original(&self) -> &Design {
         &self.original.design
@@ -271,11 +269,11 @@ impl Equivalents {
         self.family.get_or_init(Family::octahedral)
     }
 
-    /// The platform of a pattern as a design, and the leg map from the octahedral platform to it; one offset for each
-    /// inner point, as a fraction of its side.
+    /// The platform of a pattern as a design, and the leg map from the octahedral platform to it. There is one offset
+    /// for each inner point, as a fraction of its side.
     ///
     /// # Errors
-    /// Offsets that are too few or too many, not finite, or make no platform.
+    /// A wrong number of offsets, offsets that are not finite, or that make no platform.
     pub fn build(
         &self,
         pattern: &Pattern,
@@ -303,13 +301,13 @@ pub struct NearestDesigns {
     pub found: NearestOctahedral,
     /// The octahedral platform; its corners have the names of the joints that moved there.
     pub octahedral: Design,
-    /// The platform equivalent to it with every leg next to that of the design; its joints on sides are constructed
-    /// from the corners.
+    /// The platform equivalent to it with every leg near a leg of the design; its joints on sides are constructed from
+    /// the corners.
     pub beside: Design,
 }
 
 impl NearestDesigns {
-    /// The nearest octahedral platform of a design; `None` where no way to lay its legs round a hexagon gives a regular
+    /// The nearest octahedral platform of a design; `None` if no order of its legs around a hexagon gives a regular
     /// platform.
     pub fn of(design: &Design, options: &NearestOptions) -> Option<Self> {
         let found = nearest_octahedral(design.manipulator(), options)?;
@@ -318,7 +316,7 @@ impl NearestDesigns {
         let corner_names = |body: Body| -> Vec<String> {
             let first = 3 * body.index();
             let name = |c: usize| names[body.index()].iter().find(|(end, _)| *end == LegEnd::Corner(c));
-            // a corner that no leg ends at has a name of its own
+            // a corner without a leg keeps its own name
             (first..first + 3)
                 .map(|c| name(c).map_or_else(|| format!("P{}", c + 1), |n| n.1.clone()))
                 .collect()
@@ -372,7 +370,7 @@ impl NearestDesigns {
     }
 }
 
-/// The joints of one body in the order of the legs, each once, with the name of the joint it is next to.
+/// The joints of one body in the order of the legs, each once, with the name of the nearest joint of the design.
 fn joint_names(design: &Design, ends: &[[LegEnd; 2]; 6], body: Body) -> Vec<(LegEnd, String)> {
     let mut out: Vec<(LegEnd, String)> = Vec::new();
     for (pair, own) in ends.iter().zip(design.leg_names()) {
@@ -380,7 +378,7 @@ fn joint_names(design: &Design, ends: &[[LegEnd; 2]; 6], body: Body) -> Vec<(Leg
         if out.iter().any(|(known, _)| *known == end) {
             continue;
         }
-        // legs that shared a joint may have one each now
+        // legs that shared a joint may now have one each
         let mut name = body.of(own).to_owned();
         while out.iter().any(|(_, known)| *known == name) {
             name.push_str("_2");

@@ -7,8 +7,8 @@ use machine::manufacture::equivalent_octahedral;
 use platform::manipulator::{Manipulator, Octahedral};
 use synthesis::{LegMapTolerances, leg_map};
 
-/// The octahedral platform that controllers may compute the poses of a design by: that of a design with one joint on
-/// each side of two triangles. `None` for a design that is octahedral itself, and for others.
+/// The octahedral platform from which controllers may compute the poses of a design; the design then has one joint on
+/// each side of two triangles. `None` for an octahedral design, and for all others.
 pub fn octahedral_of_controllers(design: &Design) -> Option<EquivalentOctahedral> {
     let m = design.manipulator();
     if Octahedral::recognise(&Manipulator::from_legs(m.legs()).ok()?).is_ok() {
@@ -22,7 +22,7 @@ pub fn octahedral_of_controllers(design: &Design) -> Option<EquivalentOctahedral
 }
 
 impl Design {
-    /// The files of a format: names and texts, nothing is written.
+    /// The files of a format as names and texts; nothing is written to disk.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -34,12 +34,12 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// Sizes that nothing can be made of, a unit that is no length, a format that cannot hold the design.
+    /// Unusable sizes, a unit that is no length, a format that cannot hold the design.
     pub fn export(&self, format: ExportFormat) -> Result<Vec<ExportedFile>, Error> {
         self.export_with(format, &ExportOptions::default())
     }
 
-    /// As [`export`](Self::export), with sizes and the unit chosen.
+    /// As [`export`](Self::export), with given sizes and unit.
     ///
     /// # Errors
     /// As [`export`](Self::export).

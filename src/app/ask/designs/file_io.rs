@@ -1,4 +1,4 @@
-//! Designs read from files and written to them: beside the command line the only place of the library that does.
+//! Reads and writes designs; the only place of the library that accesses files, beside the command line.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ use files::design::{Format, SeriesKind, Warning};
 use platform::geom::InvalidPose;
 
 impl Design {
-    /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it
-    /// names one. What is allowed but often a slip is in [`warnings`](Self::warnings).
+    /// Reads a design file: JSON if the name ends in `.json`, else TOML. The table of its trajectory is read too, if it
+    /// names one. Suspicious but valid entries are in [`warnings`](Self::warnings).
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -23,15 +23,15 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// A file that cannot be read; a design with violations, all of them.
+    /// A file that cannot be read; all violations of an invalid design.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
         Self::load_by(path.as_ref(), parse)
     }
 
-    /// As [`load`](Self::load), also a design whose legs are rods on cranks, for callers that know what to do with it.
+    /// As [`load`](Self::load), but accepts designs with rods on cranks, for callers that can handle them.
     ///
     /// # Errors
-    /// As of [`load`](Self::load).
+    /// The errors of [`load`](Self::load).
     #[cfg(feature = "files")]
     pub fn load_ideal(path: impl AsRef<Path>) -> Result<Self, Error> {
         Self::load_by(path.as_ref(), crate::design::parse_ideal)
@@ -52,7 +52,7 @@ impl Design {
         Ok(design)
     }
 
-    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from
+    /// Writes the design: as JSON if the name ends in `.json`, else as TOML with the comments of its file
     /// ([`text`](files::design::DesignModel::text)). The file appears whole or not at all.
     ///
     /// # Errors
@@ -68,14 +68,14 @@ impl Design {
             .map_err(|source| Error::File { path: path.to_path_buf(), source })
     }
 
-    /// What is allowed in the text the design was read from but often a slip.
+    /// Valid but suspicious entries in the text of the design.
     #[must_use]
     pub fn warnings(&self) -> &[Warning] {
         self.written.warnings()
     }
 }
 
-/// TOML; [`Design::load`] reads files of both notations.
+/// Parses TOML; [`Design::load`] reads files of both notations.
 impl std::str::FromStr for Design {
     type Err = Error;
 

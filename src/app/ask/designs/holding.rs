@@ -1,4 +1,4 @@
-//! Do the legs or rods hold the platform at home?
+//! Decides whether the legs or rods hold the platform at home.
 
 use crate::Design;
 use platform::geom::Pose;
@@ -9,7 +9,7 @@ use synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
 pub struct SingularHome {
     /// The pose.
     pub pose: Pose,
-    /// What shows it.
+    /// The evidence.
     pub evidence: SingularEvidence,
 }
 
@@ -27,18 +27,17 @@ impl std::fmt::Display for SingularHome {
 }
 
 impl Design {
-    /// The home pose that the design states, where it is singular; `None` where it is proved to be regular, or where
-    /// no home is stated.
+    /// The home pose that the design states, if it is singular; `None` if it is proved regular, or no home is stated.
     #[must_use]
     pub fn singular_home(&self) -> Option<SingularHome> {
         self.singular_at(&self.home?)
     }
 
-    /// The same of any pose.
+    /// The same for any pose.
     pub fn singular_at(&self, pose: &Pose) -> Option<SingularHome> {
         let hold = match self.rotary().ok().flatten() {
             None => hold_at(self.manipulator(), pose),
-            // a pose that rods do not reach is refused elsewhere
+            // a pose beyond the reach of the rods is reported elsewhere
             Some(platform) => {
                 let angles = platform.ik(pose).ok()?;
                 hold_at(&platform.at(&angles).ok()?, pose)
@@ -50,8 +49,8 @@ impl Design {
         }
     }
 
-    /// The home pose, stated or not, where it is singular and the design is not: no equivalent platform holds it.
-    /// Architecturally singular designs are left to the decision about these.
+    /// The home pose, stated or default, if it is singular and the design is not: no equivalent platform holds this
+    /// pose. Architecturally singular designs are handled elsewhere.
     pub fn home_that_no_equivalent_holds(&self) -> Option<SingularHome> {
         let home = self.singular_at(&self.home_or_default())?;
         (Architecture::of(self.manipulator()).is_singular() == Some(false)).then_some(home)

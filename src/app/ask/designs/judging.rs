@@ -29,31 +29,30 @@ pub struct CheckReport {
     pub design: Design,
     /// Whether it is singular, with the proof.
     pub verdict: SingularityVerdict,
-    /// A singular design nearby; for a design that is not singular as written.
+    /// A singular design nearby; `None` for a singular design.
     pub nearest: Option<NearestSingular>,
-    /// No singular design is nearer, design units; 0 for a singular one.
+    /// No singular design is nearer than this, design units; 0 for a singular one.
     pub at_least: f64,
     /// Whether the lengths can be assembled; for a (nearly) singular design of Griffis-Duffy type with lengths.
     pub assembly: Option<Assembly>,
-    /// How well the legs hold the platform at random poses.
+    /// Inverse condition number of the Jacobian at random poses.
     pub conditioning: Conditioning,
-    /// Finite poses, real and complex, for generic leg lengths: no lengths have more isolated ones.
+    /// Number of finite poses, real and complex, for generic leg lengths; no other lengths have more isolated poses.
     pub pose_count: PoseCount,
-    /// The common points of the legs for generic lengths, by where they are; `None` where the poses are not isolated or
-    /// not counted.
+    /// The common points of the legs for generic lengths, by kind; `None` if the poses are not isolated or not counted.
     pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
-    /// In which steps the poses can be found.
+    /// The steps in which the poses can be computed.
     pub solvability: Solvability,
-    /// The line that fits the joints of each body best; `None` where they are in one place.
+    /// The best-fitting line through the joints of each body; `None` if they are all at one point.
     pub best_lines: [Option<BestLine>; 2],
-    /// The home pose that the design states, where it is singular.
+    /// The home pose that the design states, if it is singular.
     pub singular_home: Option<SingularHome>,
 }
 
 impl CheckReport {
-    /// Whether the design is architecturally singular: proved either way, or `None` ([`SingularityVerdict`]).
+    /// Whether the design is architecturally singular: proved, or `None` ([`SingularityVerdict`]).
     #[must_use]
     pub fn is_singular(&self) -> Option<bool> {
         self.verdict.is_singular()
@@ -79,7 +78,7 @@ impl std::fmt::Display for CheckReport {
     }
 }
 
-/// The poses that a judgement is about: those that the design states, and home.
+/// The poses of an assessment: home, and the poses that the design states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JudgedPoses {
     /// Every pose of a region about home.
@@ -91,20 +90,20 @@ pub struct JudgedPoses {
 }
 
 impl JudgedPoses {
-    /// Those of a workspace.
+    /// The poses of a workspace.
     #[must_use]
     pub fn of(workspace: &Workspace) -> Self {
         let trajectory = workspace.trajectory.as_ref().map_or(0, |t| t.poses.len());
         Self { region: workspace.has_box(), listed: workspace.poses.len(), trajectory }
     }
 
-    /// Whether the design states any: without them home alone is judged.
+    /// Whether the design states any poses; otherwise only home is assessed.
     #[must_use]
     pub fn are_stated(self) -> bool {
         self.region || self.listed > 0 || self.trajectory > 0
     }
 
-    /// The verdict on requirements that are met at these poses, in two or three words.
+    /// The wording of the verdict if the requirements are met at these poses, in two or three words.
     #[must_use]
     pub fn met_in_words(self) -> String {
         match self {
@@ -114,7 +113,7 @@ impl JudgedPoses {
         }
     }
 
-    /// The same of poses none of which is singular, as a sentence without its full stop.
+    /// A sentence without full stop, which says that none of these poses is singular.
     fn regular_in_words(self) -> String {
         let among = match (self.region, self.listed, self.trajectory) {
             (false, 0, 0) => return "Home is not a singular pose: proved; no workspace stated".to_owned(),
@@ -130,17 +129,17 @@ impl JudgedPoses {
     }
 }
 
-/// What a list of poses leaves open.
+/// The limitation of a list of poses.
 const BETWEEN: &str = "nothing is said between them";
-/// The same beside a region or a trajectory.
+/// The same limitation beside a region or a trajectory.
 const BETWEEN_LISTED: &str = "nothing is said between the poses listed";
 
-/// A number of poses.
+/// A number of poses in words.
 fn poses(n: usize) -> String {
     if n == 1 { "1 pose".to_owned() } else { format!("{n} poses") }
 }
 
-/// For all of them, as the end of a sentence.
+/// The poses as the end of a sentence.
 impl std::fmt::Display for JudgedPoses {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.region, self.listed, self.trajectory) {
@@ -162,24 +161,24 @@ impl std::fmt::Display for JudgedPoses {
     }
 }
 
-/// By how much a design meets its requirements.
+/// The margins of a design's requirements.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AssessReport {
-    /// The poses judged.
+    /// The poses assessed.
     pub judged: JudgedPoses,
-    /// The least margin of each kind of requirement, with what is proved of it.
+    /// The least margin of each kind of requirement, with its proof.
     pub proof: MarginProof,
     /// Whether a pose of the workspace is singular.
     pub regularity: Regularity,
-    /// Cells looked at for that.
+    /// Number of cells examined for the regularity.
     pub regularity_cells: usize,
-    /// Where the Jacobian is conditioned worst among the poses looked at.
+    /// The pose with the worst conditioning of the Jacobian among the sampled poses.
     pub conditioning: LeastConditioning,
 }
 
 impl AssessReport {
-    /// Proved either way, or `None`.
+    /// Whether the requirements are met: proved, or `None`.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         match (self.proof.all_met(), self.regularity.is_regular()) {
@@ -189,7 +188,7 @@ impl AssessReport {
         }
     }
 
-    /// The same with the reserve on every limit: what a search has to reach.
+    /// Whether the safety margin on every limit is kept too, which a search has to reach: proved, or `None`.
     #[must_use]
     pub fn met_with_reserve(&self) -> Option<bool> {
         match (self.met(), self.proof.all_reserved()) {
@@ -212,7 +211,7 @@ impl AssessReport {
         names.join(", ")
     }
 
-    /// What is known of singular poses, as a sentence without its full stop.
+    /// The result on singular poses, as a sentence without its full stop.
     #[must_use]
     pub fn regularity_in_words(&self) -> String {
         match self.regularity {
@@ -225,7 +224,7 @@ impl AssessReport {
     }
 }
 
-/// The verdict, without its subject: the words of every command and every page.
+/// The verdict without its subject, in the words that every command and page uses.
 impl std::fmt::Display for AssessReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.met() {
@@ -252,20 +251,19 @@ impl std::fmt::Display for AssessReport {
     }
 }
 
-/// Cells over which `det J` is bounded in the search for the largest region without singular poses, at most.
+/// Greatest number of cells for bounding `det J` in the search for the largest region without singular poses.
 pub const BOX_CELLS: usize = 30_000;
 
-/// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at
-/// most.
+/// Greatest number of workspace cells for [`Design::assess`]: for each kind of requirement, and for `det J`.
 pub(super) const ASSESS_CELLS: usize = 6000;
 
-/// The same for what fewer leave undecided: a search drives margins to zero, where proofs need many.
+/// The same number for undecided cases: a search drives margins to zero, and proofs of small margins need many cells.
 pub(super) const PATIENT_CELLS: usize = 60_000;
 
-/// Cells of the first attempt where one of several drives is sought.
+/// Greatest number of cells of the first attempt at each drive of a table.
 pub(super) const BRIEF_CELLS: usize = 300;
 
-/// What is known of the lines of rods, as of those of legs.
+/// The regularity result of rods as one of legs.
 fn as_regularity(of_rods: &RodRegularity) -> Regularity {
     match *of_rods {
         RodRegularity::Regular => Regularity::Regular,
@@ -274,7 +272,7 @@ fn as_regularity(of_rods: &RodRegularity) -> Regularity {
     }
 }
 
-/// Whether a region has a singular pose: of the rods where the design has cranks, of the legs where it has none.
+/// Whether a region holds a singular pose: of the rods for a design with cranks, otherwise of the legs.
 pub(super) fn regular_region(
     m: &Manipulator,
     required: &Requirements,
@@ -288,14 +286,14 @@ pub(super) fn regular_region(
     }
 }
 
-/// Proofs that end where they decide.
+/// Options for proofs that end as soon as they decide.
 pub(super) fn deciding(seed: u64) -> AssessOptions {
     AssessOptions::new().seed(seed).close(false)
 }
 
 impl Design {
-    /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly,
-    /// explained, and how far away a singular design is.
+    /// Decides whether the design is architecturally singular, so that no pose can hold the platform. The answer is
+    /// exact, with an explanation and the distance to a singular design.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -333,7 +331,7 @@ impl Design {
         };
         let counting = CountOptions { seed, ..CountOptions::default() };
         let pose_count = count_generic_poses(m, &counting);
-        // lengths determine the poses of regular designs, and only theirs, up to finitely many
+        // lengths determine the poses up to finitely many for regular designs, and only for these
         if let (Some(singular), Some(poses)) = (singular, pose_count.finite())
             && singular != (poses == 0)
         {
@@ -358,20 +356,19 @@ impl Design {
         })
     }
 
-    /// By how much the design meets its requirements over its whole workspace, and whether that is proved. What 6,000
-    /// cells of the workspace leave undecided gets 60,000.
+    /// The margins of the design's requirements over its whole workspace, with proofs. Cases undecided after 6,000
+    /// cells of the workspace get 60,000.
     ///
     /// # Errors
-    /// [`Error::NothingRequired`] where the design requires nothing.
+    /// [`Error::NothingRequired`] for a design without requirements.
     pub fn assess(&self) -> Result<AssessReport, Error> {
         self.assess_by(&AssessOptions::default(), None, &mut |_| {})
     }
 
-    /// As [`assess_with`](Self::assess_with), where a number of cells is given; without one as
-    /// [`assess`](Self::assess).
+    /// As [`assess_with`](Self::assess_with) with this number of cells, or as [`assess`](Self::assess) without one.
     ///
     /// # Errors
-    /// [`Error::NothingRequired`] where the design requires nothing.
+    /// [`Error::NothingRequired`] for a design without requirements.
     pub fn assess_by(
         &self,
         options: &AssessOptions,
@@ -385,15 +382,15 @@ impl Design {
         }
     }
 
-    /// As [`assess`](Self::assess), with other numbers of poses and cells looked at.
+    /// As [`assess`](Self::assess), with other numbers of poses and cells.
     ///
     /// # Errors
-    /// [`Error::NothingRequired`] where the design requires nothing.
+    /// [`Error::NothingRequired`] for a design without requirements.
     pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
         self.judged_by((options, cells), self.characteristic_length(), &mut |_| {})
     }
 
-    /// The judgement itself, with this length for the conditioning.
+    /// The assessment, with this characteristic length for the conditioning.
     fn judged_by(
         &self,
         (options, cells): (&AssessOptions, usize),
@@ -407,7 +404,7 @@ impl Design {
             return Err(Error::NothingRequired);
         }
         tell(AssessStage::SingularPoses);
-        // a proof whose time is over looks at one cell
+        // a proof that is out of time examines one cell
         let (cells, patient) =
             if options.is_late() { (1, 1) } else { (cells, cells.max(options.patient_cells)) };
         let of_rods = regular_rods(m, &required, &space, patient, options.seed);
@@ -420,12 +417,12 @@ impl Design {
         Ok(AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning })
     }
 
-    /// The poses that the design is judged at.
+    /// The poses at which the design is assessed.
     pub fn judged_poses(&self) -> JudgedPoses {
         JudgedPoses::of(&self.workspace)
     }
 
-    /// The worst conditioning over these poses, of rods where the design has cranks.
+    /// The worst conditioning over these poses, of the rods for a design with cranks.
     pub(super) fn least_conditioning(&self, options: &AssessOptions, length: f64) -> LeastConditioning {
         let (m, required) = (self.manipulator(), self.requirements());
         let space = self.workspace.space(&self.home_or_default());
@@ -434,15 +431,15 @@ impl Design {
             .unwrap_or_else(|| least_conditioning(m, &space, options, length))
     }
 
-    /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with.
-    /// `None` where the design requires nothing.
+    /// The decision of [`assess`](Self::assess) with this seed, at the beginning of every answer about a design; `None`
+    /// without requirements.
     ///
-    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
+    /// Proofs end as soon as they decide, so the proved margins may be smaller than in `assess`.
     pub fn assessed(&self, seed: u64) -> Option<AssessReport> {
         self.assessed_until(seed, None)
     }
 
-    /// The same; proofs end at a time with what they have.
+    /// The same; proofs end at the given time with the result so far.
     pub fn assessed_until(&self, seed: u64, until: Option<Instant>) -> Option<AssessReport> {
         self.decided_by(&deciding(seed).until(until), self.characteristic_length())
     }
@@ -451,8 +448,8 @@ impl Design {
         self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok()
     }
 
-    /// The same with the conditioning by a given length, that of all designs of a comparison; the conditioning also
-    /// where the design requires nothing.
+    /// The same with a conditioning by a given length, common to all designs of a comparison. The conditioning exists
+    /// even without requirements.
     pub fn assessed_beside(&self, seed: u64, length: f64) -> (Option<AssessReport>, LeastConditioning) {
         let options = deciding(seed);
         let found = self.decided_by(&options, length);
@@ -460,8 +457,8 @@ impl Design {
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }
 
-    /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half
-    /// the size and 30 degrees either way.
+    /// Options for the largest region without singular poses. Its shape is the box of the workspace, or a box of half
+    /// the size and 30 degrees in each direction.
     pub fn box_options(&self, regions: usize, seed: u64) -> BoxOptions {
         let w = &self.workspace;
         let (region, translation, rotation_deg) = if w.has_box() {
@@ -472,7 +469,7 @@ impl Design {
         BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed }
     }
 
-    /// Every platform equivalent to this one: the class of the octahedral platform that the design is, or is made of.
+    /// All platforms equivalent to this one: the class of the octahedral platform that the design is, or is made from.
     ///
     /// ```
     /// use equipod::prelude::*;

@@ -1,4 +1,4 @@
-//! Which squared lengths has a virtual leg at all poses, while the length of one leg varies?
+//! The squared lengths of a virtual leg at all poses while the length of one leg varies.
 
 use num_complex::Complex64;
 use thiserror::Error;
@@ -9,27 +9,27 @@ use fk::{FkError, FkOptions, FkSolutions, Method, PoseCounting, Reality, Solutio
 use platform::manipulator::{InvalidLengths, Leg, LegIndex, LegLengths, Manipulator};
 use platform::topology::Topology;
 
-/// The leg that varies, and the distance that is looked at.
+/// The leg that varies, and the distance that is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocusOptions {
     /// The lengths of the other legs.
     pub lengths: LegLengths,
-    /// The leg whose length varies.
+    /// The leg with variable length.
     pub leg: LegIndex,
-    /// Its first and its last length.
+    /// Its first and last length.
     pub ends: [f64; 2],
-    /// Number of lengths, both ends included; two at least.
+    /// Number of lengths, both ends included; at least two.
     pub steps: u32,
-    /// Base joint and platform joint of the virtual leg; the first one that trilateration needs when absent, else the
-    /// first pair that no leg joins.
+    /// Base joint and platform joint of the virtual leg. The default is the first one that trilateration needs, or else
+    /// the first pair that no leg joins.
     pub between: Option<(usize, usize)>,
-    /// The method of solution; the best one for the design when absent.
+    /// The method of solution; by default the best one for the design.
     pub method: Option<Method>,
     /// The seed.
     pub seed: u64,
 }
 
-/// Why there is no locus.
+/// The reason why there is no locus.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoLocus {
     /// The pair of joints is a leg.
@@ -49,13 +49,13 @@ pub enum NoLocus {
 /// Two joints that no leg joins, with their names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VirtualLeg {
-    /// Where its joints are.
+    /// The places of its joints.
     pub leg: Leg,
-    /// Base joint and platform joint.
+    /// Names of base joint and platform joint.
     pub names: [String; 2],
 }
 
-/// The form of all poses at one length.
+/// The structure of the set of poses at one length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LocusWord {
@@ -70,7 +70,7 @@ pub enum LocusWord {
 }
 
 impl LocusWord {
-    /// The word.
+    /// The code of the structure.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -85,15 +85,15 @@ impl LocusWord {
 /// The poses at one length.
 #[derive(Debug, Clone)]
 pub struct LocusPoint {
-    /// The length of the leg that varies.
+    /// The length of the variable leg.
     pub length: f64,
-    /// All poses, each with the squared length of the virtual leg at the same place of the second list; `None` where
+    /// All poses, and in the second list the squared length of the virtual leg at each, in the same order. `None` if
     /// the problem could not be solved.
     pub found: Option<(FkSolutions, Vec<Complex64>)>,
 }
 
 impl LocusPoint {
-    /// The form of the poses.
+    /// The structure of the set of poses.
     #[must_use]
     pub fn word(&self) -> LocusWord {
         match self.found.as_ref().map(|f| &f.0.solution_set) {
@@ -104,7 +104,7 @@ impl LocusPoint {
         }
     }
 
-    /// Nothing failed and no pose is missing.
+    /// Whether nothing failed and no pose is missing.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.found.as_ref().is_some_and(|f| f.0.all_accounted())
@@ -122,22 +122,22 @@ impl LocusPoint {
 /// The squared lengths of a virtual leg while the length of one leg varies.
 #[derive(Debug, Clone)]
 pub struct LocusReport {
-    /// The leg that varies.
+    /// The leg with variable length.
     pub leg: LegIndex,
     /// The virtual leg.
     pub between: VirtualLeg,
-    /// In the order of the lengths.
+    /// The points in the order of the lengths.
     pub points: Vec<LocusPoint>,
 }
 
 impl LocusReport {
-    /// The values of the isolated poses, by which they are drawn and followed.
+    /// The values of the isolated poses, for drawing and tracing.
     #[must_use]
     pub fn steps(&self) -> Vec<LocusStep> {
         self.points.iter().map(LocusPoint::step).collect()
     }
 
-    /// No pose is missing at any length.
+    /// Whether no pose is missing at any length.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.points.iter().all(LocusPoint::is_complete)
@@ -176,7 +176,7 @@ impl Design {
                         solutions.roots.iter().map(|r| r.pose.squared_length(&between.leg)).collect();
                     Some((solutions, values))
                 }
-                // no method for this design at any length
+                // the method fails for this design at any length
                 Err(e @ FkError::NotApplicable { .. }) => return Err(NoLocus::Method(e)),
                 Err(_) => None,
             };
@@ -186,7 +186,7 @@ impl Design {
     }
 }
 
-/// All leg lengths, ends exactly.
+/// All sets of leg lengths; the two ends are exact.
 fn varied(options: &LocusOptions) -> Result<Vec<LegLengths>, InvalidLengths> {
     let [from, to] = options.ends;
     let last = options.steps.saturating_sub(1);
@@ -199,7 +199,7 @@ fn varied(options: &LocusOptions) -> Result<Vec<LegLengths>, InvalidLengths> {
     (0..options.steps).map(at).collect()
 }
 
-/// The first virtual leg of the shortest trilateration sequence; for a design that needs none the first pair that no
+/// The first virtual leg of the shortest trilateration sequence; for a design that needs none, the first pair that no
 /// leg joins.
 fn default_pair(m: &Manipulator) -> Option<(usize, usize)> {
     let pairs = m.pairs();

@@ -1,4 +1,4 @@
-//! How the legs of a design move and what their drives push along a motion, against the limits of the design.
+//! The movement of the legs and the forces of the drives along a motion, against the limits of the design.
 
 use std::collections::BTreeMap;
 
@@ -18,9 +18,9 @@ use synthesis::singularity::{SingularEvidence, hold_at, singular_along, straight
 /// A motion of the platform.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlatformMotion {
-    /// Through poses at given times, looked at `steps` times between two of them.
+    /// A path through poses at given times, with this number of samples between two poses.
     Path(PosePath, usize),
-    /// A standard manoeuvre about a pose, looked at `samples` times.
+    /// A standard manoeuvre about a pose, with this number of samples.
     Manoeuvre(Manoeuvre, Pose, usize),
 }
 
@@ -45,12 +45,12 @@ impl PlatformMotion {
     }
 }
 
-/// Turns of a sine are followed in parts of at most this angle, radians.
+/// Greatest angle of one part of a sinusoidal rotation, radians.
 const TURN: f64 = std::f64::consts::FRAC_PI_2;
 
 impl PlatformMotion {
-    /// The first pose of the whole motion at which the legs do not hold the platform; `None` where all are proved to
-    /// be regular.
+    /// The first pose of the whole motion at which the legs do not hold the platform; `None` if all poses are proved
+    /// regular.
     fn singular(&self, m: &Manipulator) -> Option<SingularInstant> {
         match self {
             Self::Path(path, _) => {
@@ -67,7 +67,7 @@ impl PlatformMotion {
                     Some(SingularInstant { time: 0.0, pose: *about, evidence })
                 }
                 Manoeuvre::Sine { .. } => {
-                    // the way to one end and the way to the other hold all poses
+                    // the paths to the two ends hold all poses
                     let period = manoeuvre.duration();
                     [0.0, 0.5 * period]
                         .into_iter()
@@ -78,7 +78,7 @@ impl PlatformMotion {
     }
 }
 
-/// The first singular pose of the quarter of a sine that leaves the middle at a time.
+/// The first singular pose of a quarter of a sine, which leaves the middle at a given time.
 fn quarter_of_sine(m: &Manipulator, sine: &Manoeuvre, about: &Pose, start: f64) -> Option<SingularInstant> {
     let Manoeuvre::Sine { freedom, amplitude, frequency } = *sine else { return None };
     let rate = std::f64::consts::TAU * frequency;
@@ -89,7 +89,7 @@ fn quarter_of_sine(m: &Manipulator, sine: &Manoeuvre, about: &Pose, start: f64) 
     let poses: Vec<Pose> = steps.map(|k| sine.at(about, time(k / parts)).pose).collect();
     let curves: Vec<_> = poses.windows(2).map(|w| straight(&w[0], &w[1])).collect();
     let found = singular_along(m, curves.iter().map(|c| &c[..]))?;
-    // the quaternion is linear in the parameter, and its angle half of the turn
+    // the quaternion is linear in the parameter, with half the angle of rotation
     let half = 0.5 * turn / parts;
     let within = if half > 0.0 {
         (found.at * half.sin()).atan2(1.0 - found.at + found.at * half.cos()) / half
@@ -103,87 +103,88 @@ fn quarter_of_sine(m: &Manipulator, sine: &Manoeuvre, about: &Pose, start: f64) 
 /// An instant of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionInstant {
-    /// Seconds.
+    /// The time, seconds.
     pub time: f64,
-    /// Where the platform is and how it moves.
+    /// The pose of the platform with its velocity and acceleration.
     pub state: MotionState,
-    /// The legs, design units and seconds; of cranks the angles, degrees and seconds, which are not finite where a rod
-    /// does not reach.
+    /// The legs, in design units and seconds. For cranks the angles, in degrees and seconds, not finite if a rod does
+    /// not reach.
     pub legs: [LegMotion; 6],
-    /// Forces of the drives in force units, or torques of the cranks in force units times design units, and powers in
-    /// watts; `None` where no masses are known, at a singular pose, and where a rod does not reach.
+    /// Forces of the drives (force units) and powers (watts); for cranks, torques in force units times design units.
+    /// `None` if no masses are known, at a singular pose, and if a rod does not reach.
     pub drives: Option<([f64; 6], [f64; 6])>,
 }
 
-/// A margin with the time at which it is least.
+/// A least margin with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedMargin {
-    /// The least one.
+    /// The least margin.
     pub margin: Margin,
-    /// Seconds from the start.
+    /// The time from the start, seconds.
     pub time: f64,
 }
 
 /// A singular pose of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SingularInstant {
-    /// Seconds.
+    /// The time, seconds.
     pub time: f64,
     pub pose: Pose,
     pub evidence: SingularEvidence,
 }
 
-/// What was found along a motion.
+/// The results along a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionReport {
-    /// In the order of time.
+    /// The instants in the order of time.
     pub instants: Vec<MotionInstant>,
-    /// Whether the legs are rods on cranks, so that angles in degrees stand for lengths and torques for forces.
+    /// Whether the legs are rods on cranks, so that angles in degrees replace lengths, and torques replace forces.
     pub cranks: bool,
-    /// By leg; empty where a leg has no length, or a rod does not reach.
+    /// The extremes of each leg; empty if a leg has no length, or a rod does not reach.
     pub legs: Vec<LegExtremes>,
     /// The least margin of each kind of requirement over the instants.
     pub margins: Vec<TimedMargin>,
-    /// The first pose at which the legs or rods do not hold the platform, or a crank is singular; of legs on the whole
-    /// path, between the instants too.
+    /// The first singular pose: the legs or rods do not hold the platform, or a crank is singular. For legs the whole
+    /// path is checked, between the instants too.
     pub singular: Option<SingularInstant>,
-    /// When a rod first does not reach.
+    /// The time at which a rod first does not reach, seconds.
     pub unreached: Option<f64>,
 }
 
-/// How stiff a platform is at a pose.
+/// The stiffness of a platform at a pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StiffnessReport {
     /// The pose.
     pub pose: Pose,
-    /// `J^T diag(k) J` in force units, design units and radians.
+    /// The stiffness matrix `J^T diag(k) J` in force units, design units and radians.
     pub matrix: Matrix6<f64>,
-    /// `None` at a singular pose.
+    /// The least stiffness; `None` at a singular pose.
     pub least: Option<LeastStiffness>,
-    /// `None` where masses are not known, or no inertia is held against turns.
+    /// The natural motions; `None` if masses are unknown, or no inertia resists some rotation.
     pub natural: Option<[Vibration; 6]>,
 }
 
-/// What forces are computed from.
+/// The data for computing forces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionMasses {
     bodies: MovingBodies,
-    /// Newtons in a force unit.
+    /// The number of newtons in a force unit.
     newtons: f64,
-    /// What acts besides the weight.
+    /// The load in addition to the weight.
     load: Option<Load>,
 }
 
 impl Design {
-    /// What forces are computed from: [what moves with the platform](files::design::DesignModel::moving_payload) and
-    /// the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
+    /// The data for computing forces: [the bodies that move with the
+    /// platform](files::design::DesignModel::moving_payload) and the masses of the legs. A design unit is `metres`
+    /// long. `None` if no masses are known.
     pub fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
         let newtons = self.force_unit().newtons();
         let bodies = self.moving_bodies(metres)?;
         Some(MotionMasses { bodies, newtons, load })
     }
 
-    /// The stiffness at a pose; `None` where the design does not say that of its legs.
+    /// The stiffness at a pose; `None` if the design does not state the stiffness of its legs.
     pub fn stiffness_at(&self, pose: &Pose, masses: Option<&MotionMasses>) -> Option<StiffnessReport> {
         let (m, leg) = (self.manipulator(), self.hardware.leg_stiffness?);
         let matrix = stiffness_matrix(m, pose, leg);
@@ -193,10 +194,10 @@ impl Design {
         Some(StiffnessReport { pose: *pose, matrix, least: least_stiffness(&matrix), natural })
     }
 
-    /// The legs along a motion. Limits are judged at the instants that are looked at.
+    /// The legs along a motion. Limits are checked at the sampled instants.
     pub fn along(&self, motion: &PlatformMotion, masses: Option<&MotionMasses>) -> MotionReport {
         let m = self.manipulator();
-        // cranks of a design that was read make a platform
+        // the cranks of a parsed design always make a platform
         let cranks = self.rotary().ok().flatten();
         let instants: Vec<MotionInstant> = motion
             .states()
@@ -238,7 +239,7 @@ impl Design {
         MotionReport { instants, cranks: cranks.is_some(), legs, margins, singular, unreached }
     }
 
-    /// The least margin of each kind: of the pose as `assess` has them, of force and speed by the motion.
+    /// The least margin of each kind: margins of the pose as in `assess`, margins of force and speed by the motion.
     fn margins_along(&self, instants: &[MotionInstant]) -> Vec<TimedMargin> {
         let required = self.requirements();
         let terms = Terms::new(self.manipulator(), &required, &self.home_or_default());
@@ -261,8 +262,8 @@ impl Design {
         least.into_values().map(timed).collect()
     }
 
-    /// Greatest speed less speed, greatest force less force; of cranks greatest torque less torque. A pose that a rod
-    /// does not reach has none.
+    /// Margins of the drives: greatest speed minus speed, and greatest force minus force, or torque for cranks. A pose
+    /// beyond the reach of a rod has none.
     fn drive_margins(&self, at: &MotionInstant) -> Vec<(Term, f64)> {
         let (hardware, cranks) = (&self.hardware, self.crank_limits());
         let (force, speed) = if self.has_cranks() {
@@ -285,7 +286,7 @@ impl Design {
     }
 }
 
-/// The first instant at which `det J` of the rods has another sign than at the instant before.
+/// The first instant at which `det J` of the rods has the opposite sign to the instant before.
 fn rods_that_change_side(platform: &RotaryPlatform, instants: &[MotionInstant]) -> Option<SingularInstant> {
     let side = |at: &MotionInstant| -> Option<bool> {
         let angles = platform.ik(&at.state.pose).ok()?;
@@ -299,13 +300,13 @@ fn rods_that_change_side(platform: &RotaryPlatform, instants: &[MotionInstant]) 
     Some(SingularInstant { time: at.time, pose: at.state.pose, evidence: SingularEvidence::SignChange })
 }
 
-/// What is judged by the motion, and not by a greatest speed or a load in every direction.
+/// Whether the motion itself decides this requirement, rather than a greatest speed or a load in every direction.
 fn is_of_motion(kind: TermKind) -> bool {
     use TermKind::{CrankSpeed, CrankTorque, LegForce, LegSpeed};
     matches!(kind, LegForce | LegSpeed | CrankTorque | CrankSpeed)
 }
 
-/// The cranks at an instant: angles in degrees for lengths, torques for forces.
+/// The cranks at an instant, with angles in degrees as lengths and torques as forces.
 fn crank_instant(
     platform: &RotaryPlatform,
     time: f64,
@@ -328,17 +329,17 @@ fn crank_instant(
 }
 
 impl MotionMasses {
-    /// Platform, payload and legs.
+    /// The masses of platform, payload and legs.
     pub fn bodies(&self) -> &MovingBodies {
         &self.bodies
     }
 
-    /// A stiffness in force units per design unit, in kilograms per second squared.
+    /// Converts a stiffness from force units per design unit to kilograms per second squared.
     pub fn per_second_squared(&self, stiffness: f64) -> f64 {
         stiffness * self.newtons / self.bodies.metres
     }
 
-    /// Forces in force units and powers in watts.
+    /// Forces of the drives in force units, and powers in watts.
     fn drives(
         &self,
         design: &Design,
@@ -346,7 +347,7 @@ impl MotionMasses {
         legs: &[LegMotion; 6],
     ) -> Option<([f64; 6], [f64; 6])> {
         let bodies = &self.bodies;
-        // of the module's unit of force, kilograms times design units per second squared, in a force unit
+        // converts the internal unit of force, kilograms times design units per second squared, to force units
         let in_unit = self.newtons / bodies.metres;
         let m = design.manipulator();
         let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(m, &state.pose) * in_unit);
@@ -355,7 +356,7 @@ impl MotionMasses {
         Some((forces.map(|f| f / in_unit), powers))
     }
 
-    /// Torques of cranks in force units times design units and powers in watts. Cranks and rods count as massless.
+    /// Torques of the cranks in force units times design units, and powers in watts. Cranks and rods count as massless.
     fn torques(
         &self,
         platform: &RotaryPlatform,
@@ -371,7 +372,7 @@ impl MotionMasses {
         let transmissions = platform.transmissions(&state.pose, angles);
         let torques: [f64; 6] =
             std::array::from_fn(|i| pushes[i] * platform.legs()[i].crank.length * transmissions[i]);
-        // kilograms times design units squared per second squared
+        // in kilograms times design units squared per second squared
         let powers: [f64; 6] =
             std::array::from_fn(|i| bodies.newtons(torques[i]) * bodies.metres * motions[i].speed);
         let finite = torques.iter().chain(&powers).all(|x| x.is_finite());

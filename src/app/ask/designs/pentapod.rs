@@ -1,4 +1,5 @@
-//! Five legs: do they hold a line, where is it for given lengths, where do they lose it, and which sixth leg decouples?
+//! Five legs: the line that they hold, its poses for given lengths, its singular poses, and the sixth legs that
+//! decouple.
 
 use files::design::FiveLegs;
 use fk::{LineClass, LinePoses, NoLinePoses, count_line_poses, line_class, line_poses};
@@ -10,11 +11,11 @@ use synthesis::{DecouplingLeg, LineLocus, independent_somewhere};
 pub struct HeldLine {
     /// The line.
     pub line: LinearPentapod,
-    /// What its poses are found by; `None` where the legs are dependent.
+    /// The type of equation for its poses; `None` if the legs are dependent.
     pub class: Option<LineClass>,
-    /// Poses of the line, real and complex, for lengths drawn from the seed; `None` where they were not counted.
+    /// Number of poses of the line, real and complex, for lengths drawn from the seed; `None` if not counted.
     pub generic_poses: Option<usize>,
-    /// Where the legs lose their hold.
+    /// The singular poses of the line.
     pub locus: LineLocus,
 }
 
@@ -23,20 +24,20 @@ pub struct HeldLine {
 pub struct PentapodReport {
     /// The design.
     pub design: FiveLegs,
-    /// The line that the legs hold; `None` where no body has all its joints on one.
+    /// The line that the legs hold; `None` if no body has all its joints on one.
     pub held: Option<HeldLine>,
-    /// Whether the five legs are dependent at every pose: decided exactly where they hold a line; else `Some(false)` is
-    /// proved by a pose, and `None` says that no such pose was found.
+    /// Whether the five legs are dependent at every pose, decided exactly if they hold a line. Otherwise a pose proves
+    /// `Some(false)`, and `None` means that no such pose was found.
     pub architecturally_singular: Option<bool>,
-    /// The sixth legs with which the platform is solved in steps.
+    /// Sixth legs that make the platform solvable in steps.
     pub sixth_legs: Vec<DecouplingLeg>,
-    /// The lengths asked about.
+    /// The given lengths.
     pub lengths: Option<[f64; 5]>,
-    /// The poses of the line for them.
+    /// The poses of the line for the given lengths.
     pub poses: Option<Result<LinePoses, NoLinePoses>>,
 }
 
-/// What five legs hold, and, where lengths are given, all poses of the line that they hold.
+/// The line that five legs hold and, for given lengths, all its poses.
 ///
 /// ```
 /// use equipod::methods::design::{Format, parse_five_legs};

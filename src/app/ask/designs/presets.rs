@@ -1,24 +1,24 @@
-//! What a design of real hardware is that comes with the program, as text.
+//! The designs of real hardware that come with the program, as text.
 
 use crate::design::parse_with_cranks;
 use files::design::Format;
 
-/// What a machine is for.
+/// The purpose of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PresetClass {
     /// Small machines with drives from a catalogue.
     Bench,
-    /// Moves a person or a cabin.
+    /// Machines that move a person or a cabin.
     #[serde(rename = "motion simulator")]
     MotionSimulator,
-    /// Travels millimetres, steps by micrometres.
+    /// Machines with a travel of millimetres and micrometre steps.
     #[serde(rename = "precision positioner")]
     PrecisionPositioner,
-    /// Carries a spindle.
+    /// Machines that carry a spindle.
     #[serde(rename = "machine tool")]
     MachineTool,
-    /// Moves a part of a robot.
+    /// Machines that move a part of a robot.
     Robot,
 }
 
@@ -48,15 +48,15 @@ impl PresetClass {
 pub struct Preset {
     /// Name of the file in `designs/presets`, without its extension.
     pub name: &'static str,
-    /// What it is for.
+    /// The purpose of the machine.
     pub class: PresetClass,
     /// The design file, TOML with comments.
     pub text: &'static str,
 }
 
 impl Preset {
-    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`] and refused by
-    /// [`parse`](files::design::parse).
+    /// Whether its legs are rods on cranks. Such a preset is read by [`parse_with_cranks`];
+    /// [`parse`](files::design::parse) refuses it.
     #[must_use]
     pub fn has_cranks(&self) -> bool {
         parse_with_cranks(self.text, Format::Toml).is_ok_and(|(design, _)| design.has_cranks())

@@ -1,4 +1,4 @@
-//! How far the platform may move from a pose, and where the nearest allowed pose is.
+//! The free travel of the platform from a pose, and the nearest allowed pose.
 
 use super::Error;
 use crate::Design;
@@ -6,9 +6,9 @@ use machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach};
 use platform::geom::Pose;
 
 impl Design {
-    /// How far each of the six numbers of a pose (x, y, z, roll, pitch, yaw) may move before a requirement of the
-    /// design binds or a singular pose is passed, the others staying as they are; `None` where the pose itself is not
-    /// allowed. A control loop keeps a [`Reach`], which is this without the preparation.
+    /// The free travel of each of the six numbers of a pose (x, y, z, roll, pitch, yaw) while the others stay fixed. It
+    /// ends at a violated requirement or a singular pose. `None` if the pose itself is not allowed. A control loop
+    /// keeps a [`Reach`], which prepares the design once.
     ///
     /// ```
     /// use equipod::methods::reach::PoseAxis;
@@ -26,7 +26,7 @@ impl Design {
         self.reach(&required).free_ranges(pose)
     }
 
-    /// A pose locally nearest to `asked` among those that meet every requirement; `asked` itself where it does. A
+    /// A pose locally nearest to `asked` among the poses that meet every requirement; `asked` itself if it does. A
     /// radian counts as the characteristic length of the design.
     ///
     /// ```
@@ -42,13 +42,13 @@ impl Design {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoAllowedPose`] where neither home nor a pose drawn on the way meets the requirements.
+    /// [`Error::NoAllowedPose`] if neither home nor a pose drawn on the way meets the requirements.
     pub fn nearest_allowed(&self, asked: &Pose, options: &NearestPoseOptions) -> Result<NearestPose, Error> {
         let required = self.requirements();
         self.reach(&required).nearest(asked, options).ok_or(Error::NoAllowedPose)
     }
 
-    /// The limits of the design made ready.
+    /// The limits of the design, prepared for many poses.
     pub fn reach<'a>(&'a self, required: &'a machine::requirements::Requirements) -> Reach<'a> {
         Reach::new(self.manipulator(), required, &self.home_or_default(), self.characteristic_length())
     }

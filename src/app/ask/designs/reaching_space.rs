@@ -1,4 +1,4 @@
-//! How large the workspace around home is: positions, orientations, and what is required of both.
+//! The size of the workspace around home: positions, orientations, and the required region.
 
 use nalgebra::Vector3;
 
@@ -8,79 +8,79 @@ use machine::reach::{FreeRay, largest_box_within, volume_of_rays};
 use machine::requirements::{AssessOptions, Limit, Requirements, assess, prove};
 use platform::geom::{Pose, PoseSpace, Region};
 
-/// Directions in which ways and turns are followed, where nothing is said.
+/// Default number of directions for paths and rotations.
 pub const RAYS: usize = 1000;
-/// Rounds in which the size of a region is halved between what is proved and what is violated.
+/// Number of bisections between a proved and a violated size.
 const ROUNDS: usize = 8;
-/// The size is known well enough when what is proved and what is violated differ by less, as a share.
+/// The bisection ends when the proved and the violated size differ by less than this share.
 const CLOSE: f64 = 5e-3;
-/// By how much the first size lies below the one at which a ray ended, as a share.
+/// The first size lies below the end of a ray by this share.
 const INSIDE: f64 = 5e-4;
-/// Cells over which each kind of requirement is bounded for one size.
+/// Number of cells for bounding each kind of requirement at one size.
 const CELLS: usize = 250;
-/// Halton points looked at for one size, and as many random ones.
+/// Number of Halton points sampled at one size; as many random points are added.
 const POINTS: usize = 100;
-/// The required region is looked at up to so many times its size.
+/// The required region is enlarged up to this factor.
 const LARGEST: f64 = 8.0;
-/// Rotations are looked at up to half a turn.
+/// Rotations are followed up to half a turn.
 const HALF_TURN: f64 = 180.0;
 
-/// Up to which size a region around home is free, as far as is known.
+/// The largest known free size of a region around home.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeSize {
-    /// Proved: every pose of the region of this size meets all requirements, and none is singular. 0 where nothing is
+    /// The largest size for which every pose is proved to meet all requirements and to be regular; 0: nothing is
     /// proved.
     pub proved: f64,
-    /// No violation was found in the regions looked at up to this size; no less than what is proved.
+    /// The largest size without a violation at sampled poses; at least the proved size.
     pub searched: f64,
-    /// What is violated in a region that is larger by a little, with its margin there; `None` where nothing is within
-    /// what was looked at.
+    /// The requirement violated in a slightly larger region, with its margin there; `None` if none was found.
     pub binding: Option<(Limit, f64)>,
 }
 
-/// How far a turn about an axis of the base frame is free, degrees.
+/// The free rotation about an axis of the base frame, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeTurn {
-    /// To negative angles.
+    /// The rotation to negative angles.
     pub back: FreeRay,
-    /// To positive angles.
+    /// The rotation to positive angles.
     pub forth: FreeRay,
 }
 
-/// The required region in that of the positions.
+/// The required region compared with the workspace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RequiredSize {
-    /// Its translations alone, design units cubed.
+    /// Volume of its translations, design units cubed.
     pub volume: f64,
-    /// The factor by which translations and rotations may be multiplied.
+    /// The factor by which its translations and rotations can grow.
     pub factor: FreeSize,
 }
 
-/// How large the workspace is around home.
+/// The size of the workspace around home.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkspaceSize {
-    /// Straight ways at the orientation of home.
+    /// Straight paths at the orientation of home.
     pub rays: Vec<FreeRay>,
-    /// The volume that they reach, and the share by which every second one differs from the others.
+    /// The volume that they reach, and the relative difference between the estimates from every second path and from
+    /// the others.
     pub volume: (f64, f64),
     /// Radius of the largest ball of positions around home.
     pub ball: FreeSize,
-    /// Half widths of the largest box of positions around home that the rays leave room for, and the factor on them.
+    /// Half widths of the largest box of positions around home that the rays leave free, without the factor.
     pub box_half: [f64; 3],
-    /// The factor on that box up to which it is free.
+    /// The factor on this box up to which it is free.
     pub box_factor: FreeSize,
-    /// About x, y, z of the base frame at the position of home.
+    /// Rotations about x, y, z of the base frame at the position of home.
     pub turns: [FreeTurn; 3],
-    /// Largest angle up to which the platform may tilt about every axis of the xy plane, degrees.
+    /// Largest free angle of rotation about every axis in the xy plane, degrees.
     pub tilt: FreeSize,
-    /// Largest angle up to which it may turn about every axis, degrees.
+    /// Largest free angle of rotation about every axis, degrees.
     pub turn: FreeSize,
-    /// Where the design asks for a region.
+    /// The required region, if the design has one.
     pub required: Option<RequiredSize>,
 }
 
 impl Design {
-    /// How large the workspace is around home; `None` where home is not allowed.
+    /// The size of the workspace around home; `None` if home is not allowed.
     pub fn workspace_size(&self, rays: usize, seed: u64) -> Option<WorkspaceSize> {
         let (home, required) = (self.home_or_default(), self.requirements());
         let reach = self.reach(&required);
@@ -107,7 +107,7 @@ impl Design {
             around.largest(&in_degrees(shortest(&turned)), &|a| around.turned([a; 3])),
         );
         let to_box = |t: f64| around.shifted(Region::Box, box_half.map(|h| h * t));
-        // the rays leave a little room between them
+        // the rays leave some space between them
         let all = FreeRay { free: 1.1, ..shortest(&shifts) };
         Some(WorkspaceSize {
             volume: volume_of_rays(&shifts),
@@ -132,7 +132,7 @@ fn in_degrees(ray: FreeRay) -> FreeRay {
     FreeRay { free: ray.free.to_degrees(), ..ray }
 }
 
-/// A design with what regions around its home are judged by.
+/// A design with the data for assessing regions around its home.
 struct Around<'a> {
     design: &'a Design,
     required: &'a Requirements,
@@ -140,7 +140,7 @@ struct Around<'a> {
     seed: u64,
 }
 
-/// What is known of a region.
+/// The verdict on a region.
 enum JudgedRegion {
     Free,
     Violated(Limit, f64),
@@ -161,14 +161,14 @@ impl Around<'_> {
         AssessOptions::new().points(POINTS).searches(1).seed(self.seed).close(false)
     }
 
-    /// A violation that poses of a region and searches from the worst of them show.
+    /// A violation shown by poses of a region, or by searches from the worst of them.
     fn shown(&self, space: &PoseSpace) -> Option<(Limit, f64)> {
         let found = assess(self.design.manipulator(), self.required, space, &self.options());
         let violated = found.margins.iter().filter(|m| !m.term.kind.is_fixed());
         violated.filter(|m| !m.standing.is_met()).map(|m| (Limit::Term(m.term), m.value)).next()
     }
 
-    /// All requirements that depend on the pose, and the sign of `det J`.
+    /// Assesses a region: all requirements that depend on the pose, and the sign of `det J`.
     fn judge(&self, space: &PoseSpace) -> JudgedRegion {
         if let Some((limit, margin)) = self.shown(space) {
             return JudgedRegion::Violated(limit, margin);
@@ -188,14 +188,14 @@ impl Around<'_> {
         }
     }
 
-    /// Halves between the largest size that is proved and the smallest that is violated, from a ray that ended at a
+    /// Bisects between the largest proved and the smallest violated size, starting from a ray that ended at a
     /// violation.
     fn largest(&self, ray: &FreeRay, space: &dyn Fn(f64) -> PoseSpace) -> FreeSize {
         let mut found = FreeSize { proved: 0.0, searched: ray.free, binding: ray.binding.map(|l| (l, 0.0)) };
         if !(ray.free > 0.0 && ray.free.is_finite()) {
             return FreeSize { searched: 0.0, ..found };
         }
-        // nothing is proved of this size and more
+        // from this size on nothing is proved
         let (mut doubtful, mut size) = (ray.free, ray.free * (1.0 - INSIDE));
         for _ in 0..ROUNDS {
             match self.judge(&space(size)) {
@@ -214,7 +214,7 @@ impl Around<'_> {
         found
     }
 
-    /// The region of the design, multiplied.
+    /// The region of the design, scaled by the largest free factor.
     fn of_required_region(&self) -> Option<RequiredSize> {
         let w = &self.design.workspace;
         if !w.has_box() {
@@ -229,7 +229,7 @@ impl Around<'_> {
             ..own.clone()
         };
         let most = (HALF_TURN / own.rotation_deg.max()).min(LARGEST);
-        // the first factor that is violated
+        // the first violated factor
         let mut first = FreeRay { direction: Vector3::z(), free: most, binding: None };
         let mut factor = 0.5;
         while factor < most {

@@ -1,4 +1,4 @@
-//! Which equivalent platforms have their legs where they are wanted?
+//! Equivalent platforms with legs at requested places.
 
 use nalgebra::Point3;
 
@@ -15,86 +15,86 @@ use synthesis::relocate::search::{
 use synthesis::relocate::{Assembled, JointOrigin, spanning_joints};
 use verify::judge;
 
-/// Share of the size that two joints keep apart when nothing else is said.
+/// Default least distance of two joints, as a share of the size.
 const SPACING_SHARE: f64 = 0.01;
-/// Share of the design's own inverse condition number that is asked for.
+/// Default least inverse condition number, as a share of the design's own.
 const CONDITIONING_SHARE: f64 = 0.1;
-/// The greatest distance of a joint from the centre of its body, sizes of the design, when nothing else is said.
+/// Default greatest distance of a joint from the centre of its body, in sizes of the design.
 const REACH: f64 = 1.5;
-/// A joint is on a line of others within this share of the size.
+/// A joint within this share of the size is on a line of others.
 const ON_LINE: f64 = 1e-12;
 
-/// Wishes for an equivalent platform; those that are absent follow from the design.
+/// Requested properties of an equivalent platform; missing ones follow from the design.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MoveWishes {
-    /// Every joint holds one leg.
+    /// Whether every joint shall hold one leg.
     pub no_shared_joints: bool,
-    /// No two legs meet, taken as straight segments.
+    /// Whether no two legs, as straight segments, may meet.
     pub no_crossing: bool,
-    /// Least distance of two legs; the leg diameter of the design when absent, else 0.
+    /// Least clearance of two legs; default: the leg diameter of the design, or 0.
     pub clearance: Option<f64>,
-    /// Places for joints.
+    /// Holes for joints.
     pub holes: Vec<Hole>,
-    /// Least distance of two joints of one body; that of the design when absent, else a hundredth of its size.
+    /// Least distance of two joints of one body; default: the least distance in the design, or a hundredth of its size.
     pub spacing: Option<f64>,
-    /// Least inverse condition number of the Jacobian; a tenth of the design's when absent.
+    /// Least inverse condition number of the Jacobian; default: a tenth of the design's own.
     pub conditioning: Option<f64>,
-    /// Greatest distance of a joint from the centre of its body, sizes of the design; 1.5 when absent.
+    /// Greatest distance of a joint from the centre of its body, in sizes of the design; default: 1.5.
     pub reach: Option<f64>,
-    /// All poses of the workspace are looked at, and not only home.
+    /// Whether all poses of the workspace are checked, rather than home alone.
     pub workspace: bool,
 }
 
-/// What came of a search.
+/// The outcome of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchWord {
-    /// A platform that fulfils every wish and meets the requirements of the design.
+    /// A platform has every requested property and meets the requirements of the design.
     Found,
-    /// Platforms that fulfil every wish were found, and each of them violates requirements of the design.
+    /// Platforms with every requested property were found, but each of them violates requirements of the design.
     Violated,
-    /// There is none.
+    /// There is no such platform.
     Impossible,
-    /// None was found, which proves nothing.
+    /// No such platform was found, which proves nothing.
     Undecided,
 }
 
 /// An equivalent platform of a search.
 #[derive(Debug, Clone)]
 pub struct MovedPlatform {
-    /// Its legs, with its margins over the wishes.
+    /// Its legs, with the margins of the requested properties.
     pub candidate: Candidate,
-    /// The names of the legs, families and holes from which its legs are, in the order of the placements.
+    /// The legs, families and holes from which its legs come, in the order of the placements.
     pub sources: Vec<String>,
-    /// `None` where the legs make no platform.
+    /// The platform as a design; `None` if the legs make no platform.
     pub design: Option<Design>,
     /// The relation to the design, decided on the joints of both.
     pub map: LegMapOutcome,
-    /// By how much it meets the requirements of the design; `None` where nothing is required.
+    /// The margins of the design's requirements; `None` without requirements.
     pub assessed: Option<AssessReport>,
 }
 
 impl MovedPlatform {
-    /// Whether the requirements of the design are met; `Some(true)` where there are none.
+    /// Whether the requirements of the design are met; `Some(true)` without requirements.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.assessed.as_ref().map_or(Some(true), AssessReport::met)
     }
 
-    /// Every wish, and every requirement proved.
+    /// Whether every property is fulfilled and every requirement proved.
     #[must_use]
     pub fn is_fulfilled(&self) -> bool {
         self.candidate.fulfilled && self.met() == Some(true)
     }
 
-    /// The legs that are not legs of the design.
+    /// The legs that differ from the legs of the design.
     #[must_use]
     pub fn new_legs(&self) -> Vec<LegIndex> {
         let new = |p: &&Placement| !matches!(p.source, LegSource::Kept(_));
         self.candidate.placements.iter().filter(new).map(|p| p.leg).collect()
     }
 
-    /// Gives the design its name, its description and the leg lengths of the pose of the given design.
+    /// Gives the platform a name and a description, and the leg lengths at the pose of the given design.
     fn finish(&mut self, given: &Design, number: usize) {
         let (c, judged) = (&self.candidate, self.assessed.as_ref());
         let words = wishes_in_words(c.fulfilled, judged.map(|a| (a.met(), a.names(a.met()))));
@@ -111,8 +111,8 @@ impl MovedPlatform {
     }
 }
 
-/// The wishes and the requirements that a platform fulfils and misses. `judged`: whether all requirements are met, and
-/// the names of those of which the same is known.
+/// The requested properties and requirements that a platform has and misses. The argument `judged` tells whether all
+/// requirements are met, with the names of the requirements of this verdict.
 #[must_use]
 pub fn wishes_in_words(wishes: bool, judged: Option<(Option<bool>, String)>) -> String {
     let wishes = if wishes { "every wish fulfilled" } else { "not every wish fulfilled" };
@@ -129,12 +129,12 @@ pub fn wishes_in_words(wishes: bool, judged: Option<(Option<bool>, String)>) -> 
 pub struct MoveSearchReport {
     /// The search; its candidates are in `platforms`.
     pub outcome: SearchOutcome,
-    /// Those that fulfil everything come first, in the order of the search.
+    /// The platforms in the order of the search, with those that fulfil everything first.
     pub platforms: Vec<MovedPlatform>,
 }
 
 impl MoveSearchReport {
-    /// The verdict, the requirements of the design included.
+    /// The outcome, including the requirements of the design.
     #[must_use]
     pub fn word(&self) -> SearchWord {
         let wished = || self.platforms.iter().filter(|f| f.candidate.fulfilled);
@@ -146,14 +146,14 @@ impl MoveSearchReport {
         }
     }
 
-    /// The first platform that fulfils everything, makes a design, and has a leg that the given design has not.
+    /// The first platform that fulfils everything, makes a design, and has a leg that the given design lacks.
     #[must_use]
     pub fn first_other(&self) -> Option<&MovedPlatform> {
         self.platforms.iter().find(|f| f.is_fulfilled() && !f.new_legs().is_empty() && f.design.is_some())
     }
 }
 
-/// The verdict in a sentence.
+/// The outcome in a sentence.
 impl std::fmt::Display for MoveSearchReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let o = &self.outcome;
@@ -207,8 +207,8 @@ impl std::fmt::Display for MoveSearchReport {
 }
 
 impl Design {
-    /// The equivalent platforms that fulfil wishes, each judged by the requirements of the design; `families` are its
-    /// [replaceable legs](Self::replaceable_legs).
+    /// Searches for equivalent platforms with requested properties, and assesses each by the requirements of the
+    /// design; `families` are its [replaceable legs](Self::replaceable_legs).
     ///
     /// # Errors
     /// [`SearchError`].
@@ -261,7 +261,7 @@ impl Design {
         })
     }
 
-    /// The wishes with the limits that follow from the design.
+    /// The requested properties, with limits that follow from the design.
     fn wishes(&self, asked: &MoveWishes) -> Wishes {
         let m = self.manipulator();
         let (size, hardware) = (m.size(), self.hardware);
@@ -286,7 +286,7 @@ impl Design {
         }
     }
 
-    /// `P1:P4-P5`, when joints of the platform span the family.
+    /// The name of a family, `P1:P4-P5`, if joints of the platform span it.
     ///
     /// # Errors
     /// A decomposition that does not converge.
@@ -299,11 +299,10 @@ impl Design {
             .map(|[a, b]| format!("{}:{}", join(&a, self.base_names()), join(&b, self.platform_names()))))
     }
 
-    /// The design with the joints of the new platform: one that all legs left keeps its name where the first of them
-    /// goes, the ends of others that left get the name with a letter. `None` when the legs make no platform.
+    /// The design with the joints of the new platform. A joint that all legs left keeps its name at the place of its
+    /// first leg. The ends of other moved legs get the name with a letter. `None` if the legs make no platform.
     ///
-    /// A new joint that is at one of the `shares` of the way between two joints that stay is constructed there: then it
-    /// is exact.
+    /// A new joint at one of the `shares` of the way between two fixed joints is constructed there, and so is exact.
     #[must_use]
     pub fn with_legs_of(&self, new: &Assembled, shares: &[Share]) -> Option<Self> {
         let platform = new.platform.clone().ok()?;
@@ -326,7 +325,7 @@ impl Design {
         let origins = |body: Body, of: &[JointOrigin]| -> Vec<Origin> {
             let old = self.manipulator().joints(body);
             let kept: Vec<usize> = of.iter().filter_map(JointOrigin::kept).collect();
-            // on a line of joints that are still there, else of joints that were
+            // on a line of joints that are still present, else of former joints
             let all: Vec<usize> = (0..old.len()).collect();
             let within = |list: &[usize]| -> Vec<[usize; 2]> {
                 list.iter()
@@ -351,7 +350,7 @@ impl Design {
     }
 }
 
-/// The name with the first letter or number that makes it a new one.
+/// The name with the first letter or number that makes it unique.
 fn fresh(name: &str, taken: &mut Vec<String>) -> String {
     let letters = ('a'..='z').map(|c| format!("{name}{c}"));
     let numbers = (1..).map(|k| format!("{name}_{k}"));

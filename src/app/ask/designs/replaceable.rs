@@ -1,4 +1,4 @@
-//! Which legs can be replaced without changing the platform?
+//! The legs that can be replaced without changing the platform's kinematics.
 
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
@@ -13,29 +13,29 @@ use synthesis::components::{
     components, flat_name,
 };
 
-/// Corresponding points that are marked in a picture.
+/// Number of corresponding points marked in a picture.
 const MARKS: usize = 8;
 
-/// The families that are asked for.
+/// The requested families.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReplaceableOptions {
-    /// Zero, relative to the size of the body, and the seed.
+    /// The threshold for zero, relative to the size of the body, and the seed.
     pub search: ComponentOptions,
-    /// Only this family, counted from 0; all of them when absent.
+    /// Only this family, counted from 0; default: all families.
     pub family: Option<usize>,
-    /// Random legs of each family.
+    /// Number of random legs of each family.
     pub samples: u64,
 }
 
 impl ReplaceableOptions {
-    /// All families, without random legs.
+    /// Options for all families, without random legs.
     #[must_use]
     pub fn all(search: ComponentOptions) -> Self {
         Self { search, family: None, samples: 0 }
     }
 }
 
-/// Why there are no families.
+/// The reason why there are no families.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoReplaceableLegs {
     /// The search failed.
@@ -48,7 +48,7 @@ pub enum NoReplaceableLegs {
         name: String,
         /// The number of its families.
         count: usize,
-        /// The number asked for, from 1.
+        /// The requested number, from 1.
         number: usize,
     },
     /// No legs can be drawn from a family.
@@ -59,7 +59,7 @@ pub enum NoReplaceableLegs {
 /// A family with the legs drawn from it.
 #[derive(Debug, Clone)]
 pub struct ReplaceableFamily {
-    /// Its place in the list of all families, from 0.
+    /// Its index in the list of all families, from 0.
     pub index: usize,
     /// Random legs.
     pub samples: Vec<SampledLeg>,
@@ -70,9 +70,9 @@ pub struct ReplaceableFamily {
 pub struct ReplaceableLegs {
     /// All families, with the pairs of flats and the curves in them.
     pub found: Components,
-    /// The families asked for.
+    /// The requested families.
     pub families: Vec<ReplaceableFamily>,
-    /// How they were searched.
+    /// The options of the search.
     pub search: ComponentOptions,
 }
 
@@ -96,7 +96,7 @@ impl Design {
         };
         let mut families = Vec::with_capacity(wanted.len());
         for index in wanted {
-            // a stream of its own for each family: `family` does not change the legs
+            // each family has its own stream, so that `family` does not change the legs
             let mut rng = Purpose::SAMPLED_LEGS.item(options.search.seed, index as u64);
             let mut samples = Vec::new();
             for _ in 0..options.samples {
@@ -109,7 +109,7 @@ impl Design {
 }
 
 impl ReplaceableLegs {
-    /// The curves in all pairs of planes, those with most legs first, or in one (`pair`, counted from 0).
+    /// The curves in all pairs of planes, those with the most legs first, or only in `pair`, counted from 0.
     ///
     /// # Errors
     /// There is no such pair of planes.
@@ -134,7 +134,7 @@ impl ReplaceableLegs {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no such pair of planes; pairs of flats: {}", pairs.join(", "))]
 pub struct NoPlanes {
-    /// The pairs of flats that there are, with their numbers from 1.
+    /// The existing pairs of flats, with their numbers from 1.
     pub pairs: Vec<String>,
 }
 
@@ -150,7 +150,7 @@ fn both(design: &Design, found: &Components, planes: &PlanePair, seed: u64) -> [
         for l in legs {
             let at = coordinates(curve, &end(l));
             let number = (l.get() + 1).to_string();
-            // shared joints carry all their leg numbers
+            // a shared joint carries the numbers of all its legs
             match marks.iter_mut().find(|m| (m.at[0] - at[0]).hypot(m.at[1] - at[1]) <= limit) {
                 Some(mark) => {
                     mark.label.push(' ');
@@ -200,7 +200,7 @@ fn coordinates(curve: &PlaneCurve, p: &Point3<f64>) -> [f64; 2] {
     curve.axes.map(|a| a.dot(&d) / a.norm())
 }
 
-/// Legs of the families between the planes, near enough to be shown.
+/// Legs of the families between the planes, near enough to be drawn.
 fn partners(found: &Components, planes: &PlanePair, seed: u64) -> Vec<(Point3<f64>, Point3<f64>)> {
     let pair = &found.pairs[planes.pair];
     let inside = |c: &&Component| c.support.iter().all(|l| pair.legs.contains(l)) && c.exact != Some(false);

@@ -21,19 +21,19 @@ use machine::requirements::{Requirements, Reserve, VariableKind};
 use optimize::dimensional::{self, DimensionalProblem, Progress, ShapeSearchOptions};
 use platform::manipulator::{Body, Manipulator};
 
-/// Share of the inverse condition number that an exact rounding has to keep to be chosen, where nothing is said.
+/// Default share of the inverse condition number that an exact rounding must keep to be chosen.
 pub const KEEP: f64 = 0.9;
-/// Triangles of each body that are combined in the first search.
+/// Number of triangles of each body that are combined in the first search.
 pub const CANDIDATES: u32 = 40;
-/// Random poses for the error of the nearest rounding.
+/// Number of random poses for the error of the nearest rounding.
 pub const TRIALS: u32 = 500;
 
-/// Grids, and how much is looked at.
+/// The grids, and the effort of the search.
 #[derive(Debug, Clone, Copy)]
 pub struct RoundingChoices {
-    /// Of base and platform; `None` where the joints of the plate stay.
+    /// The grids of base and platform; `None` if the joints of the plate stay in place.
     pub grids: [Option<Grid>; 2],
-    /// Whether origins and angles are chosen too.
+    /// Whether origins and angles of the grids are optimised too.
     pub free: bool,
     /// See [`RoundingProblem::keep`].
     pub keep: f64,
@@ -48,7 +48,7 @@ pub struct RoundingChoices {
 }
 
 impl RoundingChoices {
-    /// What is usual on these grids.
+    /// The usual choices for these grids.
     pub fn on(grids: &[Option<Grid>; 2], seed: u64) -> Self {
         let tool = Point3::origin();
         let (candidates, trials) = (CANDIDATES as usize, TRIALS as usize);
@@ -56,19 +56,19 @@ impl RoundingChoices {
     }
 }
 
-/// Which rounding.
+/// The kind of rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "VariantWord")]
 pub enum RoundingWay {
     /// All joints exactly on the sides of two triangles.
     Exact,
-    /// All joints on holes next to where they are wanted.
+    /// All joints on holes near their given positions.
     Nearest,
 }
 
 impl RoundingWay {
-    /// The word: `"exact"` or `"nearest"`.
+    /// The code: `"exact"` or `"nearest"`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -79,7 +79,7 @@ impl RoundingWay {
 }
 
 impl Design {
-    /// Both roundings of the design, judged at the poses of the grid of its workspace.
+    /// Both roundings of the design, evaluated at the poses of its workspace grid.
     ///
     /// # Errors
     /// [`NoRounding`].
@@ -107,7 +107,7 @@ impl Design {
         })
     }
 
-    /// This design with its joints on the holes of grids, where a rounding has put them.
+    /// This design with its joints on the holes of grids, as placed by a rounding.
     pub fn on_holes(&self, way: RoundingWay, m: &Manipulator, grids: &[Option<Grid>; 2]) -> Self {
         let plain = DesignModel::new(format!("{}, rounded", self.name), self.units.clone(), m.clone());
         let (base, platform) = (self.base_names().to_vec(), self.platform_names().to_vec());
@@ -125,16 +125,16 @@ impl Design {
     }
 }
 
-/// A grid in words, or that the joints of the plate stay.
+/// A grid in words, or the statement that the joints of the plate stay in place.
 pub fn grid_in_words(grid: Option<&Grid>) -> String {
     grid.map_or_else(|| "no grid, its joints stay".into(), Grid::to_string)
 }
 
-/// The joints of a body as the decimals that the holes of the grid are, of which doubles are only near: the third hole
-/// of pitch 0.1 is at 0.3.
+/// The joints of a body as the exact decimals of the grid's holes; doubles only approximate them. For example, the
+/// third hole of pitch 0.1 is at 0.3.
 ///
-/// `None` where doubles are the holes (whole pitches), where the pitch is no short decimal, and where the axes of the
-/// grid are not those of the body, so that the coordinates are no decimals.
+/// `None` if the doubles are exact (whole pitches), or if the coordinates are no short decimals. The latter holds for a
+/// long pitch, and for grid axes that differ from the body axes.
 fn decimals(grid: &Grid, joints: &[Point3<f64>]) -> Option<Vec<[String; 3]>> {
     // without an exponent, with the fewest digits
     let places = |x: f64| x.to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
@@ -142,7 +142,7 @@ fn decimals(grid: &Grid, joints: &[Point3<f64>]) -> Option<Vec<[String; 3]>> {
     let height = joints.first()?.z;
     let level = joints.iter().all(|p| p.z.total_cmp(&height).is_eq());
     let plain = grid.angle_deg == 0.0 && grid.pattern == HolePattern::Square;
-    // below this every decimal with so many places has its own double, with room for errors of rounding
+    // below this bound every decimal with this number of places has its own double, with some space for rounding errors
     let largest = 10f64.powi(14 - i32::try_from(digits).ok()?);
     let apart = joints.iter().all(|p| p.x.abs().max(p.y.abs()) < largest);
     let shown =
@@ -150,15 +150,15 @@ fn decimals(grid: &Grid, joints: &[Point3<f64>]) -> Option<Vec<[String; 3]>> {
     (digits > 0 && level && plain && apart).then(|| joints.iter().map(shown).collect())
 }
 
-/// What has to be done again where rounding breaks a limit: the search that found the platform.
+/// The search that found the platform; it is repeated if rounding violates a limit.
 #[cfg(feature = "optimize")]
 #[derive(Debug, Clone, Copy)]
 pub struct FirstSearch<'a> {
-    /// The design that it began with.
+    /// The design at its start.
     pub design: &'a Design,
     /// Its problem.
     pub problem: &'a DimensionalProblem,
-    /// Where it ended, in its variables.
+    /// Its result, in its variables.
     pub point: &'a [f64],
 }
 
@@ -168,28 +168,28 @@ pub struct FirstSearch<'a> {
 pub struct DesignOnHoles {
     /// The platform that was rounded.
     pub wanted: Design,
-    /// The grids and how much was looked at.
+    /// The grids and the effort of the search.
     pub choices: RoundingChoices,
     /// Both roundings of it.
     pub rounding: Rounding,
-    /// The platform on the holes, by which way; `None` where there is none.
+    /// The platform on the holes, with the kind of rounding; `None` if there is none.
     pub found: Option<(RoundingWay, Design)>,
-    /// What [`Design::assess`] says of it; `None` without one, or where nothing is required.
+    /// The result of [`Design::assess`] for this platform; `None` without a platform or requirements.
     pub assessed: Option<AssessReport>,
-    /// What was chosen again after rounding.
+    /// The variables optimised again after rounding.
     pub refitted: Vec<VariableKind>,
-    /// How often a platform was sought and rounded: 1 where the first one was good.
+    /// Number of passes of search and rounding; 1 if the first was good.
     pub passes: usize,
 }
 
-/// Most platforms that are sought and rounded.
+/// Greatest number of passes of search and rounding.
 #[cfg(feature = "optimize")]
 const PASSES: usize = 3;
-/// By how much more than what was missed a reserve grows.
+/// The factor from a violation to the growth of the safety margin.
 #[cfg(feature = "optimize")]
 const GROWTH: f64 = 1.25;
 
-/// Requirements met, then reserves kept: proved 2, not known 1, refuted 0.
+/// The rank of a result: requirements met, then safety margins kept; proved 2, undecided 1, refuted 0.
 #[cfg(feature = "optimize")]
 fn rank(assessed: Option<&AssessReport>) -> [u8; 2] {
     let known = |x: Option<bool>| x.map_or(1, |x| if x { 2 } else { 0 });
@@ -202,19 +202,19 @@ impl DesignOnHoles {
         if self.found.is_some() { rank(self.assessed.as_ref()) } else { [0, 0] }
     }
 
-    /// Whether the platform on the holes meets its requirements: proved either way, or `None`; `Some(true)` where
-    /// nothing is required.
+    /// Whether the platform on the holes is proved to meet its requirements; `None`: undecided; `Some(true)` without
+    /// requirements.
     pub fn met(&self) -> Option<bool> {
         self.assessed.as_ref().map_or(Some(true), AssessReport::met)
     }
 }
 
-/// Puts the joints of a platform on the holes that its design states: rounds, chooses again what holes leave free
-/// (height of home, axes of joints) where the reserve is not kept, and begins anew with larger reserves where a limit
-/// is violated. The best of all is the answer.
+/// Puts the joints of a platform on the holes that its design states. After rounding, it optimises the free variables
+/// again (height of home, joint axes) if a safety margin is violated. If a limit is violated, it starts again with
+/// larger safety margins. The answer is the best result.
 ///
 /// # Errors
-/// [`Error`] of a search that cannot be asked; [`NoRounding`] inside where the grids cannot be used.
+/// [`Error`] of an invalid search; [`NoRounding`] inside if the grids are unusable.
 #[cfg(feature = "optimize")]
 pub fn on_stated_holes(
     wanted: &Design,
@@ -251,7 +251,7 @@ pub fn on_stated_holes(
     Ok(Ok(best))
 }
 
-/// Reserves that have room for what was missed too.
+/// Enlarges the safety margins by the violations found.
 #[cfg(feature = "optimize")]
 fn widen(required: &mut Requirements, missed: &AssessReport) {
     for bound in &missed.proof.bounds {
@@ -264,7 +264,7 @@ fn widen(required: &mut Requirements, missed: &AssessReport) {
     }
 }
 
-/// Rounds once, and chooses again what is free where that misses something.
+/// Rounds once, and optimises the free variables again if a limit or safety margin is violated.
 #[cfg(feature = "optimize")]
 fn round_once(
     wanted: &Design,
@@ -280,7 +280,7 @@ fn round_once(
     let exact = rounding.exact.as_ref().ok().map(|e| (RoundingWay::Exact, &e.manipulator));
     let nearest = rounding.nearest.as_ref().ok().map(|n| (RoundingWay::Nearest, &n.manipulator));
     let mut best: Option<(RoundingWay, Fitted)> = None;
-    // joints stay on their lines where that meets the requirements
+    // joints stay on their lines if this meets the requirements
     for (way, m) in [exact, nearest].into_iter().flatten() {
         let fitted = fit(wanted.on_holes(way, m, grids), options, progress)?;
         if best.as_ref().is_none_or(|(_, old)| rank(fitted.1.as_ref()) > rank(old.1.as_ref())) {
@@ -298,12 +298,12 @@ fn round_once(
     Ok(Ok(DesignOnHoles { wanted, choices, rounding, found, assessed, refitted, passes: 1 }))
 }
 
-/// A design, what `assess` says of it, what was chosen again.
+/// A design, its assessment, and the variables optimised again.
 #[cfg(feature = "optimize")]
 type Fitted = (Design, Option<AssessReport>, Vec<VariableKind>);
 
-/// The design with what its holes leave free chosen again where it misses a limit or a reserve; as it is where that is
-/// no better.
+/// The design with the free variables optimised again, if it violates a limit or a safety margin; unchanged if that
+/// brings no gain.
 #[cfg(feature = "optimize")]
 fn fit(
     design: Design,

@@ -1,4 +1,4 @@
-//! With which curves of poses does the platform move while all legs are locked?
+//! The curves of poses on which the platform moves while all legs are locked.
 
 use thiserror::Error;
 
@@ -11,44 +11,44 @@ use synthesis::singularity::{
     curve_degree, rounds_to_singular, self_motion,
 };
 
-/// What the curves begin with.
+/// The start of the curves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MotionStart {
-    /// A pose, whose leg lengths are kept.
+    /// A pose; its leg lengths are kept.
     Pose(Pose),
-    /// Leg lengths, at which all real components are looked for.
+    /// Leg lengths; all their real components are searched for.
     Lengths(SquaredLegLengths),
 }
 
-/// Which curves are looked for.
+/// The curves to search for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SelfMotionOptions {
-    /// What they begin with.
+    /// The start of the curves.
     pub start: MotionStart,
-    /// Random sections by which all curves over the complex numbers are cut; 0 follows only what hangs together with
+    /// Number of random sections that cut all curves over the complex numbers; 0 traces only the curves connected to
     /// the pose.
     pub sections: u64,
-    /// How finely curves are followed, and the seed.
+    /// The step sizes of tracing, and the seed.
     pub motion: MotionOptions,
 }
 
-/// How the first pose of a curve was found.
+/// The origin of the first pose of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "OriginWord")]
 pub enum MotionOrigin {
-    /// It was given.
+    /// The given pose.
     Pose,
-    /// On a section of the set of poses.
+    /// A point on a section of the set of poses.
     Section,
-    /// As a critical point.
+    /// A critical point.
     CriticalPoint,
-    /// By a search.
+    /// A search.
     Search,
 }
 
 impl MotionOrigin {
-    /// The word.
+    /// The code of the origin.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -60,18 +60,18 @@ impl MotionOrigin {
     }
 }
 
-/// Why no curve is looked for.
+/// The reason why no curve is searched for.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoSelfMotion {
-    /// The exact joints are regular and their doubles singular.
+    /// The exact joints are regular, but their nearest doubles are singular.
     #[error(
         "{0} is regular, proved about the exact joints, but their doubles are singular: curves are followed in doubles, and would be those of another design"
     )]
     BeyondDoubles(String),
-    /// A leg without a length at the pose.
+    /// At the pose a leg has no length.
     #[error("the leg lengths at this pose are not finite positive numbers")]
     NoLengths,
-    /// Lengths without sections leave no pose to start from.
+    /// Lengths without sections give no pose to start from.
     #[error("no sections leave no pose to start from: with lengths the curves are found by sections")]
     NoStart,
     /// Forward kinematics failed.
@@ -82,22 +82,22 @@ pub enum NoSelfMotion {
 /// The curves of poses with constant leg lengths.
 #[derive(Debug, Clone)]
 pub struct SelfMotionReport {
-    /// The pose given.
+    /// The given pose.
     pub start: Option<Pose>,
     /// The squared leg lengths.
     pub squares: SquaredLegLengths,
-    /// Of the motion through the pose, or of the poses with the lengths, also where no real pose is on them; `None`:
-    /// undecided.
+    /// The dimension of the motion through the pose, or of the set of poses with the lengths, even without real poses.
+    /// `None`: undecided.
     pub dimension: Option<usize>,
     /// The curves.
     pub motion: SelfMotion,
-    /// Of every starting pose.
+    /// The origin of every starting pose.
     pub origins: Vec<MotionOrigin>,
-    /// Real poses on surfaces and sets of higher dimension, which are not followed.
+    /// Real poses on surfaces and sets of higher dimension, which are not traced.
     pub real_poses: Vec<Pose>,
-    /// Critical points of a distance on the curves, where they were looked for.
+    /// Critical points of a distance on the curves, if they were searched for.
     pub critical: Option<CriticalPoses>,
-    /// Whether, numerically, no real component is missing; `None` when no search was made.
+    /// Whether every real component is accounted for, numerically; `None`: no search was made.
     pub accounted: Option<bool>,
 }
 
@@ -115,13 +115,13 @@ impl SelfMotionReport {
                 Some(true)
             }
             Some(1) if self.start.is_none() && self.accounted == Some(true) => Some(false),
-            // it moves, over a surface or more
+            // the platform moves on a surface or a set of higher dimension
             Some(d) if d > 1 && !self.origins.is_empty() => Some(true),
             _ => None,
         }
     }
 
-    /// The degree of each curve over the complex numbers, which takes longer than following it.
+    /// The degree of each curve over the complex numbers, which takes longer to compute than the curve.
     #[must_use]
     pub fn degrees(&self, design: &Design, seed: u64) -> Vec<Option<CurveDegree>> {
         let degree = |curve: &MotionCurve| {
@@ -172,7 +172,7 @@ impl Design {
                 accounted = Some(found.is_accounted() && cut.established);
                 critical = Some(found);
             } else {
-                // surfaces are not followed: a real pose on each real component that was met has to do
+                // surfaces are not traced; one real pose of each real component found has to suffice
                 starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Search)));
                 // no search counts the components of a surface
                 let counted = cut.dimension == 0 || start.is_some();
@@ -200,10 +200,10 @@ impl Design {
 
 /// Points on random sections of the poses with these lengths, over the complex numbers.
 struct PoseSections {
-    /// Of the set: 0 when it is empty or isolated poses only.
+    /// The dimension of the set: 0 if it is empty or holds isolated poses only.
     dimension: usize,
     points: Vec<FkRoot>,
-    /// The relation between the legs is proved, and all points of every section were found.
+    /// Whether the relation between the legs is proved, and all points of every section were found.
     established: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Which poses are singular: det J at poses, along paths of poses, and over a region of poses?
+//! Singular poses: det J at poses, along paths of poses, and over a region of poses.
 
 use thiserror::Error;
 
@@ -11,20 +11,20 @@ use synthesis::singularity::{
     regular_box, regular_workspace, signs_along,
 };
 
-/// Values of det J on each straight part of a path.
+/// Number of values of det J on each straight part of a path.
 const STEPS: usize = 100;
 
-/// What is asked of the poses around one.
+/// The options of the singular poses around a pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SingularPosesOptions {
-    /// The pose in the middle.
+    /// The pose in the centre.
     pub pose: Pose,
-    /// Lengths at which all assembly modes are judged; those of the pose when absent.
+    /// Lengths for which all assembly modes are evaluated; default: the lengths at the pose.
     pub lengths: Option<LegLengths>,
-    /// Half widths of a box of poses: positions, design units, and components of the rotation vector, degrees. Absent:
+    /// Half widths of a box of poses: positions, design units, and components of the rotation vector, degrees. Default:
     /// the workspace of the design.
     pub half_widths: Option<[[f64; 3]; 2]>,
-    /// Cells of poses that a proof may take.
+    /// Greatest number of cells of a proof.
     pub cells: usize,
     /// The seed.
     pub seed: u64,
@@ -35,18 +35,18 @@ pub struct SingularPosesOptions {
 pub struct PoseFigures {
     /// The pose.
     pub pose: Pose,
-    /// `det J` of the leg lines, lengths over the size.
+    /// `det J` of the leg lines, with lengths divided by the size.
     pub determinant: f64,
-    /// Of the Jacobian with unit lines and the characteristic length of the design.
+    /// Inverse condition number of the Jacobian, with unit lines and the characteristic length of the design.
     pub inverse_condition: f64,
-    /// The two conditions of four planes in one point, of octahedral designs.
+    /// The two conditions for four planes through one point, for octahedral designs.
     pub four_planes: Option<[f64; 2]>,
 }
 
-/// Why poses are not judged.
+/// The reason why poses are not evaluated.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoSingularPoses {
-    /// A leg without a length at the pose.
+    /// At the pose a leg has no length.
     #[error("the leg lengths at this pose are not finite positive numbers")]
     NoLengths,
     /// Forward kinematics failed.
@@ -57,25 +57,25 @@ pub enum NoSingularPoses {
 /// Singular poses around a pose.
 #[derive(Debug, Clone)]
 pub struct SingularPosesReport {
-    /// The lengths of the modes.
+    /// The lengths of the assembly modes.
     pub lengths: LegLengths,
-    /// The pose in the middle.
+    /// The pose in the centre.
     pub middle: PoseFigures,
     /// All real poses with the lengths.
     pub modes: Vec<PoseFigures>,
-    /// False: some may be missing.
+    /// Whether the list of modes is complete.
     pub modes_complete: bool,
     /// The shape of the region.
     pub options: BoxOptions,
-    /// The largest region of that shape that is proved to hold no singular pose.
+    /// The largest region of this shape that is proved to be regular.
     pub regular: RegularBox,
-    /// Whether the workspace, or the box asked about, is free of singular poses, and the cells that took.
+    /// Whether the workspace, or the given box, is regular, and the number of cells of the proof.
     pub safe: Option<(Regularity, usize)>,
 }
 
 impl SingularPosesReport {
-    /// Whether the region asked about is free of singular poses; `None`: undecided. Of a box of no particular size:
-    /// whether some box is.
+    /// Whether the given region is regular; `None`: undecided. Without a region of given size, whether some box is
+    /// proved regular.
     #[must_use]
     pub fn is_regular(&self) -> Option<bool> {
         match &self.safe {
@@ -84,11 +84,10 @@ impl SingularPosesReport {
         }
     }
 
-    /// det J on straight paths from one mode over poses to another one. Modes count from 1; 0 is the pose in the
-    /// middle.
+    /// det J on straight paths from one mode through poses to another. Modes count from 1; 0 is the pose in the centre.
     ///
     /// # Errors
-    /// The number of a mode that there is not.
+    /// The number of a mode that does not exist.
     pub fn path(&self, design: &Design, ends: [usize; 2], via: &[Pose]) -> Result<SignPath, usize> {
         let end = |k: usize| match k.checked_sub(1) {
             None => Ok(self.middle.pose),
@@ -109,7 +108,7 @@ impl SingularPosesReport {
         Ok(SignPath { ends, poses, parts, values })
     }
 
-    /// All pairs of modes, and a search by random poses for paths between those of equal sign.
+    /// All pairs of modes, and a search by random poses for paths between modes of equal sign.
     #[must_use]
     pub fn between(&self, design: &Design, options: &JoinOptions) -> SignsBetween {
         let m = design.manipulator();
@@ -129,12 +128,12 @@ pub struct SignPath {
     pub poses: Vec<Pose>,
     /// The signs on each straight part.
     pub parts: Vec<SignsAlong>,
-    /// `(part, u, pose, det J)`.
+    /// Sampled values `(part, u, pose, det J)`.
     pub values: Vec<(usize, f64, Pose, f64)>,
 }
 
 impl SignPath {
-    /// Whether det J is proved to keep its sign (`true`), proved to change it (`false`), or neither.
+    /// Whether det J keeps its sign (`true`) or changes it (`false`), both proved; `None`: neither.
     #[must_use]
     pub fn keeps_sign(&self) -> Option<bool> {
         if self.parts.iter().all(|s| s.kept().is_some()) {
@@ -144,17 +143,17 @@ impl SignPath {
     }
 }
 
-/// Straight paths of all pairs of modes, and groups of modes that paths without singular pose join.
+/// The straight paths between all pairs of modes, and the groups of modes joined by regular paths.
 #[derive(Debug, Clone)]
 pub struct SignsBetween {
     /// The modes of a pair, from 0, with the signs between them.
     pub straight: Vec<([usize; 2], SignsAlong)>,
-    /// Signs of the modes, groups, and the paths that join them.
+    /// Signs of the modes, groups, and paths that join them.
     pub joined: Joined,
 }
 
 impl SignsBetween {
-    /// Whether some path without singular pose joins two modes; `None`: none was found.
+    /// Whether some regular path joins two modes; `None`: none was found.
     #[must_use]
     pub fn joins(&self, i: usize, j: usize) -> Option<bool> {
         if self.joined.groups.iter().any(|g| g.contains(&i) && g.contains(&j)) {
@@ -168,7 +167,7 @@ impl SignsBetween {
 }
 
 impl Design {
-    /// det J at a pose and at all assembly modes, and the region around the pose that holds no singular pose.
+    /// det J at a pose and at all assembly modes, and the largest proved regular region around the pose.
     ///
     /// # Errors
     /// [`NoSingularPoses`].

@@ -1,18 +1,17 @@
-//! A file that appears whole or not at all: every file of the library and of the program is written here.
+//! Writes files so that they appear whole or not at all; the library and the program write every file here.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The beginning and the end of the name that a file has until it is whole.
+/// The beginning and the end of the temporary name of a file.
 const PART: (&str, &str) = (".", ".part");
 
-/// A file beside its place, under a name of its own, until [`finish`](Self::finish) puts it there; dropped before that
-/// it is gone.
+/// A file under a temporary name beside its place, until [`finish`](Self::finish) moves it there; dropping it earlier
+/// deletes it.
 ///
-/// The name `.NAME.RANDOM.part` belongs to nobody else, whatever number a process has and however many machines write
-/// into one folder.
+/// The name `.NAME.RANDOM.part` is unique for any number of processes and machines that write into one folder.
 #[derive(Debug)]
 pub struct WholeFile {
     part: tempfile::NamedTempFile,
@@ -20,10 +19,10 @@ pub struct WholeFile {
 }
 
 impl WholeFile {
-    /// Begins the file for a path; where a link stands, the file that it points to will be replaced.
+    /// Begins the file for a path; at a link, the file that it points to will be replaced.
     ///
     /// # Errors
-    /// A folder where no file can be made.
+    /// A folder in which no file can be made.
     pub fn begin(path: &Path) -> io::Result<Self> {
         let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let mut name = OsString::from(PART.0);
@@ -31,7 +30,7 @@ impl WholeFile {
         name.push(".");
         let mut make = tempfile::Builder::new();
         make.prefix(&name).suffix(PART.1);
-        // what any new file gets, and not a file for this user alone
+        // the usual permissions of a new file, rather than those of a private one
         #[cfg(unix)]
         make.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let part = make.tempfile_in(folder_of(&target))?;
@@ -43,11 +42,10 @@ impl WholeFile {
         self.part.as_file()
     }
 
-    /// Makes sure that all of it is on the disk, and puts it in its place with the permissions of the file that stood
-    /// there.
+    /// Flushes all data to the disk, and moves the file to its place with the permissions of the file it replaces.
     ///
     /// # Errors
-    /// A disk that is full, a target that cannot be replaced.
+    /// A full disk, or a target that cannot be replaced.
     pub fn finish(self) -> io::Result<()> {
         let Self { part, target } = self;
         part.as_file().sync_all()?;
@@ -55,7 +53,7 @@ impl WholeFile {
             part.as_file().set_permissions(old.permissions())?;
         }
         part.persist(&target).map_err(|failed| failed.error)?;
-        // the name is on the disk too where the system can say so of a folder
+        // flush the name to the disk too, if the system can do so for a folder
         #[cfg(unix)]
         let _ = File::open(folder_of(&target)).and_then(|folder| folder.sync_all());
         Ok(())
@@ -64,7 +62,7 @@ impl WholeFile {
     /// Writes bytes as a whole file.
     ///
     /// # Errors
-    /// As of [`begin`](Self::begin) and [`finish`](Self::finish).
+    /// The errors of [`begin`](Self::begin) and [`finish`](Self::finish).
     pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let whole = Self::begin(path)?;
         io::Write::write_all(&mut whole.file(), bytes)?;
@@ -76,7 +74,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The file that a name is a part of, left by a run that was killed.
+/// The final name of a temporary file that a killed run has left.
 pub fn part_of(name: &OsStr) -> Option<&str> {
     let inner = name.to_str()?.strip_prefix(PART.0)?.strip_suffix(PART.1)?;
     let (file, random) = inner.rsplit_once('.')?;
@@ -98,7 +96,7 @@ mod tests {
             names.sort();
             names
         };
-        // a part that a killed run has left, and two writers at once, are in nobody's way
+        // neither a leftover of a killed run nor a second writer disturbs
         std::fs::write(folder.path().join(".a.toml.1.part"), "half").unwrap();
         let (first, second) = (WholeFile::begin(&path).unwrap(), WholeFile::begin(&path).unwrap());
         io::Write::write_all(&mut first.file(), b"first").unwrap();

@@ -1,4 +1,4 @@
-//! `equipod assess`: by how much a design meets its requirements.
+//! `equipod assess`: the margins of a design's requirements.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use records::AssessAnswer;
 pub(crate) struct AssessArgs {
     /// Design file (.toml or .json) with the tables home, workspace and hardware
     design: PathBuf,
-    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
+    /// Number of Halton points in the region of poses; as many random points are added
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     points: u32,
     /// Number of steps between two poses of a trajectory
@@ -25,8 +25,8 @@ pub(crate) struct AssessArgs {
     /// Number of local searches for the worst pose of each requirement
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are
-    /// bounded for a proof; default: 6000, and 60000 for a requirement that these leave undecided
+    /// Greatest number of workspace cells for the proof of each kind of requirement, and of det J; default: 6000, and
+    /// 60000 for undecided requirements
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
     cells: Option<u32>,
 }

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Fai
     Ok(Answer::new(exit, answer, sheet))
 }
 
-/// The verdict with its level; a singular design that may have been meant is named here, with its distance.
+/// The verdict with its level; it names a singular design that may have been meant, with its distance.
 fn headline(found: &CheckReport) -> String {
     let name = &found.design.name;
     match (&found.verdict.meant, found.is_singular()) {

@@ -1,4 +1,4 @@
-//! `equipod compare`: designs side by side.
+//! `equipod compare`: a table of several designs.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -28,30 +28,30 @@ pub(crate) struct CompareArgs {
     /// Design files (.toml or .json), all in the same units
     #[arg(value_name = "DESIGN", required = true, num_args = 1..)]
     designs: Vec<PathBuf>,
-    /// A sine about home along which forces, speeds and powers are taken, as often as there are some
+    /// Sine about home for forces, speeds and powers; repeat for several
     #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
     sine: Vec<String>,
-    /// An acceleration from rest at home, design units or degrees per second squared, as often as there are some
+    /// Acceleration from rest at home, design units or degrees per second squared; repeat for several
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// Accuracy of the pose for which joints are toleranced: of the platform origin and of the orientation
+    /// Accuracy for joint tolerances: of the platform origin, design units, and of the orientation, degrees
     #[arg(long, value_name = "LENGTH,DEG")]
     accuracy: Option<String>,
-    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
+    /// Number of Halton points in the region of poses; as many random points are added
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     points: u32,
-    /// Write the table, a design a line
+    /// Write the table as CSV, one design on each line
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
-    /// Write the table with pictures as one HTML page that can be sorted
+    /// Write the table with pictures as one sortable HTML page
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }
 
-/// Instants of a period of a sine.
+/// Number of instants in a period of a sine.
 const SAMPLES: usize = 120;
 
-/// What is asked of all designs.
+/// The question put to all designs.
 pub(super) struct CompareQuestion {
     motions: Vec<(String, Manoeuvre)>,
     accuracy: Option<ErrorBound>,
@@ -60,7 +60,7 @@ pub(super) struct CompareQuestion {
 }
 
 impl CompareQuestion {
-    /// Figures alone, for the report.
+    /// Only the figures, for the report.
     pub(super) fn plain(points: usize) -> Self {
         Self { motions: Vec::new(), accuracy: None, points, seed: 1 }
     }
@@ -155,7 +155,7 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &CompareQuestion) -> 
         let home = design.home_or_default();
         let motions: Vec<PlatformMotion> =
             asked.motions.iter().map(|(_, m)| PlatformMotion::Manoeuvre(*m, home, SAMPLES)).collect();
-        // a unit that is no length has no forces in motion
+        // no forces in motion if the unit is no length
         let masses =
             LengthUnit::of(&design.units).ok().and_then(|unit| design.motion_masses(unit.metres, None));
         let length = out.answer.characteristic_length;
@@ -173,7 +173,7 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &CompareQuestion) -> 
     Ok(out)
 }
 
-/// The legs to draw at a pose: rods from the tips of cranks that reach.
+/// The legs to draw at a pose; for cranks, rods from their tips as far as they reach.
 fn drawn(design: &Design, pose: &Pose) -> Manipulator {
     let tips = design.rotary().ok().flatten().and_then(|platform| {
         let angles = platform.ik(pose).ok()?;
@@ -182,7 +182,7 @@ fn drawn(design: &Design, pose: &Pose) -> Manipulator {
     tips.unwrap_or_else(|| design.manipulator().clone())
 }
 
-/// A line for every design.
+/// The table as CSV, one line for each design.
 fn csv(answer: &CompareAnswer) -> String {
     let columns = answer.columns();
     let mut header = vec!["name".to_string(), "path".to_string()];

@@ -26,16 +26,16 @@ pub(crate) struct ExportArgs {
     /// Formats, separated by commas, or `all`
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true, value_parser = PossibleValuesParser::new(names()))]
     to: Vec<String>,
-    /// Folder to write into; it is made where it does not exist
+    /// Folder for the files; made if missing
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
+    /// Length unit of the design, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units
     #[arg(long, value_name = "LENGTH", value_parser = number)]
     thickness: Option<f64>,
-    /// Distance of the outline of a plate from the hull of its joints, design units
+    /// Distance from the joints' hull to the outline of a plate, design units
     #[arg(long, value_name = "LENGTH", value_parser = number)]
     margin: Option<f64>,
     /// Diameter of the holes under the joints, design units
@@ -44,22 +44,22 @@ pub(crate) struct ExportArgs {
     /// Diameter of the balls, design units
     #[arg(long, value_name = "LENGTH", value_parser = number)]
     ball_diameter: Option<f64>,
-    /// Greatest allowed error of the tool point and of the orientation: hole plans and tables then say how far the
-    /// joints may be off, as `build tolerances` does
+    /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees. Adds joint tolerances
+    /// to hole plans and tables, as `build tolerances`
     #[arg(long, value_name = "LENGTH,DEG")]
     bound: Option<String>,
-    /// Tool point whose position counts, platform frame
+    /// Tool point, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Mass of the platform with its payload in the simulation, kilograms
+    /// Mass of platform and payload in the simulation, kilograms
     #[arg(long, value_name = "KG")]
     mass: Option<f64>,
-    /// Let the simulator carry the weight of all bodies
+    /// Compensate the weight of all bodies in the simulator
     #[arg(long)]
     gravity_compensation: bool,
 }
 
-/// The names `--to` takes.
+/// The names accepted by `--to`.
 fn names() -> Vec<&'static str> {
     ExportFormat::ALL.map(ExportFormat::name).into_iter().chain(["all"]).collect()
 }
@@ -84,10 +84,10 @@ fn refusal(why: &NoExport) -> Failure {
     }
 }
 
-/// A design for all formats, sizes by the design and by rule.
+/// A design for all formats, with sizes from the design and by default rules.
 ///
 /// # Errors
-/// Exit 2: units that are no lengths, sizes that nothing can be made of.
+/// Exit 2: a unit that is no length, or unusable sizes.
 pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
     Export::of(design, &ExportOptions::default()).map_err(|why| match why {
         NoExport::Unit(_) => refusal(&why).with_help("name a unit of length, such as `units = \"mm\"`"),
@@ -95,7 +95,7 @@ pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
     })
 }
 
-/// The formats asked for, each once, in the order of the list.
+/// The requested formats, each once, in the order of the list.
 fn wanted(args: &ExportArgs) -> Vec<&'static dyn Writer> {
     let all = args.to.iter().any(|t| t == "all");
     let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
@@ -106,8 +106,7 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
     Ok(files::write_into(folder, &file.name, &file.text)?.display().to_string())
 }
 
-/// The diameter in which the centre of each hole has to lie, where an accuracy is asked for: the joints are where their
-/// holes are.
+/// The diameter of the zone for the centre of each hole, if an accuracy is requested: joints are at their holes.
 fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
     let Some(bound) = &args.bound else {
         context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
@@ -120,13 +119,13 @@ fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<
     Ok(Some(2.0 * radius))
 }
 
-/// Writes every format that can hold the design; exit 1 when one cannot.
+/// Writes every format that can hold the design; exit 1 if one cannot.
 pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
     if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.takes_coupled())) {
-        // cranks and joints that are not ideal are refused with the place in the file: no format asked for holds them,
-        // or their tolerances are not known
+        // refuses cranks and joints that are not ideal at their place in the file: either no requested format holds
+        // them, or their tolerances are unknown
         context.load(&args.design)?;
     }
     let asked = |formats: &[ExportFormat]| {
@@ -167,7 +166,7 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         let (name, purpose) = (format.name().into(), format.purpose().into());
         formats.push(FormatRecord { format: name, purpose, files, outcome });
     }
-    // what is assessed are legs that change their lengths
+    // only legs that change their lengths are assessed
     let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
     let assessment = assessment.map(|found| if simulated { found.without_assumptions() } else { found });
     let lead = if design.has_cranks() {
@@ -191,7 +190,7 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
     Ok(Answer::new(exit, record, text))
 }
 
-/// Says which masses the simulator's model assumes where the design states none.
+/// Tells the masses that the simulator's model assumes if the design states none.
 fn simulator_assumptions(design: &Design, export: &Export) -> Vec<String> {
     let mut out = if design.moving_payload().is_some() {
         design.mass_assumptions()

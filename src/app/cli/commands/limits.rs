@@ -1,4 +1,4 @@
-//! `equipod limits`: how far the platform may move from a pose, and the nearest allowed pose to one asked for.
+//! `equipod limits`: the free travel of the platform from a pose, and the allowed pose nearest to a given one.
 
 use std::path::PathBuf;
 
@@ -18,26 +18,27 @@ use records::{
 pub(crate) struct LimitsArgs {
     /// Design file (.toml or .json) with the table hardware or cranks, or `-` for standard input
     design: PathBuf,
-    /// The pose to move from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    /// Pose to move from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     at: String,
-    /// Also the straight way to this pose, and the allowed pose nearest to it
+    /// Add the straight path to this pose, and the allowed pose nearest to it
     #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
     to: Option<String>,
-    /// Number of further starts of the search for the nearest allowed pose, besides home
+    /// Number of starts beside home in the search for the nearest allowed pose
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     starts: u32,
-    /// How large the workspace is around home: volume, largest ball and box of positions, turns, the required region
+    /// Add the size of the workspace around home: volume, largest ball and box of positions, rotations, the required
+    /// region
     #[arg(long)]
     workspace: bool,
-    /// Number of directions in which the workspace is followed for its volume and its largest box
+    /// Number of directions for the volume and the largest box of the workspace
     #[arg(long, value_name = "N", default_value_t = RAYS as u32, value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
     rays: u32,
 }
 
 const BAD_POSE: &str = "limits::bad_pose";
 
-/// Exit 1 where the pose, or the one asked for with `--to`, is not allowed.
+/// Exit 1 if the pose of `--at` or `--to` is not allowed.
 pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
     let at = poses::parse(&args.at, &design, "--at", BAD_POSE)?;
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
     if !args.workspace {
         context.no_effect("rays", "the size of the workspace is not asked for (--workspace)")?;
     }
-    // every pose has to have the sign of det J at home
+    // every allowed pose has the sign of det J at home
     if let Some(home) = design.singular_at(&poses::home(&design)) {
         let help =
             "state a regular pose in [home]; `equipod singular poses` shows where the sign of det J changes";

@@ -1,4 +1,4 @@
-//! One file or folder per command, in folders as the commands are grouped.
+//! One file or folder for each command, in folders by group.
 //!
 //! To add the command `foo`:
 //! 1. write `commands/foo.rs` with `#[derive(Debug, clap::Args)] pub(crate) struct Args` (doc comments are
@@ -9,9 +9,9 @@
 //! 4. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
 //!
 //! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with `files::write_text`. The
-//! answer is a record (`src/app/records`), and its text is made from that; numbers that may be infinite or not a number
-//! are `records::Number`. Print nothing: the record and its text are the [`Answer`], why there is none is the
-//! [`Failure`].
+//! answer is a record (`src/app/records`) and its text is made from the record. Numbers that may be infinite or not a
+//! number are `records::Number`. Print nothing: return the record and its text as [`Answer`], or the reason for having
+//! none as [`Failure`].
 
 mod assess;
 mod bench;
@@ -45,10 +45,10 @@ use super::failure::Failure;
 use super::output::Answer;
 use super::reference;
 
-/// Where a command for octahedral designs can go on from another one.
+/// The way from another design to commands for octahedral designs.
 const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with the error it would make, and this command takes that file;";
 
-/// What can be done with a design that is not octahedral.
+/// The commands for a design that is not octahedral.
 const GENERAL: &str = "every design is taken by `equipod explore`, `equipod check`, `equipod assess`, `equipod fk` and `equipod view`; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move` with --search and a wish such as --spacing finds equivalents of it";
 
 /// The commands, in the order of the guide.
@@ -60,7 +60,7 @@ pub(crate) enum Command {
     Fk(fk::FkArgs),
     /// Compute the leg lengths at given poses
     Ik(ik::IkArgs),
-    /// Compute how far the platform may move from a pose, and the nearest allowed pose
+    /// Compute the free travel of the platform from a pose, and the nearest allowed pose
     Limits(limits::LimitsArgs),
     /// Compute and change the platforms equivalent to a design
     #[command(subcommand)]
@@ -71,7 +71,7 @@ pub(crate) enum Command {
     Explore(explore::ExploreArgs),
     /// Decide whether a design meets its requirements at all poses of its workspace
     Assess(assess::AssessArgs),
-    /// Set designs side by side: margins, forces, stiffness, sizes, tolerances
+    /// Compare designs in one table: margins, forces, stiffness, sizes, tolerances
     Compare(compare::CompareArgs),
     /// Compute forces, speeds and powers of the legs along a trajectory or standard manoeuvres
     Motion(motion::MotionArgs),
@@ -101,7 +101,7 @@ pub(crate) enum Command {
     View(view::ViewArgs),
     /// Write a folder of results as one HTML page
     Report(report::ReportArgs),
-    /// Solve random problems, validate the answers by independent code, count and time them
+    /// Solve random problems, validate the answers independently, count and time them
     Bench(bench::BenchArgs),
     /// Print completion scripts and write manual pages
     #[command(subcommand)]

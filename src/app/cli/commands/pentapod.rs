@@ -15,7 +15,7 @@ fn answered(exit: Exit, report: &PentapodReport) -> Answer {
     Answer::new(exit, answer, sheet)
 }
 
-/// Whether the legs are dependent at every pose, what they hold, and where they lose it.
+/// Whether the legs are dependent at every pose, the line that they hold, and its singular poses.
 pub(super) fn check(design: &FiveLegs, context: &Context) -> Answer {
     let report = about_five_legs(design, None, context.seed());
     let exit = match report.architecturally_singular {

@@ -22,19 +22,19 @@ use synthesis::Pattern;
 
 /// The page in its folder.
 pub(super) const PAGE: &str = "report.html";
-/// Bytes of all files together: a result has at most some megabytes, and a page of more opens in no browser.
+/// Greatest size of all files together, bytes: a result has at most some megabytes, and no browser opens a larger page.
 const MOST_BYTES: u64 = 64 << 20;
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReportArgs {
-    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of folders in it only the
-    /// bill of materials machine/parts.csv is read
+    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of its folders only
+    /// machine/parts.csv, the bill of materials, is read
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Write the page to this file; report.html in the folder when absent
+    /// Write the page to this file; default: report.html in the folder
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Title of the page; the name of the first design when absent
+    /// Title of the page; default: the name of the first design
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
 }
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &ReportArgs, context: &mut Context) -> Result<Answer, Fa
     let files = found.len();
     let first = found.iter().find_map(design_of);
     let assessment = first.as_ref().and_then(|d| AssessAnswer::of(d, context.seed()));
-    // the path, for programs; before it the requirements, for people
+    // the path on standard output, for programs; before it the requirements, for people
     let shown = first.as_ref().filter(|_| output_is_terminal());
     let lead = shown.map(|d| sheet::answers::requirements(&d.name, assessment.as_ref()));
     files::write_text(&output, &page(found, args.title.clone()))?;
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &ReportArgs, context: &mut Context) -> Result<Answer, Fa
     Ok(Answer::new(Exit::Yes, record, text))
 }
 
-/// The page about these files.
+/// The page of these files.
 pub(in crate::app::cli::commands) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
     let first = files.iter().find_map(design_of);
     let title = title.or_else(|| first.as_ref().map(|d| d.name.clone())).unwrap_or_else(|| "Results".into());
@@ -70,10 +70,10 @@ pub(in crate::app::cli::commands) fn page(files: Vec<ReportFile>, title: Option<
     html(&Report { title, files, comparison, view })
 }
 
-/// Poses looked at for the comparison of the designs of a folder, of each of the two kinds.
+/// Numbers of Halton points and of random points for comparing the designs of a folder.
 const COMPARED_POSES: usize = 200;
 
-/// The designs among the files, where there are several in the same units.
+/// The comparison of the designs among the files, if there are several in the same units.
 fn side_by_side(files: &[ReportFile]) -> Option<Comparison> {
     let designs: Vec<(String, Design)> =
         files.iter().filter_map(|f| design_of(f).map(|design| (f.name.clone(), design))).collect();
@@ -81,11 +81,11 @@ fn side_by_side(files: &[ReportFile]) -> Option<Comparison> {
     several.then(|| compare(&designs, &CompareQuestion::plain(COMPARED_POSES)).ok()).flatten()
 }
 
-/// The live page of a design; it begins with the offsets that a result among the files found.
+/// The live page of a design; it begins with the offsets of a result among the files.
 fn live(design: Design, files: &[ReportFile]) -> String {
     let session = Session::new(design);
     let chosen = files.iter().find_map(offsets_of).zip(Pattern::new([false; 6], [1; 6]));
-    // offsets of another design than the first do not fit: then the page begins with its own
+    // offsets of another design do not fit; the page then begins with its own
     let started = chosen.and_then(|(t, pattern)| session.clone().starting_with(pattern, t).ok());
     view(&started.unwrap_or(session), Some(CORE))
 }
@@ -109,8 +109,8 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
         .with_help("name a folder with results, for instance that of `explore`")
 }
 
-/// All files of a folder but an earlier page in the place of this one. What is not a page is an input like the others,
-/// and not to be written over.
+/// All files of a folder, except an earlier page at the path of this one. Any other file there is an input, and is not
+/// overwritten.
 fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(|e| unreadable(folder, &e))?;
     let is_page =
@@ -119,7 +119,7 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let mut paths = Vec::new();
     for entry in entries {
         let path = entry.map_err(|e| unreadable(folder, &e))?.path();
-        // what a program keeps for itself is no result
+        // hidden files are no results
         let hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
         if path.is_file() && !hidden && (own.is_none() || path.canonicalize().ok() != own) {
             paths.push(path);
@@ -132,10 +132,10 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     read(folder, paths)
 }
 
-/// Where `explore` puts the bill of materials, in its folder.
+/// The path of the bill of materials in a folder of `explore`.
 const PARTS: [&str; 2] = ["machine", "parts.csv"];
 
-/// Files of a folder for the page: those of `explore` first, the others by name.
+/// Files of a folder for the page: files of `explore` first, the others by name.
 pub(in crate::app::cli::commands) fn read(
     folder: &Path,
     paths: impl IntoIterator<Item = PathBuf>,
@@ -159,7 +159,7 @@ pub(in crate::app::cli::commands) fn read(
     Ok(in_order(out))
 }
 
-/// Those that `explore` names first, then the others by name.
+/// The files in order: those that `explore` names first, then the others by name.
 pub(in crate::app::cli::commands) fn in_order(mut files: Vec<ReportFile>) -> Vec<ReportFile> {
     let rank = |name: &str| FIRST.iter().position(|known| *known == name).unwrap_or(FIRST.len());
     files.sort_by(|a, b| (rank(&a.name), &a.name).cmp(&(rank(&b.name), &b.name)));

@@ -1,4 +1,4 @@
-//! `equipod verify`: are two designs kinematically equivalent?
+//! `equipod verify`: decides whether two designs are kinematically equivalent.
 
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub(crate) struct VerifyArgs {
     a: PathBuf,
     /// Design file to compare with, in the same units and, without --align, in the same two frames
     b: PathBuf,
-    /// Number of sets of leg lengths at which both designs are solved and compared
+    /// Number of length sets; both designs are solved and compared at each
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = at_least_one)]
     samples: usize,
     #[command(flatten)]
@@ -58,7 +58,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Fa
     Ok(Answer::new(exit_of(&found.verdict), record, sheet))
 }
 
-/// What the verdict means for the exit code.
+/// The exit code of the verdict.
 pub(crate) fn exit_of(verdict: &Verdict) -> Exit {
     match verdict {
         Verdict::Equivalent => Exit::Yes,
@@ -67,7 +67,7 @@ pub(crate) fn exit_of(verdict: &Verdict) -> Exit {
     }
 }
 
-/// A verification that could not be carried out.
+/// The failure for a verification that could not be computed.
 pub(crate) fn failure_of(error: &VerifyError) -> Failure {
     match error {
         VerifyError::Lengths { .. } => Failure::refused("verify::lengths", error.to_string())

@@ -13,16 +13,16 @@ use records::{AssessAnswer, ViewAnswer};
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// Design file (.toml or .json); without it the page asks for a hexapod: from a data sheet, twelve points or an
+    /// Design file (.toml or .json); without it, the page asks for a hexapod from a data sheet, twelve points or an
     /// example
     design: Option<PathBuf>,
-    /// Write the page to this file; the name of the design file with .html when absent, equipod.html without a design
+    /// Write the page to this file; default: the name of the design file with .html, or equipod.html without a design
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// The equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
+    /// Pattern of the equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID", requires = "offsets")]
     pattern: Option<String>,
-    /// Offsets of that platform, in fractions of the edges; those of S123456 without --pattern
+    /// Offsets of this platform, as fractions of the edges; without --pattern they are for S123456
     #[arg(
         long,
         value_name = "T1,..",
@@ -31,8 +31,8 @@ pub(crate) struct ViewArgs {
         requires = "design"
     )]
     offsets: Option<Vec<f64>>,
-    /// Use another WebAssembly core, plain or compressed by gzip, instead of the one in this program; `none` gives a
-    /// page with recorded data only
+    /// WebAssembly core to use instead of the program's own, plain or gzip-compressed; `none` makes a page with
+    /// recorded data only
     #[arg(long, value_name = "FILE|none")]
     core: Option<PathBuf>,
 }
@@ -68,14 +68,15 @@ pub(crate) fn run(args: &ViewArgs, context: &mut Context) -> Result<Answer, Fail
     };
     let how = if record.live { "" } else { ", with recorded data only" };
     let wrote = format!("wrote {}{how}\n", record.output);
-    // the page without a design has only an example
+    // a page without a design has only an example
     let lead =
         args.design.as_ref().map(|_| sheet::answers::requirements(&shown.name, record.assessment.as_ref()));
     let text = lead.map_or_else(|| wrote.clone(), |lead| format!("{lead}\n{wrote}"));
     Ok(Answer::new(Exit::Yes, record, text))
 }
 
-/// `designs/a.toml` gives `a.html`, a design from standard input `design.html`, and no design `equipod.html`.
+/// The name of the page: `designs/a.toml` gives `a.html`, a design from standard input `design.html`, and no design
+/// `equipod.html`.
 fn beside(design: Option<&Path>) -> PathBuf {
     let Some(design) = design else { return "equipod.html".into() };
     if files::is_standard(design) {
@@ -84,7 +85,7 @@ fn beside(design: Option<&Path>) -> PathBuf {
     PathBuf::from(design.file_name().unwrap_or_default()).with_extension("html")
 }
 
-/// Bytes of a core at most; the one of this program has some hundred kilobytes.
+/// Greatest size of a core, bytes; the core of this program has some hundred kilobytes.
 const MOST_CORE: u64 = 64 << 20;
 
 /// The module to put into the page.

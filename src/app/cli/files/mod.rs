@@ -1,8 +1,8 @@
-//! Reading and writing files: the only door of the program to the file system.
+//! Reads and writes files: the program's only access to the file system.
 //!
-//! Three rules keep the user's files. What a run has read it never writes over, by whatever path, link or spelling the
-//! file is named; nothing is written twice by one run; and a design gives way to another design only, not to a picture
-//! or a table. A file appears whole or not at all.
+//! Three rules protect the user's files. A run never overwrites a file that it has read, under any path, link or
+//! spelling. No run writes a file twice. A design replaces only another design, not a picture or a table. A file
+//! appears whole or not at all.
 
 use std::cell::RefCell;
 use std::ffi::OsString;
@@ -24,7 +24,7 @@ use ask::whole::WholeFile;
 use files::design::Format;
 use records::{FileSourceRecord, sha256};
 
-/// Nothing this program reads is larger; a design has some kilobytes.
+/// Greatest size of an input, bytes; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
 
 /// The name for standard input and standard output.
@@ -35,7 +35,7 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == STANDARD
 }
 
-/// An input as people are told of it.
+/// The name of an input in messages.
 pub(crate) fn shown(path: &Path) -> String {
     if is_standard(path) { "standard input".into() } else { path.display().to_string() }
 }
@@ -98,7 +98,7 @@ fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> 
         if metadata.len() > most {
             return Err(too_large());
         }
-        // a pipe or device has no size to go by, and a file may grow: the read itself is limited too
+        // a pipe or device has no size, and a file may grow: the read itself is limited too
         let file = File::open(path).map_err(|e| unreadable(&e))?;
         note_input(path);
         file.take(most + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
@@ -110,7 +110,7 @@ fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> 
     Ok(bytes)
 }
 
-/// A path that a command writes to, file or folder: the type tells outputs from inputs among the arguments.
+/// A path of an output, file or folder; the type separates outputs from inputs among the arguments.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct OutputPath(PathBuf);
 
@@ -127,13 +127,12 @@ impl Deref for OutputPath {
     }
 }
 
-/// What tells a file from others, whatever it is called.
+/// The identity of a file, under any name.
 #[derive(Debug, Clone)]
 struct Identity {
-    /// Without links and dots; of a file that does not exist yet, that of its folder with its name.
+    /// The path without links and dots; for a file that does not exist yet, the folder's path with the name.
     path: PathBuf,
-    /// Device and number of the file: the same for hard links and for other spellings where the file system takes them
-    /// for one.
+    /// Device and number of the file: the same for hard links, and for other spellings that the file system accepts.
     #[cfg(unix)]
     node: Option<(u64, u64)>,
 }
@@ -167,15 +166,15 @@ impl Identity {
 #[derive(Debug, Default)]
 struct FilesOfRun {
     read: Vec<Identity>,
-    /// What [`read_text`] read, for the provenance of the answer.
+    /// The texts that [`read_text`] read, for the provenance of the answer.
     texts: Vec<FileSourceRecord>,
     written: Vec<Identity>,
-    /// What goes to standard output instead of the text of the answer.
+    /// The text that goes to standard output instead of the answer.
     standard: Option<String>,
 }
 
 thread_local! {
-    /// Commands read and write on the thread they are started on; computing threads see no files.
+    /// Commands read and write on the thread on which they are started; worker threads access no files.
     static RUN: RefCell<FilesOfRun> = RefCell::default();
 }
 
@@ -197,12 +196,12 @@ fn note_text(path: &Path, bytes: &[u8]) {
     });
 }
 
-/// The texts that this run has read, in order and each once.
+/// The texts that this run has read, in order, each once.
 pub(crate) fn texts_read() -> Vec<FileSourceRecord> {
     RUN.with_borrow(|run| run.texts.clone())
 }
 
-/// What this run has written to standard output as a file, if anything.
+/// The file that this run has written to standard output, if any.
 pub(crate) fn standard_output() -> Option<String> {
     RUN.with_borrow_mut(|run| run.standard.take())
 }
@@ -217,8 +216,7 @@ fn written_twice(path: &Path) -> Failure {
     Failure::refused("file::written_twice", message).with_help("name a file for each")
 }
 
-/// Refuses before anything is computed: outputs among the arguments that are inputs among them, or the same as other
-/// outputs.
+/// Refuses outputs among the arguments that are also inputs or equal other outputs, before anything is computed.
 ///
 /// # Errors
 /// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::standard_output`.
@@ -264,12 +262,12 @@ pub(crate) fn check_arguments(matches: &ArgMatches, json: bool) -> Result<(), Fa
     Ok(())
 }
 
-/// Something that is there and is not a file: a device or a pipe takes any number of texts.
+/// Whether a path is a device or a pipe, which accepts any number of texts.
 fn is_device(path: &Path) -> bool {
     path.exists() && !path.is_file() && !path.is_dir()
 }
 
-/// Makes a folder and those above it, where they do not exist.
+/// Makes a folder and its parents, if missing.
 ///
 /// # Errors
 /// Exit 2: `file::not_writable`.
@@ -284,7 +282,7 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Opens a file that a folder of results should hold: a pipe in its place would be waited for without end.
+/// Opens a file that a folder of results should hold, and refuses a pipe, which would block forever.
 ///
 /// # Errors
 /// The error of the system; `InvalidInput` for a pipe or device.
@@ -295,23 +293,23 @@ pub(crate) fn open_regular(path: &Path) -> std::io::Result<File> {
     File::open(path)
 }
 
-/// Bytes of a file in a folder of results at most: the plan of a sweep, with its table of poses, is the largest.
+/// Greatest size of a file in a folder of results, bytes: the plan of a sweep with its table of poses is the largest.
 const MAX_FOUND_BYTES: u64 = 64 << 20;
 
-/// The bytes of a file that a folder of results should hold; `None` where there is none, or a larger one than this
-/// program writes.
+/// The bytes of a file that a folder of results should hold; `None` if it is missing, or larger than this program
+/// writes.
 pub(crate) fn found_in_folder(path: &Path) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     open_regular(path).ok()?.take(MAX_FOUND_BYTES + 1).read_to_end(&mut bytes).ok()?;
     (bytes.len() as u64 <= MAX_FOUND_BYTES).then_some(bytes)
 }
 
-/// A record in a folder of results; `None` where there is none, or another file.
+/// A record in a folder of results; `None` if it is missing, or is another file.
 pub(crate) fn found_record<T: DeserializeOwned>(path: &Path) -> Option<T> {
     serde_json::from_slice(&found_in_folder(path)?).ok()
 }
 
-/// A record for a folder of results, as its file has it.
+/// A record for a folder of results, as the text of its file.
 ///
 /// # Errors
 /// Exit 4: it cannot be written as JSON.
@@ -350,7 +348,7 @@ pub(crate) fn check_input(path: &Path) -> Result<(), Failure> {
     if read { Err(over_input(path)) } else { Ok(()) }
 }
 
-/// Refuses what would cost the user a file.
+/// Refuses a write that would destroy a file of the user.
 ///
 /// # Errors
 /// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`
@@ -380,7 +378,7 @@ fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Why something could not be written: where there is no room it is no fault of the arguments.
+/// The failure of a write; a full disk is not the fault of the arguments.
 pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
     let message = format!("{shown} cannot be written: {error}");
     match error.kind() {
@@ -394,8 +392,7 @@ pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
     }
 }
 
-/// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there. `-` is standard
-/// output.
+/// Writes a file whole: first beside its place, then renamed, so that it is never half-written. `-` is standard output.
 ///
 /// # Errors
 /// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`. Exit 4:
@@ -407,7 +404,7 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
         return Ok(());
     }
     if is_device(path) {
-        // nothing to rename over; who reads from a pipe may have read enough
+        // a device or pipe cannot be replaced; the reader of a pipe may close it early
         return match std::fs::write(path, text) {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             done => done.map_err(failed),
@@ -422,10 +419,10 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a file into a folder and gives its path; a name with a folder before it makes that folder too.
+/// Writes a file into a folder and returns its path; a folder in the name is made too.
 ///
 /// # Errors
-/// As [`make_folder`] and [`write_text`].
+/// The errors of [`make_folder`] and [`write_text`].
 pub(crate) fn write_into(folder: &Path, name: &str, text: &str) -> Result<PathBuf, Failure> {
     let path = folder.join(name);
     path.parent().map_or(Ok(()), make_folder)?;
@@ -436,7 +433,7 @@ pub(crate) fn write_into(folder: &Path, name: &str, text: &str) -> Result<PathBu
 /// Writes a design in the notation of the file name.
 ///
 /// # Errors
-/// As [`write_text`].
+/// The errors of [`write_text`].
 pub(crate) fn write_design(path: &Path, design: &Design) -> Result<(), Failure> {
     let text = match Format::of_path(path) {
         Format::Toml => design.to_toml(),

@@ -1,4 +1,4 @@
-//! What the user keeps: over every command with an output, taken from the command line itself.
+//! The user's files are kept, tested for every command with an output as listed by the command line itself.
 
 use std::any::TypeId;
 
@@ -34,7 +34,7 @@ fn commands() -> Vec<(Vec<String>, Command)> {
     out
 }
 
-/// What a command needs besides its files.
+/// The arguments that a command needs beside its files.
 fn needed(words: &[String], output: &str) -> Vec<&'static str> {
     match (words.iter().map(String::as_str).collect::<Vec<_>>().as_slice(), output) {
         (["equivalents", "family"], "output") => {
@@ -56,7 +56,7 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
 
 /// Outputs of commands that read no file.
 const WITHOUT_INPUT: [&str; 4] = ["bench", "shell man", "design presets", "new"];
-/// Options with a path that is read.
+/// Options with the path of an input.
 const READ: [&str; 7] = ["check", "core", "drives", "points", "poses", "sheet", "trajectory"];
 
 #[test]
@@ -125,13 +125,13 @@ fn what_was_read_is_not_written_whatever_it_is_called() {
     for path in [&table, &hard] {
         assert_eq!(write_text(path, "new").unwrap_err().code, "file::overwrites_input");
     }
-    // another file gives way, once
+    // another file is replaced, once
     write_text(&other, "new").unwrap();
     assert_eq!(write_text(&other, "newer").unwrap_err().code, "file::written_twice");
     assert_eq!(std::fs::read_to_string(&other).unwrap(), "new");
     begin();
     write_text(&table, "new").unwrap();
-    // the name alone was replaced: the other link still holds the old text
+    // only the name was replaced: the other link still holds the old text
     assert_eq!(std::fs::read_to_string(&hard).unwrap(), "1,2,3");
     let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(left.len(), 3, "parts are left: {left:?}");

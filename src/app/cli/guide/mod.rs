@@ -1,7 +1,7 @@
-//! Which command is for what job: the order and the examples of `--help`.
+//! The commands by task: the order and the examples of `--help`.
 //!
-//! The table below is the only list of commands beside their definitions. A test holds that it names every command
-//! once, and another one runs every example on the designs of the project.
+//! The table below is the only list of commands beside their definitions. One test checks that it names every command
+//! once, and another runs every example on the designs of the project.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use clap::{Command, CommandFactory};
 
 use super::args::Cli;
 
-/// Commands that serve one job.
+/// Commands for one task.
 struct CommandGroup {
     heading: &'static str,
     commands: &'static [GuideEntry],
@@ -20,10 +20,10 @@ struct CommandGroup {
 pub(crate) struct GuideEntry {
     /// The words after `equipod`.
     pub(crate) path: &'static str,
-    /// Command lines after `equipod` that work on the designs of the project; the first one stands in the help of the
-    /// program and of the group.
+    /// Command lines after `equipod` that work on the designs of the project; the help of the program and of the group
+    /// shows the first one.
     pub(crate) examples: &'static [&'static str],
-    /// Other words under which a reader may look for it: it is named when they are typed.
+    /// Other words for the command; if they are typed, the command is suggested.
     pub(crate) words: &'static [&'static str],
 }
 
@@ -336,7 +336,7 @@ pub(crate) fn program() -> Command {
     program.help_template(template(&body))
 }
 
-/// For those who have the program alone.
+/// A note for users who have the program alone.
 const WITHOUT_REPOSITORY: &str = "\n\nThe files in designs/ come with the sources; `equipod new` and `equipod design presets` write designs without them.";
 
 fn with_examples(command: Command, path: &[&str], examples: &[&str]) -> Command {
@@ -347,7 +347,7 @@ fn with_examples(command: Command, path: &[&str], examples: &[&str]) -> Command 
         if examples.iter().any(|e| e.contains("designs/")) {
             lines.push_str(WITHOUT_REPOSITORY);
         }
-        // a template is not wrapped: a command line stays whole; manual pages take the text after the help
+        // a template is not wrapped, so command lines stay whole; manual pages take the text after the help
         return command.after_help(format!("{heading}\n{lines}")).help_template(format!(
             "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{{all-args}}\n\n{heading}\n{lines}\n"
         ));
@@ -369,14 +369,14 @@ fn styled(heading: &str) -> String {
     format!("{style}{heading}:{style:#}")
 }
 
-/// A command, what it is for and an example of it.
+/// A command with its purpose and an example.
 struct GuideLine {
     name: String,
     about: String,
     example: &'static str,
 }
 
-/// The lines of a job. The figures of `plot` share one.
+/// The lines of a task; the figures of `plot` share one.
 fn lines<'a>(program: &'a Command, job: &'a CommandGroup) -> impl Iterator<Item = GuideLine> + 'a {
     let first_figure = job.commands.iter().position(|e| e.path.starts_with("plot "));
     job.commands.iter().enumerate().filter_map(move |(k, e)| match e.path.strip_prefix("plot ") {

@@ -1,4 +1,4 @@
-//! The guide against the definitions, and every command line that is written anywhere against both.
+//! Checks the guide against the definitions, and every command line in any text against both.
 
 use std::path::{Path, PathBuf};
 
@@ -42,8 +42,8 @@ fn words(line: &str) -> Vec<String> {
         .collect()
 }
 
-/// What is wrong with a command line in a text: a command that does not exist, or an option that it does not have. A
-/// line without words in capitals stands for itself and has to be understood whole.
+/// The fault of a command line in a text: a command that does not exist, or an option that it does not have. A line
+/// without placeholders in capitals must parse as a whole.
 fn fault(words: &[String]) -> Option<String> {
     let mut command = program().disable_help_subcommand(true);
     command.build();
@@ -82,8 +82,8 @@ fn fault(words: &[String]) -> Option<String> {
     program().try_get_matches_from(line).err().map(|e| e.to_string())
 }
 
-/// Command lines in a text: pieces of code in a sentence, and in Markdown the lines of code. What a program puts
-/// together (`{path}`) is none.
+/// Command lines in a text: pieces of code in a sentence, and in Markdown the lines of code. Lines put together by a
+/// program (`{path}`) are left out.
 fn command_lines(text: &str, markdown: bool) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     let mut fenced = false;
@@ -135,7 +135,7 @@ fn every_command_line_in_the_texts_is_one_that_exists() {
     }
     assert!(faults.is_empty(), "{} of {checked}:\n{}", faults.len(), faults.join("\n"));
     assert!(checked > 150, "{checked}: the texts are not read");
-    // it finds what does not exist
+    // it finds commands and options that do not exist
     for wrong in [
         "family DESIGN",
         "equivalents familly DESIGN",

@@ -1,4 +1,4 @@
-//! Tables of fields: of answers and their records, and of design files, from the schemas by which programs read them.
+//! Tables of fields of answers, records and design files, made from the schemas that programs read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use super::cell;
 use files::design::SCHEMA;
 use records;
 
-/// What every answer has, which the manual says once.
+/// The fields of every answer, which the manual describes once.
 const IN_ALL: [&str; 3] = ["schema_version", "provenance", "warnings"];
 /// The page with the fields of all records.
 const RECORDS_PAGE: &str = "answers.md";
@@ -37,17 +37,17 @@ fn is_record(schema: &Value) -> bool {
     schema.get("properties").is_some() || alternatives(schema).any(is_record_or_reference)
 }
 
-/// An alternative that is a record itself; `null` and words are none.
+/// Whether an alternative is a record itself rather than `null` or a word.
 fn is_record_or_reference(schema: &Value) -> bool {
     schema.get("$ref").is_some() || is_record(schema)
 }
 
-/// A constant or a word as it stands in a document.
+/// A constant or a word, as written in a document.
 fn code(value: &Value) -> String {
     format!("`{}`", value.as_str().map_or_else(|| value.to_string(), ToString::to_string))
 }
 
-/// A text of the source without the links to other items of the source, which a reader of a page cannot follow.
+/// A text of the source without links to other items, which a reader of a page cannot follow.
 fn without_links(text: &str) -> String {
     let mut parts = text.split("[`");
     let mut out = parts.next().unwrap_or_default().to_string();
@@ -74,7 +74,7 @@ fn choice(list: Vec<String>) -> String {
     }
 }
 
-/// The words of an enumeration, each with what is said of it; empty for other schemas.
+/// The words of an enumeration, each with its description; empty for other schemas.
 fn words(schema: &Value) -> Vec<(String, Option<&str>)> {
     let plain = schema.get("enum").and_then(Value::as_array).into_iter().flatten().map(|w| (code(w), None));
     let told = alternatives(schema).flat_map(|a| match a.get("const") {
@@ -98,7 +98,7 @@ fn number(schema: &Value, name: &str) -> String {
 }
 
 impl Fields {
-    /// Those of an answer; `None` for a name that has no schema.
+    /// The fields of an answer; `None` for a name that has no schema.
     pub(super) fn of_answer(name: &str, page: &'static str) -> Option<Self> {
         let mut schema = records::schema(name)?;
         let definitions = schema.remove("$defs").and_then(|d| d.as_object().cloned()).unwrap_or_default();
@@ -115,7 +115,7 @@ impl Fields {
         text(schema, "$ref").and_then(|r| self.definition(r)).map_or(schema, |(_, found)| found)
     }
 
-    /// What stands behind a key, in words.
+    /// The type of the value of a key, in words.
     fn kind(&self, schema: &Value) -> String {
         if let Some((name, found)) = text(schema, "$ref").and_then(|r| self.definition(r)) {
             return match name {
@@ -149,7 +149,7 @@ impl Fields {
         }
     }
 
-    /// What stands behind a key whose type has this name.
+    /// The type of the value of a key, by the name of its type.
     fn plain(&self, name: &str, schema: &Value) -> String {
         match name {
             "null" => "`null`".into(),
@@ -184,7 +184,7 @@ impl Fields {
         format!("list{size}: {}", each.join("; "))
     }
 
-    /// What is said of a field, with its words where it has some, and its default.
+    /// The description of a field, with its words and its default, if it has some.
     fn meaning(&self, schema: &Value, required: bool) -> String {
         let said = text(schema, "description").or_else(|| text(self.resolved(schema), "description"));
         let own = said.or_else(|| schema.get("const").map(|_| "Tells which of these it is."));
@@ -202,7 +202,7 @@ impl Fields {
         cell(&without_links(out.trim_start_matches("; ")))
     }
 
-    /// Rows of a table, for the properties that are shown.
+    /// Rows of a table, for the properties shown.
     fn rows(&self, schema: &Value, shown: impl Fn(&str) -> bool) -> String {
         let properties = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
         let mut out = String::new();
@@ -217,7 +217,7 @@ impl Fields {
         out
     }
 
-    /// The tables of a record: its own fields, then those of each of its alternatives.
+    /// The tables of a record: its own fields, then the fields of each alternative.
     fn record(&self, schema: &Value) -> String {
         let rows = self.rows(schema, |name| !IN_ALL.contains(&name));
         let mut out = String::new();
@@ -243,7 +243,7 @@ impl Fields {
         self.definitions.get(definition).map(|found| self.record(found))
     }
 
-    /// Records that have a section of their own: those that a field refers to; alternatives stand where they are one.
+    /// Records with a section of their own: those that a field refers to. Alternatives are listed at their place.
     fn named_records(&self, from: &str) -> Vec<String> {
         let mut order = Vec::new();
         if let Some(schema) = self.definitions.get(from) {
@@ -262,7 +262,7 @@ impl Fields {
         }
     }
 
-    /// The same for what stands behind a key, in lists and tables too.
+    /// The same for the value of a key, including lists and tables.
     fn collect_named(&self, property: &Value, order: &mut Vec<String>) {
         if let Some((name, found)) = text(property, "$ref").and_then(|r| self.definition(r)) {
             if name.starts_with("design") || order.iter().any(|n| n == name) {
@@ -299,7 +299,7 @@ fn sentences(text: &str) -> String {
     out + rest
 }
 
-/// All records of all answers: those of one answer below it, those of several at the end.
+/// All records of all answers: records of one answer below it, records of several at the end.
 pub(super) fn all_records() -> String {
     let answers: Vec<(&str, Fields)> =
         records::schema_names().filter_map(|n| Some((n, Fields::of_answer(n, "")?))).collect();
@@ -334,7 +334,7 @@ pub(super) fn all_records() -> String {
         }
     }
     out.push_str("## Records of several answers\n\n");
-    // what every answer has is described in the manual, and its records here
+    // the manual describes fields of every answer; their records are here
     let mut rest = String::new();
     if let Some((_, fields)) = answers.first() {
         for record in ["ProvenanceRecord", "DesignSourceRecord", "FileSourceRecord", "WarningRecord"] {
@@ -346,15 +346,15 @@ pub(super) fn all_records() -> String {
     out
 }
 
-/// The table behind `<!-- fields of NAME [RECORD] -->`; `None` where there is no such answer or record.
+/// The table for the mark `<!-- fields of NAME [RECORD] -->`; `None` if there is no such answer or record.
 pub(super) fn of_mark(mark: &str) -> Option<String> {
     let (answer, record) = mark.split_once(' ').unwrap_or((mark, mark));
     let fields = Fields::of_answer(answer, RECORDS_PAGE)?;
     Some(format!("\n{}", fields.table(record)?))
 }
 
-/// The table behind `<!-- keys of design [TABLES] -->`: the keys at the top of a design file, or those of some of its
-/// tables. `None` where one is not a table.
+/// The table for the mark `<!-- keys of design [TABLES] -->`: the top-level keys of a design file, or the keys of some
+/// of its tables. `None` if one is not a table.
 pub(super) fn of_design(mark: &str) -> Option<String> {
     let mut names = mark.split(' ');
     let mut schema: Value = serde_json::from_str(&SCHEMA).ok()?;

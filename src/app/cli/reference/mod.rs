@@ -1,5 +1,5 @@
-//! `equipod reference`, hidden: what each command is for, its options, its examples and the fields of its answer
-//! written into the manual, from the definitions they are read by.
+//! `equipod reference`, hidden: writes the purpose of each command, its options, its examples and the fields of its
+//! answer into the manual, from their definitions.
 
 mod fields;
 
@@ -20,11 +20,11 @@ use records::{ReferenceAnswer, schema_names};
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
     /// Page with marks `<!-- options of COMMAND -->`, `<!-- fields of ANSWER -->`, `<!-- keys of design -->` or
-    /// `<!-- all records -->`, each up to `<!-- end of options -->` and so on; what is between them is replaced
+    /// `<!-- all records -->`; the text up to `<!-- end of options -->` and so on is replaced
     page: PathBuf,
 }
 
-/// What begins a block: what follows names what stands in it.
+/// The beginnings and ends of blocks; the subject follows the beginning.
 const MARKS: [(&str, &str); 4] = [
     ("<!-- options of ", "<!-- end of options -->"),
     ("<!-- fields of ", "<!-- end of fields -->"),
@@ -32,12 +32,12 @@ const MARKS: [(&str, &str); 4] = [
     ("<!-- all ", "<!-- end of records -->"),
 ];
 
-/// Text of a table: on one line, bars escaped.
+/// Text of a table cell: on one line, bars escaped.
 fn cell(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 
-/// How an argument is written: `-o`, `--output <DIR>` or `<DESIGN>`.
+/// The notation of an argument: `-o`, `--output <DIR>` or `<DESIGN>`.
 fn spelling(arg: &Arg) -> String {
     let names = arg.get_value_names().unwrap_or_default();
     let mut value = names.iter().map(|n| format!("<{n}>")).collect::<Vec<_>>().join(" ");
@@ -72,7 +72,7 @@ fn meaning(arg: &Arg) -> String {
     out
 }
 
-/// The examples of a command as its `--help` has them; none for groups.
+/// The examples of a command as in its `--help`; none for groups.
 fn examples(command: &Command) -> String {
     let name = command.get_bin_name().unwrap_or_default();
     let path = name.strip_prefix("equipod ").unwrap_or_default();
@@ -82,8 +82,8 @@ fn examples(command: &Command) -> String {
     format!("{heading}:\n\n{}\n", lines.concat())
 }
 
-/// What one command and its own commands are for, usage, table and examples; the options all commands take stand at the
-/// program alone.
+/// Purpose, usage, options and examples of one command and its own commands; options of all commands are listed only
+/// for the program.
 fn block(command: &Command, global: bool) -> String {
     let usage = command.clone().render_usage().to_string();
     let mut out = String::from("\n");
@@ -112,7 +112,7 @@ fn block(command: &Command, global: bool) -> String {
     out
 }
 
-/// What is still to be described in the manual: commands, and answers.
+/// The commands and answers that the manual still has to describe.
 struct OpenEntries {
     program: Command,
     whole: bool,
@@ -130,7 +130,7 @@ impl OpenEntries {
         Self { program, whole: true, commands, answers: schema_names().collect(), seen: BTreeSet::new() }
     }
 
-    /// The options of a command, each command once; `None` when there is none to be described.
+    /// The options of a command, each command once; `None` if it is unknown or already described.
     fn options(&mut self, name: &str) -> Option<String> {
         if name == "equipod" {
             return std::mem::take(&mut self.whole).then(|| block(&self.program, true));
@@ -141,7 +141,7 @@ impl OpenEntries {
         (self.commands.len() < before).then(|| block(command, false))
     }
 
-    /// The fields of an answer or of one of its records, each once; `None` when there are none to be described.
+    /// The fields of an answer or of one of its records, each once; `None` if it is unknown or already described.
     fn fields(&mut self, name: &str) -> Option<String> {
         let answer = name.split(' ').next()?;
         self.answers.retain(|a| *a != answer);
@@ -149,8 +149,8 @@ impl OpenEntries {
     }
 }
 
-/// The page with the blocks of this program. In the manual every command of the guide has its mark, or its group has
-/// one for all, and so has every answer.
+/// The page with the blocks of this program. In the manual every command of the guide has a mark, or its group has one
+/// for all, and so has every answer.
 fn written(page: &str) -> Result<String, Failure> {
     let bad = |message: String| Failure::refused("reference::bad_page", message);
     let mut open = OpenEntries::new();

@@ -1,8 +1,8 @@
-//! The four doors of the WebAssembly module.
+//! The four exported functions of the WebAssembly module.
 //!
-//! The page writes a text to [`input`](equipod_input), calls [`open`](equipod_open) or [`answer`](equipod_answer), and
-//! reads as many bytes as these return at [`output`](equipod_output). The design stays open between calls: this is the
-//! one place of the library with a state, and it exists in WebAssembly only.
+//! The page writes a text to [`input`](equipod_input) and calls [`open`](equipod_open) or [`answer`](equipod_answer).
+//! It then reads the returned number of bytes at [`output`](equipod_output). The design stays open between calls. Only
+//! this part of the library has a state, and it exists only in WebAssembly.
 #![allow(
     unsafe_code,
     reason = "an exported name must be unique in the whole program; these four are, and no other unsafe code is here"
@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use equipod::methods::page::Session;
 
-/// What passes between page and core.
+/// The texts between page and core.
 #[derive(Debug)]
 struct Desk {
     input: Vec<u8>,
@@ -24,7 +24,7 @@ struct Desk {
 static DESK: Mutex<Desk> = Mutex::new(Desk { input: Vec::new(), output: Vec::new(), session: None });
 
 fn desk() -> MutexGuard<'static, Desk> {
-    // a panic ends the module, so that no broken state is ever seen
+    // a panic ends the module, so a broken state is never used
     DESK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -35,7 +35,7 @@ impl Desk {
     }
 }
 
-/// Room for a text of `length` bytes, which the page fills with UTF-8 before the next call.
+/// Memory for a text of `length` bytes, which the page fills with UTF-8 before the next call.
 #[unsafe(no_mangle)]
 pub extern "C" fn equipod_input(length: usize) -> *mut u8 {
     let mut desk = desk();
@@ -43,13 +43,14 @@ pub extern "C" fn equipod_input(length: usize) -> *mut u8 {
     desk.input.as_mut_ptr()
 }
 
-/// Where the last reply begins.
+/// The address of the last reply.
 #[unsafe(no_mangle)]
 pub extern "C" fn equipod_output() -> *const u8 {
     desk().output.as_ptr()
 }
 
-/// Opens the design of the input as [`Session::open`]; the length of the reply: of nothing, or of an error.
+/// Opens the design of the input as [`Session::open`]. Returns the length of the reply: zero, or the length of an
+/// error.
 #[unsafe(no_mangle)]
 pub extern "C" fn equipod_open() -> usize {
     let mut desk = desk();
@@ -63,7 +64,7 @@ pub extern "C" fn equipod_open() -> usize {
     }
 }
 
-/// Answers the request of the input as [`Session::answer`]; the length of the reply.
+/// Answers the request of the input as [`Session::answer`]. Returns the length of the reply.
 #[unsafe(no_mangle)]
 pub extern "C" fn equipod_answer() -> usize {
     let mut desk = desk();

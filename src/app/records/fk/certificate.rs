@@ -1,4 +1,4 @@
-//! Proofs of roots, single ones and those of clusters, with their numbers.
+//! Proofs of roots, single or in clusters, with their numbers.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -10,19 +10,19 @@ use fk::solve::certify::{
 };
 use num::ball::Disc;
 
-/// The proof that a root exists and is alone, with all its numbers.
+/// The proof that a root exists and is unique nearby, with all its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum CertificateRecord {
     /// In coordinates `(e, g / unit)` with `e_patch = 1`; distances are largest moduli of coordinate differences.
     Study {
-        /// Index of the coordinate that is 1.
+        /// Index of the coordinate that equals 1.
         patch: usize,
         /// A power of two, design units.
         unit: Number,
-        /// The centre.
+        /// The centre of the ball.
         centre: ComplexRecord<[Number; 8]>,
-        /// To be added to the centre.
+        /// Low-order parts of the centre, to be added to it.
         centre_low: ComplexRecord<[Number; 8]>,
         /// One root lies within this distance of the centre.
         radius: Number,
@@ -32,47 +32,48 @@ pub enum CertificateRecord {
         contraction: Number,
         /// Precision of the centre.
         precision: CentrePrecision,
-        /// Proved for all squared lengths that the data can mean.
+        /// Reality of the root, proved for all squared lengths within the rounding of the data.
         reality: ProvedReality,
-        /// What holds the pose of the root.
+        /// Discs that contain the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
-    /// Roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: all lie
-    /// on a curve through the centre, parametrised by t with |t| below `reach`.
+    /// A cluster of close or equal roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1.
+    /// They lie on a curve through the centre, parametrised by t with |t| below `reach`.
     Cluster {
-        /// Their number, each counted with its multiplicity; 2 or more.
+        /// Number of roots, counted with multiplicity; at least 2.
         multiplicity: usize,
-        /// The coordinate that is 1.
+        /// Index of the coordinate that equals 1.
         patch: usize,
-        /// Design units.
+        /// The unit of g, design units.
         unit: Number,
         /// e0..e3, g0..g3 over the unit.
         centre: ComplexRecord<[Number; 8]>,
-        /// What the doubles of the centre leave of it.
+        /// Low-order parts of the centre, to be added to it.
         centre_low: ComplexRecord<[Number; 8]>,
-        /// All of them lie within this distance of the centre.
+        /// All roots of the cluster lie within this distance of the centre.
         radius: Number,
-        /// No others lie within this distance; it may be smaller than the radius.
+        /// No other root lies within this distance; it may be smaller than the radius.
         uniqueness_radius: Number,
         /// Radius of the disc of t.
         reach: Number,
-        /// What is left beside the power of t that has the multiplicity as exponent, over this power, on the circle;
-        /// below 1.
+        /// Remainder of the equation divided by its leading term, the power of t with the multiplicity as exponent, on
+        /// the circle; below 1.
         dominance: Number,
-        /// `non_real` when none is real; else it is undecided.
+        /// `non_real` if no root is real; otherwise undecided.
         reality: ProvedReality,
-        /// What holds all of their poses.
+        /// Discs that contain all poses of the cluster.
         enclosure: Box<EnclosureRecord>,
     },
-    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles h^2 + z^2 = rho about P1 P2, P2 P3, P3 P1,
-    /// with z along n = (P2 - P1) x (P3 - P1) and h towards the left of the way from the first joint to the second;
-    /// with u = h + i z the distance is the largest of the three |log(u / centre)|.
+    /// Three angles as coordinates. The legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles about the axes P1 P2, P2 P3,
+    /// P3 P1. Their equation is h^2 + z^2 = rho. The coordinate z is along n = (P2 - P1) x (P3 - P1). The coordinate h
+    /// points to the left of the way from the first joint to the second. With u = h + i z, the distance is the largest
+    /// value `|log(u / centre)|` of the three.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
         order: [usize; 6],
         /// u of P4, P5, P6, design units; rho / u is h - i z.
         centre: ComplexRecord<[Number; 3]>,
-        /// The root is the mirror image, in the plane of the base, of the pose near the centre.
+        /// Whether the root is the mirror image, in the plane of the base, of the pose near the centre.
         mirrored: bool,
         /// One pose lies within this angle of the centre.
         radius: Number,
@@ -82,9 +83,9 @@ pub enum CertificateRecord {
         contraction: Number,
         /// Precision of the centre.
         precision: CentrePrecision,
-        /// Proved for all squared lengths that the data can mean.
+        /// Reality of the root, proved for all squared lengths within the rounding of the data.
         reality: ProvedReality,
-        /// What holds the pose of the root.
+        /// Discs that contain the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
 }
@@ -151,7 +152,7 @@ impl From<&OctahedralCertificate> for CertificateRecord {
     }
 }
 
-/// Discs that hold the entries of R and p of a root.
+/// Discs that contain the entries of R and p of a root.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct EnclosureRecord {
     /// The entries of the rotation matrix, rows.

@@ -13,21 +13,21 @@ use platform::topology::{JointIndex, Step};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ClosureRecord {
-    /// There is one.
+    /// The polynomial exists.
     Polynomial(Box<ClosurePolynomialRecord>),
-    /// There is none.
+    /// There is no polynomial.
     None {
-        /// Why not.
+        /// The reason.
         error: String,
     },
 }
 
-/// The closure polynomial in one squared distance, with what it says about the number of real poses.
+/// The closure polynomial in one squared distance, with its results on the number of real poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ClosurePolynomialRecord {
-    /// The joints of the virtual leg; null where none is needed.
+    /// The joints of the virtual leg; null: none is needed.
     pub virtual_leg: Option<[String; 2]>,
-    /// The joints whose squared distance is the unknown.
+    /// The two joints with the unknown squared distance.
     pub unknown: [String; 2],
     /// The joints of the first triangle.
     pub start: [String; 3],
@@ -38,20 +38,20 @@ pub struct ClosurePolynomialRecord {
     pub polynomial: PolynomialRecord,
     /// Singular factors.
     pub factors: Vec<SingularFactor>,
-    /// Real poses at each of them; null where that does not follow.
+    /// Number of real poses at each real root; null: not determined by the polynomial.
     pub real_poses_at_roots: Option<Vec<usize>>,
-    /// Real poses in all, proved; null where that does not follow.
+    /// Total number of real poses, proved; null: not determined by the polynomial.
     pub poses_real_proved: Option<usize>,
 }
 
 /// One trilateration: a joint placed by its distances from three others.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
-    /// Three joints in place.
+    /// Three joints already placed.
     pub from: [String; 3],
     /// The joint placed.
     pub place: String,
-    /// All four are on one body: one place instead of two.
+    /// Whether all four joints are on one body: the joint then has one place instead of two.
     pub rigid: bool,
 }
 

@@ -9,29 +9,28 @@ use fk::{Completeness, FkSolutions};
 /// The finite poses of the design, counted without finding them.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoseCountRecord {
-    /// Their number with multiplicity; null: not finite, or undecided.
+    /// The number with multiplicity; null: not finite, or undecided.
     pub finite: Option<usize>,
-    /// Standard monomials of each degree.
+    /// Number of standard monomials of each degree.
     pub by_degree: Option<Vec<usize>>,
     /// Dimension of a set of positive dimension.
     pub dimension: Option<usize>,
     /// Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
     pub degree: Option<usize>,
-    /// Why there is no count.
+    /// The reason why there is no count.
     pub undecided: Option<CountUndecided>,
-    /// The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as many isolated
-    /// poses as any or more. Where the lengths are known to rounding only, as images under a leg map are, the latter
-    /// are counted.
+    /// The counted lengths: the exact ones given, or generic ones, which have at least as many isolated poses. Lengths
+    /// known only to rounding, such as images under a leg map, are counted as generic.
     pub lengths: CountedLengths,
-    /// By a theorem and certificates, or modulo random primes.
+    /// The evidence: a theorem with certificates, or counting modulo random primes.
     pub evidence: EvidenceWord,
-    /// A bound; null: proved, or undecided.
+    /// A bound on the probability of a wrong count; null: proved, or undecided.
     pub error_probability: Option<f64>,
-    /// In decimal, as text: they have more digits than a double.
+    /// The primes in decimal, as text: they have more digits than a double.
     pub primes: Vec<String>,
 }
 
-/// What a count rests on.
+/// The evidence for a count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EvidenceWord {

@@ -1,4 +1,4 @@
-//! The branches of the offsets: a zone for each, what became of it, and the bound over all of them.
+//! The branches of the offsets: a zone for each, its outcome, and the bound over all of them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,19 +7,19 @@ use super::platform::ZONES;
 use crate::Number;
 use optimize::offsets::{BranchReport, BranchVerdict, BranchWord, Conflict};
 
-/// A branch: a zone for each offset.
+/// A branch: one zone for each offset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BranchRecord {
-    /// Zone of each offset: before, inside, beyond its edge.
+    /// Zone of each offset: before, inside or beyond its edge.
     #[schemars(extend("pattern" = ZONES))]
     pub branch: String,
-    /// What became of it.
+    /// The outcome of the branch.
     pub verdict: BranchWord,
-    /// Its own best, where it is dominated.
+    /// The best objective of the branch, if it is dominated.
     pub objective: Option<Number>,
-    /// Where that is reached.
+    /// The offsets with this objective.
     pub offsets: Option<[Number; 6]>,
-    /// Parts of the branch searched.
+    /// Number of parts of the branch searched.
     pub cells: usize,
     /// Proved conflicts of the branch or of parts of it.
     pub conflicts: Vec<BranchConflictRecord>,
@@ -42,13 +42,13 @@ impl From<&BranchReport> for BranchRecord {
     }
 }
 
-/// Why a branch or a part of it is empty.
+/// A proof that a branch or a part of it is empty.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BranchConflictRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]
     pub code: String,
-    /// One sentence with the numbers.
+    /// The proof in one sentence, with its numbers.
     pub message: String,
 }
 

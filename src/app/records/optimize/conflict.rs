@@ -1,4 +1,4 @@
-//! What cannot be met together.
+//! Requirements in conflict.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,14 +10,14 @@ use machine::requirements::{Objective, TermKind};
 use optimize::dimensional::{ConstraintConflict, Demand, Give};
 use optimize::offsets::{BranchWord, Conflict};
 
-/// Requirements that cannot be met together; without any one of them the others were met.
+/// A conflict: a set of requirements that cannot be met together; without any one of them the others were met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ConflictRecord {
-    /// The set is proved to be in conflict.
+    /// Whether the conflict is proved.
     pub proved: bool,
-    /// What would have to give; empty where every branch is empty for reasons of its own.
+    /// The requirements in conflict, with the amounts to relax. Empty: the branches are empty for different reasons.
     pub requirements: Vec<GiveRecord>,
-    /// Why the branches of the offsets are empty, by kind; empty where the search has no branches.
+    /// The reasons for empty branches of the offsets, by kind; empty: the search has no branches.
     pub reasons: Vec<ConflictReasonRecord>,
 }
 
@@ -27,14 +27,14 @@ pub struct ConflictReasonRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]
     pub code: String,
-    /// Branches with this as their first proof.
+    /// Number of branches with this as their first proof.
     pub branches: usize,
-    /// One sentence with the numbers of one of them.
+    /// The proof for one of these branches in one sentence, with its numbers.
     pub message: String,
 }
 
 impl ConflictRecord {
-    /// The record of a conflict about a design.
+    /// The record of a conflict in a design.
     #[must_use]
     pub fn new(design: &Design, c: &ConstraintConflict) -> Self {
         Self {
@@ -44,14 +44,14 @@ impl ConflictRecord {
         }
     }
 
-    /// Why all branches are empty.
+    /// The reasons why all branches are empty.
     pub(super) fn of_branches(branches: &[BranchRecord]) -> Self {
         Self { proved: true, requirements: Vec::new(), reasons: ConflictReasonRecord::all(branches) }
     }
 }
 
 impl ConflictReasonRecord {
-    /// The reasons of the branches that are proved empty, by their codes.
+    /// The reasons of the proved empty branches, by their codes.
     #[must_use]
     pub fn all(branches: &[BranchRecord]) -> Vec<Self> {
         let mut kinds: Vec<Self> = Vec::new();
@@ -72,15 +72,16 @@ impl ConflictReasonRecord {
 /// A requirement of a conflict.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GiveRecord {
-    /// Which.
+    /// The requirement.
     pub name: DemandWord,
-    /// In which it gives.
+    /// The unit of the amounts.
     pub unit: String,
-    /// By how much it would have to give alone; null: cannot make room.
+    /// The amount of relaxation that suffices alone; null: no amount suffices.
     pub alone: Option<Number>,
-    /// Its violation where the sum of all, each in its scale, is least.
+    /// The amount of relaxation if all requirements give way together; the sum of these amounts, each in its scale, is
+    /// least.
     pub together: Number,
-    /// One sentence.
+    /// The relaxation in one sentence.
     pub message: String,
 }
 
@@ -103,7 +104,7 @@ impl GiveRecord {
         }
     }
 
-    /// By how much it gives together with the others, for people.
+    /// The amount of relaxation together with the others, for people.
     #[must_use]
     pub fn amount(&self) -> String {
         amount(self.together.0)
@@ -165,25 +166,25 @@ pub(super) fn words(design: &Design, d: Demand) -> (String, String) {
     }
 }
 
-/// What is demanded.
+/// A demand on the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum DemandWord {
     /// A requirement of the design.
     Requirement(TermKind),
-    /// An objective at a level at least.
+    /// A least value of an objective.
     Level(Objective),
-    /// What the search itself demands.
+    /// A demand of the search itself.
     Special(SpecialDemand),
 }
 
-/// What the search itself demands.
+/// A demand of the search itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SpecialDemand {
-    /// A least |det A|.
+    /// The least value of |det A|.
     AbsDet,
-    /// Joints that slide stay near their body.
+    /// The greatest distance of sliding joints from their body.
     Reach,
 }
 
@@ -199,7 +200,7 @@ impl From<Demand> for DemandWord {
 }
 
 impl DemandWord {
-    /// The word.
+    /// The code of the demand.
     #[must_use]
     pub fn code(self) -> &'static str {
         match self {

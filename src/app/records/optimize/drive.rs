@@ -1,4 +1,4 @@
-//! The drives of a table, each with what the search for a platform came to with it.
+//! The drives of a table with the search result for each.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,75 +12,74 @@ use optimize::dimensional::DimensionalOutcome;
 /// The search over the drives of a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveSearchRecord {
-    /// The name of the drive of the answer; null: with no drive was a platform found that is proved to meet the
-    /// requirements.
+    /// The name of the drive of the answer; null: no drive leads to a platform that is proved to meet the requirements.
     pub chosen: Option<String>,
-    /// What decides between drives with which the requirements are met.
+    /// The criterion for choosing among the drives that meet the requirements.
     pub ranked_by: DriveRanking,
-    /// Of prices, as the table names it; null: it does not.
+    /// The currency of prices from the table; null: the table names none.
     pub currency: Option<String>,
-    /// The search was told to end before every drive was tried that could win.
+    /// Whether the search was interrupted before every drive that could win was tried.
     pub interrupted: bool,
-    /// One sentence.
+    /// The result in one sentence.
     pub message: String,
     /// All drives, the best first.
     pub drives: Vec<SearchedDriveRecord>,
 }
 
-/// A drive of the table, in the units of the design, with what the search came to.
+/// A drive of the table in the units of the design, with its search result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchedDriveRecord {
-    /// Its name.
+    /// The name of the drive.
     pub name: String,
     /// Line of the table, from 1.
     pub line: usize,
-    /// Price; null: the table does not say it.
+    /// Price; null: not in the table.
     pub price: Option<Number>,
-    /// Mass; null: the table does not say it.
+    /// Mass; null: not in the table.
     pub mass: Option<Number>,
-    /// Least and greatest length from joint centre to joint centre.
+    /// Least and greatest length from joint centre to joint centre, design units.
     pub leg_length: [Number; 2],
-    /// Greatest force; null: the table does not say it.
+    /// Greatest force; null: not in the table.
     pub force: Option<Number>,
-    /// Greatest speed; null: the table does not say it.
+    /// Greatest speed; null: not in the table.
     pub speed: Option<Number>,
-    /// What came of it.
+    /// The outcome for the drive.
     pub outcome: DriveSearchWord,
-    /// Value of the first objective of the platform found; null: none was.
+    /// Value of the first objective of the platform found; null: no platform was found.
     pub objective: Option<Number>,
-    /// What the platform found, or the one that misses the requirements least, leaves of the lengths, the force and the
-    /// speed of the drive; empty where the drive was not searched.
+    /// Margins against the drive's limits of length, force and speed, for the platform found or the one with the least
+    /// violation. Empty: the drive was not searched.
     pub margins: Vec<MarginRecord>,
-    /// What became of the three-fold symmetry of the design; null as in an answer without a table.
+    /// The result for the three-fold symmetry of the design; null under the same conditions as without a table.
     pub symmetry: Option<SymmetryRecord>,
-    /// Why it is not the answer, a sentence; null: it is.
+    /// The reason why this drive is not the answer, one sentence; null: it is the answer.
     pub reason: Option<String>,
 }
 
-/// What came of a drive.
+/// The outcome for a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DriveSearchWord {
-    /// A platform with it is proved to meet the requirements.
+    /// A platform with this drive is proved to meet the requirements.
     Met,
-    /// A platform with it was found that misses requirements.
+    /// A platform was found, but it violates requirements.
     Violated,
-    /// No start met the requirements.
+    /// No start led to a platform that meets the requirements.
     Infeasible,
-    /// Neither is known.
+    /// Neither is proved.
     Undecided,
-    /// The search was told to end during it.
+    /// The search was interrupted at this drive.
     Interrupted,
-    /// It costs more than a drive with which the requirements are met.
+    /// The drive costs more than one that meets the requirements.
     Dearer,
-    /// It can do nothing that a drive cannot with which no start met the requirements.
+    /// The drive is in no respect better than one for which no start met the requirements.
     Weaker,
-    /// The search was told to end before.
+    /// The search was interrupted before this drive.
     NotTried,
 }
 
 impl DriveSearchWord {
-    /// The word.
+    /// The code of the outcome.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -112,7 +111,7 @@ impl DriveSearchWord {
 const OF_DRIVES: [TermKind; 4] =
     [TermKind::LegTooShort, TermKind::LegTooLong, TermKind::LegForce, TermKind::LegSpeed];
 
-/// The margins of all requirements of the platform found, or of the one that comes nearest.
+/// The margins of all requirements of the platform found, or of the platform with the least violation.
 fn margins(driven: &DrivenPlatform) -> Vec<MarginRecord> {
     let Some(c) = driven.found.checked.as_ref().or(driven.found.nearest.as_ref()) else { return Vec::new() };
     match &c.assessed {
@@ -121,7 +120,7 @@ fn margins(driven: &DrivenPlatform) -> Vec<MarginRecord> {
     }
 }
 
-/// Why a platform with a drive is no answer.
+/// The reason why a platform with a drive is no answer.
 fn reason(driven: &DrivenPlatform) -> Option<String> {
     let report = &driven.found.report;
     if driven.found.is_met() {

@@ -1,4 +1,4 @@
-//! Freedoms that resolve a conflict, or do not.
+//! Further freedoms that may resolve a conflict.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,30 +8,30 @@ use ask::Design;
 use ask::{ConflictFreedom, EasedDemand, FreedomWord, OpenedFreedom};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
-/// A freedom that the design does not have, and what came of the search with it.
+/// A freedom that the design does not allow, and the result of the search with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreedomRecord {
-    /// Which.
+    /// The freedom.
     pub freedom: ConflictFreedom,
-    /// What came of it.
+    /// The outcome of the search.
     pub outcome: FreedomWord,
-    /// By how much the limit gave way in the last search, or by how much the platform found is higher; null: no such
-    /// number.
+    /// The amount by which the limit was relaxed in the last search, or by which the platform found is higher; null: no
+    /// such number.
     pub amount: Option<Number>,
-    /// Of the amount.
+    /// The unit of the amount.
     pub unit: String,
-    /// One sentence.
+    /// The result in one sentence.
     pub message: String,
-    /// What `assess` says of the platform found; null: none was.
+    /// The result of `assess` for the platform found; null: none was found.
     pub assessment: Option<AssessAnswer>,
-    /// The platform found, with the limit that gave way; null: none was.
+    /// The platform found, with the relaxed limit; null: none was found.
     pub design: Option<DesignRecord>,
-    /// The file it was written to.
+    /// The design file written; null: none.
     pub output: Option<String>,
 }
 
 impl FreedomRecord {
-    /// What came of a freedom of a design.
+    /// The record of a freedom of a design.
     #[must_use]
     pub fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) -> Self {
         let (outcome, found) = (opened.outcome.word(), opened.outcome.found());

@@ -1,6 +1,6 @@
-//! The answer of `optimize`: one record, whichever search found it.
+//! The answer of `optimize`: the same record for every search.
 //!
-//! A field that does not apply, or of which nothing is known, is null; none is ever absent.
+//! Every field is present; null means that it does not apply or that nothing is known.
 
 mod branches;
 mod conflict;
@@ -33,79 +33,77 @@ use ask::{
 use optimize::dimensional::{DimensionalOutcome, DimensionalProblem, DimensionalSolution, ParetoPoint};
 use optimize::offsets::{BranchCounts, GlobalBound, OffsetOutcome, OffsetProblem};
 
-/// Why the sizes and the height are chosen.
+/// The reason why the sizes and the height are chosen.
 const SIZES: &str = "no leg of the design can be replaced without another kinematics: the sizes of base and platform and the height of home are chosen";
-/// Runners-up that are listed.
+/// Number of runners-up listed.
 const RUNNERS_UP: usize = 5;
 
-/// The answer of `optimize`. Every field is there whichever search found it; null: it does not apply, or nothing is
-/// known of it.
+/// The answer of `optimize`. Every field is present for every search; null: it does not apply, or nothing is known.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimizeAnswer {
-    /// What came of the search.
+    /// The status of the search.
     pub status: OptimizeStatus,
-    /// What is known of better ones; null: nothing, or there is no platform.
+    /// The evidence of optimality; null: none, or there is no platform.
     pub optimality: Option<OptimalityWord>,
-    /// The best platform found; all its fields are null where there is none, or where the answer is a front.
+    /// The best platform found; all its fields are null if there is none, or if the answer is a Pareto front.
     #[serde(flatten)]
     pub platform: FoundPlatformRecord,
     /// The platform as a design; null: there is none.
     pub design: Option<DesignRecord>,
-    /// The file written, with the platform or the one that comes nearest.
+    /// The file written, with the best platform or the one with the least violation.
     pub output: Option<String>,
-    /// Where none that meets the requirements was found: the one with the least violation, which misses some of them.
+    /// The platform with the least violation; null: a platform meets the requirements.
     pub nearest: Option<Box<NearestPlatformRecord>>,
-    /// What cannot be met together, where that is why there is no platform.
+    /// The requirements in conflict; null: no conflict is known.
     pub conflict: Option<ConflictRecord>,
-    /// Why the search failed to decide, a sentence; null: it decided, or nothing failed.
+    /// The reason why the search did not decide, one sentence; null: it decided, or nothing failed.
     pub failure: Option<String>,
-    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what
-    /// came of a search that had it; null where none was looked at.
+    /// Further freedoms that might allow a platform, each with its search result. Null: a platform meets the
+    /// requirements, or no freedom was tried.
     pub freedoms: Option<Vec<FreedomRecord>>,
-    /// What became of the three-fold symmetry of the design; null where it has none, names one, or the search could not
-    /// break it or did not look at it.
+    /// The result for the three-fold symmetry of the design. Null: the design has none or names one, or the search
+    /// could not break it or did not check it.
     pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table, with what the search came to with each; null where no table was given. The rest of the
-    /// answer is about the drive chosen; where none is, about that with which most was reached.
+    /// The drives of a table with the search result for each; null: no table was given. The rest of the answer is about
+    /// the chosen drive, or else about the drive with the best result.
     pub drive_search: Option<DriveSearchRecord>,
-    /// Other local optima that meet the requirements at the poses that were held, best first; null where they were not
-    /// asked for.
+    /// Other local optima that meet the requirements at the poses held, best first; null: not requested.
     pub candidates: Option<Vec<OptimumRecord>>,
-    /// With mode = "pareto": platforms of which none is better in every objective, by falling gain of the first
-    /// objective; else null.
+    /// The Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling
+    /// gain of the first objective; null in other modes.
     pub front: Option<Vec<FrontMemberRecord>>,
-    /// Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are those of the
-    /// design, or the usual ones.
+    /// The reason why the sizes of the bodies and the height of home are chosen, one sentence. Null: the variables come
+    /// from the design or are the usual ones.
     pub choice: Option<String>,
-    /// What the search itself was held to.
+    /// Limits of the search itself.
     pub limits: SearchLimitsRecord,
-    /// The poses that were asked for.
+    /// The poses required.
     pub region: PoseRegionRecord,
-    /// How the search went.
+    /// Statistics of the search.
     pub search: SearchRecord,
-    /// What no platform that could be chosen can exceed at the poses held; null: not proved, or there is no solution.
+    /// An upper bound on the objective of every platform at the poses held; null: not proved, or there is no solution.
     pub global_bound: Option<GlobalBound>,
-    /// Greatest gap to that bound at which the answer counts as optimal; null: the search proves no bound.
+    /// Greatest gap to this bound at which the answer counts as optimal; null: the search proves no bound.
     pub tolerance: Option<f64>,
-    /// What became of the branches; null: the search has none.
+    /// Numbers of branches by outcome; null: the search has none.
     pub branch_counts: Option<BranchCounts>,
     /// The best other branches.
     pub runners_up: Option<Vec<BranchRecord>>,
-    /// All branches: a zone for each offset.
+    /// All branches, with one zone for each offset.
     pub branches: Option<Vec<BranchRecord>>,
 }
 
-/// What is known of platforms better than the one found.
+/// The evidence about platforms better than the one found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OptimalityWord {
-    /// No platform that could be chosen exceeds it by more than the tolerance: proved by branch and bound.
+    /// Proved by branch and bound: no platform exceeds it by more than the tolerance.
     ProvedWithinGap,
-    /// It is a local optimum, the best of all starts; that there is none better is not proved.
+    /// A local optimum, the best of all starts; a better one is possible.
     BestOfStarts,
 }
 
-/// Which search found the answer.
+/// The search that found the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchMethodWord {
@@ -115,23 +113,23 @@ pub enum SearchMethodWord {
     Dimensional,
 }
 
-/// How a search went.
+/// Statistics of a search.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchRecord {
-    /// Which search it was.
+    /// The search method.
     pub method: SearchMethodWord,
-    /// Starts that were climbed from; null: it begins in the branches.
+    /// Number of starts; null: the search begins in the branches.
     pub starts: Option<usize>,
-    /// Starts that led to a feasible point.
+    /// Number of starts that led to a feasible point.
     pub feasible: Option<usize>,
     /// Gains of the polished runs; null in the list: not feasible.
     pub polished: Option<Vec<Option<Number>>>,
-    /// Of a front: runs that met their bounds, and were dominated by others or equal to one.
+    /// Number of runs of a Pareto front that met their bounds and were dominated by or equal to others; null: no front.
     pub dominated: Option<usize>,
-    /// Of a front: bounds that no run met.
+    /// Number of bounds of a Pareto front that no run met; null: no front.
     pub unmet: Option<usize>,
-    /// Conic programs that the library clarabel solved in this search; those with other drives and for freedoms are not
-    /// counted.
+    /// Number of conic programs solved by the library clarabel in this search; searches with other drives and for
+    /// freedoms are not counted.
     pub conic_programs: u64,
 }
 
@@ -149,21 +147,21 @@ impl SearchRecord {
     }
 }
 
-/// What a search is held to besides the requirements of the design.
+/// Limits of a search beside the requirements of the design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchLimitsRecord {
-    /// Of joint centres of a body, design units; null: none.
+    /// Least distance of joint centres of a body, design units; null: none.
     pub min_joint_distance: Option<f64>,
-    /// The least |det A| of platforms equivalent to the design.
+    /// Least |det A| of platforms equivalent to the design.
     pub min_abs_det: f64,
-    /// By which the lengths in the Jacobian are divided.
+    /// The characteristic length, by which moments in the Jacobian are divided, design units.
     pub characteristic_length: f64,
     /// Label of the length unit.
     pub units: String,
 }
 
 impl SearchLimitsRecord {
-    /// Of a search under requirements.
+    /// The limits of a search under requirements.
     #[must_use]
     pub fn new(design: &Design, p: &DimensionalProblem) -> Self {
         Self {
@@ -184,14 +182,14 @@ impl SearchLimitsRecord {
     }
 }
 
-/// The poses that a design asks for.
+/// The poses that a design requires.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseRegionRecord {
-    /// Where home comes from.
+    /// The source of home.
     pub home: SourceWord,
-    /// Its position in the design that the search began with.
+    /// The position of home in the starting design, base frame, design units.
     pub home_position: [Number; 3],
-    /// Where the workspace comes from.
+    /// The source of the workspace.
     pub workspace: SourceWord,
 }
 
@@ -208,13 +206,13 @@ impl From<&Design> for PoseRegionRecord {
 /// Files in which platforms of an answer were written.
 #[derive(Debug, Clone, Default)]
 pub struct OptimizeFiles {
-    /// The platform, or the one that comes nearest.
+    /// The file of the best platform, or of the platform with the least violation.
     pub platform: Option<String>,
-    /// The candidates, in their order.
+    /// The files of the candidates, in order.
     pub candidates: Vec<String>,
-    /// The platforms that freedoms led to.
+    /// The files of the platforms found with further freedoms.
     pub freedoms: Vec<(ConflictFreedom, String)>,
-    /// The members of the front, in their order.
+    /// The files of the members of the front, in order.
     pub front: Vec<String>,
 }
 
@@ -243,7 +241,7 @@ impl OptimizeAnswer {
         }
     }
 
-    /// An answer without a platform: what every search fills.
+    /// An answer without a platform, with the fields that every search fills.
     fn none(
         design: &Design,
         status: OptimizeStatus,

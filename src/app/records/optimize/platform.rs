@@ -1,4 +1,4 @@
-//! Platforms that a search found: what was chosen, what it is worth, and the evidence.
+//! Platforms found by a search: their variables, their objectives and the evidence.
 
 use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
@@ -20,61 +20,60 @@ use platform::manipulator::Octahedral;
 use synthesis::edge_lengths;
 use verify::{VerdictWord, Verification};
 
-/// How the zones of the six offsets are written.
+/// The notation of the zones of the six offsets.
 pub(super) const ZONES: &str = "^[-0+]{6}$";
 
-/// A platform found by a search; every field is null where there is none.
+/// A platform found by a search; every field is null if there is none.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FoundPlatformRecord {
     /// Value of the first objective.
     pub objective: Option<Number>,
-    /// All of them.
+    /// All objectives.
     pub objectives: Option<Vec<ObjectiveRecord>>,
-    /// What was chosen, axes left out.
+    /// The chosen variables, without axes.
     pub variables: Option<Vec<ChosenVariable>>,
-    /// The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    /// The offsets `t_i` in cyclic order; null: no offsets were chosen.
     pub offsets: Option<[Number; 6]>,
-    /// `t_i d_i`, design units; null as `edge_lengths`.
+    /// The displacements `t_i d_i`, design units; null if `edge_lengths` is null.
     pub shifts: Option<[Number; 6]>,
-    /// `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    /// The edges `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     pub edge_lengths: Option<[Number; 6]>,
     /// The legs of the cycle, from 1; null: no offsets were chosen.
     pub cyclic_order: Option<[usize; 6]>,
-    /// Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
+    /// Zone of each offset: before, inside or beyond its edge; null: no offsets were chosen.
     #[schemars(extend("pattern" = ZONES))]
     pub branch: Option<String>,
-    /// det A of the leg map; null: the variables do not keep the class of the design.
+    /// det A of the leg map; null: the variables leave the equivalence class of the design.
     pub det: Option<Number>,
-    /// s' = A s + c, legs in the order of the design; rows. Null as `det`.
+    /// Rows of A: s' = A s + c of squared leg lengths, legs in the order of the design. Null if `det` is null.
     #[serde(rename = "A")]
     pub matrix: Option<[[Number; 6]; 6]>,
-    /// The constant terms, design units squared; null as `det`.
+    /// The constant terms, design units squared; null if `det` is null.
     #[serde(rename = "c")]
     pub constants: Option<[Number; 6]>,
-    /// Home, lifted when its height was chosen.
+    /// The home pose, raised if its height was chosen.
     pub home: Option<PoseQuaternionRecord>,
-    /// The axes chosen.
+    /// The chosen joint axes.
     pub joint_axes: Option<JointAxesRecord>,
-    /// The requirements, over many poses and by other code.
+    /// Margins of the requirements, over many poses and computed independently of the search.
     pub constraint_margins: Option<Vec<MarginRecord>>,
-    /// By how much what the search demands besides them is met.
+    /// Margins of the extra conditions of the search.
     pub search_margins: Option<SearchMarginsRecord>,
-    /// What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies have grown;
-    /// null: nothing.
+    /// The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null: none.
     pub riding: Option<RidingRecord>,
-    /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    /// Whether the platform is proved to meet its requirements; null: some are unproved.
     pub requirements_met: Option<bool>,
-    /// What `assess` says of the platform; null: the design requires nothing.
+    /// The result of `assess` for the platform; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// Whether it is equivalent to the design; null: the variables do not keep the class.
+    /// Whether it is equivalent to the design; null: the variables leave the equivalence class.
     pub verify: Option<VerifiedRecord>,
-    /// Where the first objective is reached among the poses held; null: it is not the worst conditioning.
+    /// The held pose with the value of the first objective; null: the objective is not the worst conditioning.
     pub worst_pose: Option<WorstPoseRecord>,
     /// Evidence of local optimality.
     pub local_optimality: Option<LocalOptimalityRecord>,
-    /// Steps of the run that found it; null in a front.
+    /// Steps of the run that found it; null: a member of a front.
     pub history: Option<Vec<SearchStepRecord>>,
-    /// Numbers of poses.
+    /// Numbers of poses held and checked.
     pub poses: Option<HeldPosesRecord>,
 }
 
@@ -88,7 +87,7 @@ impl FoundPlatformRecord {
         let map = c.verification.as_ref().map(|v| &v.map);
         let det = map.map(|m| m.determinant);
         let octahedral = s.offsets.and_then(|t| Some((t, Octahedral::recognise(design.manipulator()).ok()?)));
-        // a platform that is compared with the design has its triangles
+        // a platform compared with the design has the same triangles
         let base = Self::checked(design, c, &s.objectives, s.poses.len());
         let variables = s.variables.clone();
         let margin =
@@ -170,7 +169,7 @@ impl FoundPlatformRecord {
         }
     }
 
-    /// What the check by other code says; `at_held` are the values of the objectives over the poses held.
+    /// The result of the independent check; `at_held` are the values of the objectives over the poses held.
     fn checked(design: &Design, c: &Checked, at_held: &[(Objective, f64)], held: usize) -> Self {
         let objectives = ObjectiveRecord::all(design, at_held, c);
         Self {
@@ -190,17 +189,17 @@ impl FoundPlatformRecord {
     }
 }
 
-/// The judgement of a platform in its role.
+/// The assessment of a platform in its role.
 fn judged_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
     c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found).with_role(role))
 }
 
-/// How far a variable is from its nearer bound.
+/// Distance of a variable from its nearer bound.
 fn room(v: &ChosenVariable) -> f64 {
     (v.value - v.bounds[0]).min(v.bounds[1] - v.value)
 }
 
-/// By how much what a search demands besides the requirements is met.
+/// Margins of the extra conditions of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchMarginsRecord {
     /// |det A| less the required value; null: the variables do not keep the class of the design.
@@ -209,20 +208,20 @@ pub struct SearchMarginsRecord {
     pub bounds: Number,
 }
 
-/// A local optimum beside the best one.
+/// A local optimum other than the best one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OptimumRecord {
     /// All objectives.
     pub objectives: Vec<ObjectiveRecord>,
-    /// What was chosen, axes left out.
+    /// The chosen variables, without axes.
     pub variables: Vec<ChosenVariable>,
-    /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    /// Whether the platform is proved to meet its requirements; null: some are unproved.
     pub requirements_met: Option<bool>,
-    /// What `assess` says of it; null: the design requires nothing.
+    /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
     /// The platform.
     pub design: DesignRecord,
-    /// The file it was written to.
+    /// The design file written; null: none.
     pub output: Option<String>,
 }
 
@@ -241,14 +240,14 @@ impl OptimumRecord {
     }
 }
 
-/// The platform that comes nearest to its requirements.
+/// The platform with the least violation of its requirements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestPlatformRecord {
-    /// What was chosen, axes left out.
+    /// The chosen variables, without axes.
     pub variables: Vec<ChosenVariable>,
-    /// The requirements, over many poses and by other code.
+    /// Margins of the requirements, over many poses and computed independently of the search.
     pub constraint_margins: Vec<MarginRecord>,
-    /// What `assess` says of it; null: the design requires nothing.
+    /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
     /// The platform.
     pub design: DesignRecord,
@@ -265,7 +264,7 @@ impl NearestPlatformRecord {
     }
 }
 
-/// A member of a front.
+/// A member of a Pareto front.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FrontMemberRecord {
     /// The platform with its evidence.
@@ -273,22 +272,22 @@ pub struct FrontMemberRecord {
     pub platform: FoundPlatformRecord,
     /// The platform as a design.
     pub design: DesignRecord,
-    /// The file written.
+    /// The file written; null: none.
     pub output: Option<String>,
-    /// The objectives in the evaluation that compared the members.
+    /// The objectives as evaluated for comparing the members.
     pub non_dominated_at: Vec<Number>,
 }
 
 /// An objective and its value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ObjectiveRecord {
-    /// Which.
+    /// The name of the objective.
     pub name: Objective,
-    /// By the dense evaluation.
+    /// The value over many poses, computed independently of the search.
     pub value: Number,
-    /// Over the poses at which the search held the requirements.
+    /// The value over the poses at which the search held the requirements.
     pub at_held_poses: Number,
-    /// Empty for a pure number.
+    /// The unit; empty for a pure number.
     pub unit: String,
 }
 
@@ -305,23 +304,23 @@ impl ObjectiveRecord {
     }
 }
 
-/// Axes of joints: unit vectors, frame of the body; null: not chosen.
+/// Joint axes: unit vectors, body frame; null: not chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointAxesRecord {
-    /// Of the base ends of the legs.
+    /// Axes at the base ends of the legs, base frame.
     pub base: Option<[[Number; 3]; 6]>,
-    /// Of their platform ends.
+    /// Axes at the platform ends of the legs, platform frame.
     pub platform: Option<[[Number; 3]; 6]>,
 }
 
-/// A verification in short.
+/// A summary of a verification.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VerifiedRecord {
     /// The verdict.
     pub verdict: VerdictWord,
     /// The largest distance of matched poses.
     pub worst_distance: Number,
-    /// Sets of lengths at which both were solved.
+    /// Number of length sets; both designs were solved at each.
     pub sample_count: usize,
 }
 
@@ -338,7 +337,7 @@ impl From<&Verification> for VerifiedRecord {
 /// The pose with the worst conditioning.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorstPoseRecord {
-    /// Its place among the poses held, from 0.
+    /// Index of the pose among the poses held, from 0.
     pub index: usize,
     /// The pose.
     #[serde(flatten)]
@@ -348,32 +347,32 @@ pub struct WorstPoseRecord {
 /// Evidence of local optimality.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LocalOptimalityRecord {
-    /// The model of the last step promised no further gain.
+    /// Whether the search converged: the model of the last step promised no further gain.
     pub converged: bool,
-    /// Gain still promised for a unit of the variables.
+    /// The remaining first-order gain for a unit of the variables.
     pub stationarity: Number,
-    /// Gained by a pattern search from there; null: none was made.
+    /// The gain of a pattern search from there; null: none was made.
     pub pattern_gain: Option<Number>,
-    /// Points it tried.
+    /// Number of points tried by the pattern search.
     pub pattern_trials: Option<usize>,
 }
 
-/// A step of the run that found a platform.
+/// A step of the run that found the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchStepRecord {
-    /// Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition number.
+    /// Value after the step: the weighted gain of the objectives; for offsets the worst inverse condition number.
     pub objective: Number,
-    /// In the scale of its constraint; lengths relative to the size.
+    /// Greatest violation in the scale of its constraint; lengths relative to the size.
     pub violation: Number,
-    /// Of the trust region.
+    /// Radius of the trust region.
     pub radius: Number,
-    /// Poses held.
+    /// Number of poses held.
     pub poses: usize,
-    /// The step was taken.
+    /// Whether the step was accepted.
     pub accepted: bool,
-    /// Gain of the merit that the model promised.
+    /// Gain of the merit function predicted by the model.
     pub predicted: Number,
-    /// Gain of the merit found; for a refused step at the poses that refused it.
+    /// Actual gain of the merit function; for a rejected step, at the poses that rejected it.
     pub actual: Number,
 }
 
@@ -394,8 +393,8 @@ impl From<&HistoryStep> for SearchStepRecord {
 /// Numbers of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct HeldPosesRecord {
-    /// Where the search held the requirements.
+    /// Number of poses at which the search held the requirements.
     pub held: usize,
-    /// Of the dense evaluation.
+    /// Number of poses of the independent evaluation.
     pub checked: usize,
 }

@@ -1,4 +1,4 @@
-//! What a platform found rides on: limits and ends of ranges of which next to nothing is left.
+//! The active bounds of a platform: limits and ends of ranges with almost no margin.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,52 +10,53 @@ use ask::Design;
 use optimize::dimensional::ChosenVariable;
 use platform::manipulator::Body;
 
-/// Part of a limit below which nothing is left of it.
+/// A margin below this share of its limit counts as zero.
 const NOTHING: f64 = 1e-3;
-/// The same of the range of a variable.
+/// A variable this near to an end of its range, as a share of the range, counts as at the end.
 const AT_END: f64 = 1e-6;
-/// A body that has grown by more is named.
+/// The growth above which a body is named.
 const GROWN: f64 = 1.2;
 
-/// The bounds that decide about a platform, and the growth of its bodies.
+/// The active bounds of a platform, and the growth of its bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RidingRecord {
-    /// Ranges of variables and limits of which nothing is left.
+    /// Active ranges of variables and active limits.
     pub bounds: Vec<RiddenBoundRecord>,
-    /// Greatest distance of a base joint from the centre of the joints, over that in the design.
+    /// Greatest distance of a base joint from the centre of the base joints, divided by its value in the design.
     pub base_growth: Number,
-    /// The same of the platform.
+    /// Greatest distance of a platform joint from the centre of the platform joints, divided by its value in the
+    /// design.
     pub platform_growth: Number,
-    /// One sentence.
+    /// The bounds in one sentence.
     pub message: String,
 }
 
-/// A bound of which nothing is left.
+/// An active bound.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RiddenBoundRecord {
-    /// A variable, a requirement, or `abs_det`.
+    /// The name of a variable or a requirement, or `abs_det`.
     pub name: String,
-    /// What bounds it.
+    /// The kind of bound.
     pub kind: RiddenWord,
-    /// The value of a variable; what is left of a limit.
+    /// The value of the variable, or the margin of the limit.
     pub value: Number,
-    /// Of the value; empty for a pure number.
+    /// The unit of the value; empty for a pure number.
     pub unit: String,
 }
 
-/// What bounds a quantity.
+/// The kind of an active bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RiddenWord {
-    /// The range of the variable ends there.
+    /// The end of the range of a variable.
     RangeEnd,
     /// The limit itself.
     Limit,
-    /// The reserve on the limit, which is kept.
+    /// The safety margin on the limit, which is kept.
     Reserve,
 }
 
-/// `|det A|` of a platform beyond the least value, that value, and the reserve on it.
+/// `|det A|` of a platform beyond the least value, this least value, and the safety margin on it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DetMargin {
     pub(super) left: f64,
@@ -64,7 +65,7 @@ pub(super) struct DetMargin {
 }
 
 impl RidingRecord {
-    /// Of a platform found for a design; `None` where it rides on nothing and has not grown.
+    /// The active bounds of a platform found for a design; `None` if there are none and no body has grown.
     pub(super) fn new(
         design: &Design,
         c: &Checked,
@@ -116,7 +117,7 @@ fn at_end(v: &ChosenVariable) -> Option<RiddenBoundRecord> {
     })
 }
 
-/// Three digits.
+/// A number with three digits.
 fn rounded(x: f64) -> String {
     let digits = format!("{x:.2e}").parse::<f64>().unwrap_or(x);
     digits.to_string()

@@ -1,16 +1,16 @@
-//! What became of the symmetry of a design that names none.
+//! The symmetry of a design that names none.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use machine::requirements::StartSymmetry;
 
-/// What became of the three-fold symmetry that a design has at home and does not ask for.
+/// The search result for the three-fold symmetry that a design has at home and does not require.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SymmetryRecord {
-    /// What became of it.
+    /// The result for the symmetry.
     pub three_fold: StartSymmetry,
-    /// One sentence: why, and how it is turned off.
+    /// The reason, and the way to switch this off, in one sentence.
     pub message: String,
 }
 

@@ -1,4 +1,4 @@
-//! By how much a design meets its requirements; the table of requirements leads every answer that judges a design.
+//! Margins of the requirements of a design; this table leads every answer that assesses a design.
 
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use machine::requirements::MarginVerdict;
@@ -32,7 +32,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet
 }
 
-/// The sentence, the table and what was assumed of masses; a design that requires nothing is told so in a line.
+/// The verdict, the table and the assumptions about masses; for a design without requirements one line says so.
 #[must_use]
 pub fn requirements(name: &str, found: Option<&AssessAnswer>) -> Sheet {
     let Some(found) = found else {
@@ -45,7 +45,7 @@ pub fn requirements(name: &str, found: Option<&AssessAnswer>) -> Sheet {
     sheet
 }
 
-/// The sentence and the table.
+/// The verdict and the table.
 #[must_use]
 pub fn requirements_without_assumptions(found: &AssessAnswer) -> Sheet {
     let mut sheet = Sheet::new();
@@ -63,16 +63,16 @@ pub fn assumptions(found: &AssessAnswer) -> Sheet {
     sheet
 }
 
-/// The answer in a sentence that names what is missed.
+/// The verdict in a sentence that names the violated requirements.
 #[must_use]
 pub fn sentence(found: &AssessAnswer) -> String {
     format!("{} {}", found.name, found.explanation)
 }
 
-/// A row for each kind of requirement with the pose and the legs where it binds, then singularity and conditioning.
+/// The table: a row for each kind of requirement with the critical pose and legs, then singularity and conditioning.
 #[must_use]
 pub fn table(found: &AssessAnswer) -> Table {
-    // a column for the reserve where the design asks for one on any limit
+    // a column for the safety margin, if the design requires one on any limit
     let reserved = found.requirements.iter().any(|m| m.reserve.0 > 0.0);
     let mut table = Table::new(
         [left("requirement", 17), left("status", 9), right("least margin", COLUMN)]
@@ -85,7 +85,7 @@ pub fn table(found: &AssessAnswer) -> Table {
                 left("worst pose x,y,z,qw,qx,qy,qz", 0),
             ]),
     );
-    // `left`: less the reserve
+    // `left`: the margin minus the safety margin
     let mut row =
         |name: &str, status: Cell, [margin, proved]: [&str; 2], left: Cell, [unit, of, pose]: [&str; 3]| {
             let left = reserved.then_some(left);
@@ -116,7 +116,7 @@ pub fn table(found: &AssessAnswer) -> Table {
             [&m.unit, &m.between.join(", "), &place(m.pose.as_ref())],
         );
     }
-    // rows without a margin: the sign of det J, and a number that has no limit
+    // rows without a margin: the sign of det J, and the conditioning, which has no limit
     let (tone, status) = match found.regular.status {
         RegularityWord::Proved => (Tone::Yes, "met"),
         RegularityWord::ChangesSign => (Tone::No, "violated"),
@@ -148,7 +148,7 @@ pub(super) fn judged(margin: &MarginRecord, text: impl Into<String>) -> Cell {
 /// Width of a column of numbers.
 const COLUMN: usize = 14;
 
-/// A number with six decimals, or with as many as the column has room for.
+/// A number with six decimals, or fewer if the column is too narrow.
 fn decimals(x: f64) -> String {
     let plain = format!("{x:.6}");
     if plain.len() <= COLUMN || !x.is_finite() {

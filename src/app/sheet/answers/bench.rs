@@ -4,7 +4,7 @@ use crate::{Sheet, Table, left, right};
 use ask::bench::{ErrorStatistics, RawReport};
 use records::{BenchAnswer, BenchClassRecord, Histogram, NoiseRowRecord};
 
-/// Most failures listed for people; JSON has them all.
+/// The greatest number of failures listed for people; JSON has all of them.
 const LISTED: usize = 20;
 
 /// The answer of `bench` with this seed.
@@ -106,7 +106,7 @@ fn before_refinement(out: &mut Sheet, raw: &RawReport) {
     say!(out, "  error metric from: {}", bins.collect::<Vec<_>>().join(", "));
 }
 
-/// A row a class.
+/// The counts, one row for each class.
 fn counts(rows: &[BenchClassRecord]) -> Table {
     let numbers = [
         ("count", 7),
@@ -148,7 +148,7 @@ fn line(counts: &Histogram) -> String {
     parts.join(", ")
 }
 
-/// Errors of poses over errors of leg lengths, a row a class and level.
+/// Pose errors divided by errors of leg lengths, one row for each class and level.
 fn noise(rows: &[NoiseRowRecord]) -> Sheet {
     let quartiles = ["rot 25%", "50%", "75%", "99%", "pos 25%", "50%", "75%", "99%"];
     let columns = [left("class", 14), right("sigma", 7), right("no pose", 7)].into_iter();

@@ -5,10 +5,10 @@ use machine::calibration::{NoiseSource, StartName};
 use num::shown::{fixed, significant};
 use records::{CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, ResidualsRecord};
 
-/// Unobservable changes that are written out.
+/// The greatest number of unobservable changes written out.
 const CHANGES: usize = 12;
 
-/// The answer of `calibrate`; whether a design was to be written.
+/// The answer of `calibrate`; `wanted`: a design file was requested.
 #[must_use]
 pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     let word = match answer.outcome {

@@ -8,7 +8,7 @@ use records::{
 };
 use synthesis::singularity::Assembly;
 
-/// Joints of a body lie nearly on a line where they are nearer to it than this share of their distance along it.
+/// The ratio of distance from a line to distance along it, below which joints of a body count as nearly on the line.
 const NEARLY: f64 = 0.05;
 
 /// The answer of `check` below its headline; `size` and `units` are those of the design.
@@ -36,7 +36,7 @@ pub fn check(c: &CheckAnswer, headline: &str, size: f64, units: &str) -> Sheet {
     if let Some(n) = &c.nearest_singular {
         nearest(&mut out, n, size, units);
     }
-    // a body whose joints lie nearly on a line turns nearly freely about it
+    // a body with its joints nearly on a line rotates almost freely about it
     for l in c.best_lines.iter().filter(|l| l.distance.0 <= NEARLY * l.reach.0) {
         let (off, [x, y, z], [a, b, c]) = (l.distance.0, l.point.map(|x| x.0), l.direction.map(|x| x.0));
         say!(

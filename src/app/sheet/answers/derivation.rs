@@ -5,7 +5,7 @@ use crate::{Cell, Sheet, Table, left, right};
 use num::shown::significant;
 use records::{DerivationRecord, ExactNumberRecord, LegSlideRecord};
 
-/// The steps from coplanar joints to A, c and det A, and what forward kinematics says of the platform.
+/// The steps from coplanar joints to A, c and det A, and the check by forward kinematics.
 #[must_use]
 pub fn derivation(d: &DerivationRecord, from: &str, to: &str) -> Sheet {
     let mut out = derivation_steps(d);
@@ -33,7 +33,7 @@ pub fn derivation_steps(d: &DerivationRecord) -> Sheet {
     out
 }
 
-/// As an expression, in parentheses where it has several terms; as a decimal where it is long or not exact.
+/// The number as an expression, in parentheses if it has several terms; as a decimal if it is long or inexact.
 fn text(x: &ExactNumberRecord) -> String {
     match &x.exact {
         Some(exact) if exact.len() > WRITTEN => significant(x.value.0),

@@ -13,11 +13,11 @@ use records::{
 
 type Fields = Map<String, Value>;
 
-/// An answer as its document shows it: fields that no other has, a heading, and the sheet that its command prints. The
-/// names are those of the designs.
+/// The display of an answer's document: fields that identify the answer, a heading, and the sheet that its command
+/// prints. The names are those of the designs.
 struct DocumentKind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
 
-/// The first whose fields are there.
+/// The kinds of documents; the first kind with all its fields present applies.
 const KINDS: [DocumentKind; 16] = [
     DocumentKind(&["samples", "map"], "Equivalence", |f, [a, b]| {
         read(f).map(|x: VerifyAnswer| answers::verify(&x, a, b))
@@ -61,14 +61,14 @@ fn kind(fields: &Fields) -> Option<&'static DocumentKind> {
     KINDS.iter().find(|kind| kind.0.iter().all(|key| fields.contains_key(*key)))
 }
 
-/// A heading for the document of an answer.
+/// The heading for the document of an answer.
 #[must_use]
 pub fn heading(fields: &Fields) -> &'static str {
     kind(fields).map_or("Result", |kind| kind.1)
 }
 
-/// The sheet that the command of the answer prints; all fields of an answer without one, and of one of another version,
-/// which may lack a field of today.
+/// The sheet that the command of the answer prints. An answer without such a sheet, or of another version with missing
+/// fields, is listed with all its fields.
 #[must_use]
 pub fn document(fields: &Fields) -> Sheet {
     let name = |k: usize| fields.get("provenance")?.get("designs")?.get(k)?.get("name")?.as_str();
@@ -80,12 +80,12 @@ fn read<T: DeserializeOwned>(fields: &Fields) -> Option<T> {
     T::deserialize(fields).ok()
 }
 
-/// Rows of a list that are shown.
+/// The greatest number of rows of a list shown.
 const ROWS: usize = 24;
-/// Objects inside objects that are shown; deeper ones are in the file.
+/// The greatest depth of nested objects shown; deeper ones are in the file.
 const DEPTH: usize = 3;
 
-/// Fields that are told elsewhere.
+/// Fields shown elsewhere.
 const ELSEWHERE: [&str; 4] = ["schema_version", "provenance", "explanation", "warnings"];
 
 /// The explanation, then all other fields.
@@ -100,7 +100,7 @@ fn all_fields(fields: &Fields) -> Sheet {
 fn facts<'a>(fields: impl Iterator<Item = (&'a String, &'a Value)> + Clone, depth: usize) -> Sheet {
     let plain = |v: &Value| cell(v).filter(|_| short(v));
     let mut sheet = Sheet::new();
-    // what does not apply is in the file
+    // fields that do not apply are in the file
     let told = fields.clone().filter(|(_, v)| !v.is_null());
     sheet.table(Table::facts(24, told.filter_map(|(key, v)| Some((words(key), plain(v)?)))));
     for (key, value) in fields.filter(|(_, v)| plain(v).is_none()) {
@@ -115,7 +115,7 @@ fn nested(sheet: &mut Sheet, name: &str, value: &Value, depth: usize) {
         Value::Object(fields) => sheet.part(name, depth == 0, facts(fields.iter(), depth + 1)),
         Value::Array(list) => {
             let plural = if list.len() == 1 { "entry" } else { "entries" };
-            // a matrix is worth seeing at once
+            // a small matrix is shown unfolded
             let open = list.len() <= 6 && list.iter().all(Value::is_array);
             sheet.part(format!("{name} ({} {plural})", list.len()), open, rows(list));
         }
@@ -177,7 +177,7 @@ fn scalar(value: &Value) -> Option<String> {
     }
 }
 
-/// Whether a text is a word of the answers, such as `leg_too_short`, and no sentence, path or name of a user.
+/// Whether a text is a word of the answers, such as `leg_too_short`, rather than a sentence, a path or a user's name.
 fn is_name(text: &str) -> bool {
     text.contains('_') && text.chars().all(|c| c.is_ascii_lowercase() || c == '_')
 }
@@ -186,7 +186,7 @@ fn short(value: &Value) -> bool {
     value.as_array().is_none_or(|list| list.len() <= 12)
 }
 
-/// A field as people call it: short names in full, the unit at the end of a name in brackets.
+/// The name of a field in words: short names in full, a unit at the end of a name in brackets.
 #[must_use]
 pub fn words(key: &str) -> String {
     const SHORT: [(&str, &str); 10] = [

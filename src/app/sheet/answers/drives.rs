@@ -1,11 +1,11 @@
-//! Which drives of a table fit.
+//! The fit of the drives of a table.
 
 use super::requirements;
 use crate::{Cell, Sheet, Table, left, right};
 use num::shown::significant as short;
 use records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
 
-/// The answer of `build drives`: the sentence, a line for each drive, and the requirements with the drive chosen.
+/// The answer of `build drives`: the verdict, a line for each drive, and the requirements with the chosen drive.
 #[must_use]
 pub fn drives(answer: &DrivesAnswer) -> Sheet {
     let mut out = Sheet::new();
@@ -62,8 +62,8 @@ fn table(answer: &DrivesAnswer) -> Table {
     table
 }
 
-/// The requirements that a drive misses or that are not proved; of one that fits what the drive leaves: length, force
-/// and speed.
+/// The requirements that a drive violates or that are unproved. For a drive that fits, its margins of length, force and
+/// speed.
 fn binding(drive: &DriveRecord) -> Vec<String> {
     let with = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
     let mut out = Vec::new();

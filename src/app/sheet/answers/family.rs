@@ -4,7 +4,7 @@ use crate::{Sheet, Table, left, right};
 use platform::manipulator::Body;
 use records::{FamilyAnswer, PatternPlace, PatternRecord};
 
-/// The answer of `equivalents family`: the class with its topologies, or the patterns alone that were asked for.
+/// The answer of `equivalents family`: the class with its topologies, or only the requested patterns.
 #[must_use]
 pub fn family(r: &FamilyAnswer, asked: bool) -> Sheet {
     let mut sheet = summary(r);

@@ -1,4 +1,4 @@
-//! All poses for given lengths, or one pose that is followed.
+//! All poses for given lengths, or one pose that is tracked.
 
 use crate::{Sheet, Table, left, listed, right};
 use fk::{CompletenessWord, NearWord};
@@ -47,7 +47,7 @@ fn solved(row: &FkRowRecord) -> Option<&FkOneAnswer> {
     }
 }
 
-/// A row of lengths a line. Cranks beyond their limits follow the table.
+/// The table of all rows, one line each. Cranks beyond their limits follow the table.
 fn many(rows: &[FkRowRecord]) -> Sheet {
     let first = rows.iter().find_map(solved);
     let columns = if first.is_some_and(|one| one.drives.is_some()) {
@@ -108,7 +108,7 @@ fn position(near: &NearRecord) -> String {
     listed(near.reached.position.map(|x| x.0), 6)
 }
 
-/// How the pose was followed, before the list of poses.
+/// The tracking of the pose, before the list of poses.
 fn followed(out: &mut Sheet, near: &NearRecord, units: &str) {
     let share = 100.0 * near.fraction;
     match near.outcome {
@@ -140,7 +140,7 @@ fn followed(out: &mut Sheet, near: &NearRecord, units: &str) {
     }
 }
 
-/// The pose of drives whose joints are not ideal.
+/// The pose for the lengths of drives with joints that are not ideal.
 fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
     let (at, steps) = (position(near), drives.steps);
     match drives.status {
@@ -161,7 +161,7 @@ fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
     }
 }
 
-/// The number of poses, whether these are all, and the real ones.
+/// The number of poses, the completeness of the list, and the real poses.
 fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
     if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
     {
@@ -216,12 +216,12 @@ fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
     }
 }
 
-/// All poses with the numbers by which people name them.
+/// All poses with the numbers shown to people.
 fn numbered(s: &SolvedRecord) -> impl Iterator<Item = (usize, &SolutionRecord)> {
     (1..).zip(s.solution_set.witness_points().iter().chain(&s.solutions))
 }
 
-/// The words before the reason.
+/// The beginning of the completeness sentence, before the reason.
 fn completeness(s: &SolvedRecord) -> &'static str {
     let moves = matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { .. });
     let as_written =
@@ -258,7 +258,7 @@ fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
     );
 }
 
-/// Places where a multiple pose may be, with the number of paths that end there.
+/// A possible multiple pose, with the number of paths that end near it.
 fn unproved_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
     let (pose, angles) = shown(r);
     say!(
@@ -270,7 +270,7 @@ fn unproved_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
     );
 }
 
-/// Which real poses have all cranks on the sides that the design keeps.
+/// The real poses with all cranks on the sides that the design keeps.
 fn elbows(s: &SolvedRecord) -> String {
     let kept =
         numbered(s).filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
@@ -282,7 +282,7 @@ fn elbows(s: &SolvedRecord) -> String {
     }
 }
 
-/// The cranks that are beyond their limits at the angles given, with words before them; nothing without such cranks.
+/// The cranks beyond their limits at the given angles, after the words `before`; nothing if there are none.
 fn beyond_limits(out: &mut Sheet, answer: &FkOneAnswer, before: &str) {
     let legs: Vec<String> = answer.outside.iter().map(ToString::to_string).collect();
     let (crank, is) = if legs.len() == 1 { ("crank of leg", "is") } else { ("cranks of legs", "are") };
@@ -306,7 +306,7 @@ fn symmetric(out: &mut Sheet, answer: &FkOneAnswer) {
     );
 }
 
-/// The polynomial in a Cayley parameter: its degree, how close its coefficients are known, its real roots.
+/// The polynomial in a Cayley parameter: its degree, the accuracy of its coefficients, its real roots.
 fn rotations(out: &mut Sheet, found: &RotationPolynomialRecord) {
     let p = match found {
         RotationPolynomialRecord::Polynomial(p) => p,

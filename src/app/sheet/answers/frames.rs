@@ -36,7 +36,7 @@ pub(super) fn frames(r: &FramesRecord) -> Sheet {
 
 /// A motion as axis, angle and shift.
 fn motion(p: &Pose) -> String {
-    // by the quaternion: the axis of a half turn has no place in the skew part of the matrix
+    // the axis comes from the quaternion: for a half turn the skew part of the matrix is zero
     let q = UnitQuaternion::from_rotation_matrix(&p.rotation);
     let (axis, angle) = q.axis_angle().map_or((Vector3::z(), 0.0), |(u, t)| (u.into_inner(), t.to_degrees()));
     let vector = |v: &Vector3<f64>| format!("({})", [v.x, v.y, v.z].map(|x| fixed(x, 6)).join(", "));

@@ -4,7 +4,7 @@ use crate::{Table, left};
 use ask::Design;
 use num::shown::significant;
 
-/// The joints of each leg in the frames of their bodies, and its length: that of the file, or at home.
+/// The joints of each leg in body frames, and its length from the file, or else at home.
 #[must_use]
 pub fn legs(design: &Design) -> Table {
     let m = design.manipulator();

@@ -1,4 +1,4 @@
-//! How far the platform may move.
+//! The free travel of the platform.
 
 use crate::{Sheet, Table, left, right};
 use num::shown::significant as short;
@@ -38,7 +38,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     out
 }
 
-/// The requirement and what it is about.
+/// The requirement with the legs, joints or load concerned.
 fn named(limit: &LimitRecord) -> String {
     if limit.between.is_empty() {
         limit.code().to_owned()

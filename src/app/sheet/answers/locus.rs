@@ -9,7 +9,7 @@ pub fn locus(name: &str, r: &LocusAnswer) -> Sheet {
     let [base, platform] = &r.between;
     let mut out = Sheet::new();
     say!(out, "{name}: squared distance of {base} and {platform} while the length of leg {} varies\n", r.leg);
-    // lengths in a row with the same numbers are one line
+    // consecutive lengths with the same numbers share one line
     let key = |r: &LocusRowRecord| {
         let real = r.values.iter().filter(|v| v.real == Some(true)).count();
         (r.values.len(), real, r.status, r.all_paths_accounted)

@@ -70,7 +70,8 @@ pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
     out
 }
 
-/// Longest number of a row that is written out: the decimals of an optimised offset take a line each.
+/// The greatest length of a number in an exact row, characters: the decimals of an optimised offset would fill a line
+/// each.
 pub(super) const WRITTEN: usize = 24;
 
 /// Numbers times symbols and a constant, with signs and without ones and zeros.
@@ -87,7 +88,7 @@ pub(super) fn combination(terms: impl IntoIterator<Item = (String, String)>, con
     all.join(" + ").replace("+ -", "- ")
 }
 
-/// The map in exact numbers, a formula a leg.
+/// The map in exact numbers, one formula for each leg.
 fn exact_rows(out: &mut Sheet, r: &MapRecord) {
     let (Some(a), Some(c), Some(shares)) = (&r.matrix_exact, &r.constants_exact, &r.singular_shares) else {
         return;

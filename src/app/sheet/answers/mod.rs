@@ -1,4 +1,4 @@
-//! The sheet of each answer, a file an answer; [`document()`] finds the one of a JSON document.
+//! The sheet of each answer, one file for each; [`document()`] chooses the sheet for a JSON document.
 
 mod assess;
 #[cfg(feature = "lab")]

@@ -8,7 +8,7 @@ use records::{
     CrankMotionRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord, TimedMarginRecord,
 };
 
-/// The answer of `motion`: the sentence, and for each motion a table of legs and one of requirements.
+/// The answer of `motion`: the verdict, and for each motion a table of legs and a table of requirements.
 #[must_use]
 pub fn motion(answer: &MotionAnswer) -> Sheet {
     let mut out = Sheet::new();
@@ -97,7 +97,7 @@ fn legs(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord) {
     singular(out, motion);
 }
 
-/// The singular pose of a motion, or what is known of its absence.
+/// The singular pose of a motion, or the evidence for its absence.
 fn singular(out: &mut Sheet, motion: &MotionRunRecord) {
     let parts = (motion.singular_at_s, &motion.singular_pose, motion.singular_evidence);
     if let (Some(time), Some(pose), Some(evidence)) = parts {
@@ -114,7 +114,7 @@ fn singular(out: &mut Sheet, motion: &MotionRunRecord) {
     }
 }
 
-/// A row for each leg or crank, with its number under `what`.
+/// A row for each leg or crank, with its number in the column `what`.
 fn table<const N: usize>(
     what: &str,
     titles: [String; N],

@@ -1,4 +1,4 @@
-//! What moves of legs came to.
+//! The result of moving legs.
 
 use super::assess;
 use super::map::leg_map;
@@ -73,7 +73,7 @@ fn describe(out: &mut Sheet, number: &str, m: &LegMoveRecord) {
         SingularParametersRecord::Everywhere(_) => "det A = 0 all along the family".to_string(),
         SingularParametersRecord::At(list) if list.is_empty() => "nowhere singular on the family".to_string(),
         SingularParametersRecord::At(list) => {
-            // nine decimals: the parameters are roots, their last digits are rounding
+            // nine decimals: the parameters are roots, so further digits are rounding
             let list: Vec<String> =
                 list.iter().map(|t| ((t.0 * 1e9).round() / 1e9 + 0.0).to_string()).collect();
             format!("singular at t = {}", list.join(", "))
@@ -142,7 +142,7 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
     out
 }
 
-/// The wishes and the requirements that a platform fulfils and misses.
+/// The requested properties and requirements that a platform has and misses.
 fn fulfilled(c: &CandidateRecord) -> String {
     let names = |a: &AssessAnswer| {
         let kinds = a.requirements.iter().filter(|m| m.met == a.met).map(|m| m.name.code());

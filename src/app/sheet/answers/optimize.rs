@@ -1,4 +1,4 @@
-//! What a search found.
+//! The result of a search.
 
 use super::{assumptions, requirements, requirements_without_assumptions};
 use crate::{Cell, Sheet, Table, Tone, left, right};
@@ -19,7 +19,7 @@ pub fn optimize(name: &str, a: &OptimizeAnswer) -> Sheet {
     told(name, a, true)
 }
 
-/// The same for a report that has the requirements of the platform elsewhere.
+/// The same answer for a report that shows the requirements of the platform elsewhere.
 #[must_use]
 pub fn search(name: &str, a: &OptimizeAnswer) -> Sheet {
     told(name, a, false)
@@ -75,7 +75,7 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     out
 }
 
-/// What was asked, and how the search went.
+/// The task and the statistics of the search.
 fn progress(out: &mut Sheet, a: &OptimizeAnswer) {
     let (l, units) = (&a.limits, &a.limits.units);
     let room =
@@ -105,7 +105,7 @@ fn progress(out: &mut Sheet, a: &OptimizeAnswer) {
     }
 }
 
-/// What the word of the status means here.
+/// The meaning of the status for this answer.
 fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
     match (a.status, a.optimality) {
         (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
@@ -136,7 +136,7 @@ fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
     }
 }
 
-/// What became of the branches, where the search has some.
+/// The outcomes of the branches, if the search has any.
 fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
     let Some(n) = &a.branch_counts else { return };
     say!(
@@ -161,7 +161,7 @@ fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
     }
 }
 
-/// The members of a front: a line for each, and then the requirements of each.
+/// The members of a front, one line each, followed by the requirements of each.
 fn front(out: &mut Sheet, list: &[FrontMemberRecord]) {
     for (k, member) in list.iter().enumerate() {
         let s = &member.platform;
@@ -183,13 +183,13 @@ fn front(out: &mut Sheet, list: &[FrontMemberRecord]) {
         });
         out.space();
     }
-    // one file says what is assumed of all members
+    // the assumptions are the same for all members
     if let Some(found) = list.first().and_then(|member| member.platform.assessment.as_ref()) {
         out.add(assumptions(found));
     }
 }
 
-/// A line for each drive of the table.
+/// The drives of the table, one line each.
 #[must_use]
 pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
     let price = d.currency.as_ref().map_or("price".to_owned(), |c| format!("price {c}"));
@@ -213,7 +213,7 @@ pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
     out
 }
 
-/// What comes nearest misses something: the table of its requirements says what.
+/// The platform with the least violation, with the table of its requirements.
 fn nearest(out: &mut Sheet, n: &NearestPlatformRecord) {
     out.line(
         "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:",
@@ -223,7 +223,7 @@ fn nearest(out: &mut Sheet, n: &NearestPlatformRecord) {
     variables(out, &n.variables);
 }
 
-/// A line for each local optimum beside the answer.
+/// The other local optima, one line each.
 fn candidates(out: &mut Sheet, list: &[OptimumRecord]) {
     if list.is_empty() {
         out.line("\nno other local optimum that meets the requirements was found");
@@ -242,7 +242,7 @@ fn candidates(out: &mut Sheet, list: &[OptimumRecord]) {
     }
 }
 
-/// What was chosen: from what, to what.
+/// The chosen variables with their values before and after.
 fn variables(out: &mut Sheet, list: &[ChosenVariable]) {
     let columns = [left("", 20).gap(3), right("", 12), left("", 0).gap(2)];
     let rows =
@@ -285,7 +285,7 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
             v.worst_distance.0
         );
     }
-    // the room that offsets need where the design says nothing is required of the search alone
+    // requirements outside the assessment: the search alone demands the spacing that offsets need
     let listed = |m: &&MarginRecord| {
         !s.assessment.iter().flat_map(|a| &a.requirements).any(|known| known.name == m.name)
     };
@@ -298,7 +298,7 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     out.table(table);
 }
 
-/// A line for each leg whose joint slides on an edge.
+/// A line for each leg with a joint that slides on an edge.
 fn offsets(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     let (Some(order), Some(offsets), Some(branch)) = (s.cyclic_order, s.offsets, &s.branch) else { return };
     let text = |title: &str, width| left(title, width).gap(2);

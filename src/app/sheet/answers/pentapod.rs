@@ -1,4 +1,4 @@
-//! What five legs hold.
+//! The line that five legs hold.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use fk::LineClass;
 use records::{LineTermRecord, PentapodAnswer, legs_in_words};
 use synthesis::DecouplingLeg;
 
-/// Terms of a polynomial that are written out.
+/// The greatest number of terms of a polynomial written out.
 const TERMS: usize = 12;
 
 /// The answer of `check` and of `fk` about a design of five legs; `units` are those of the design.

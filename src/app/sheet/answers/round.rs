@@ -8,7 +8,7 @@ use records::{
     ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord,
 };
 
-/// A line about a design; `met`: what is known of its requirements over the whole workspace, where it was judged there.
+/// A line about a design; `met`: the verdict over the whole workspace, if there is one.
 fn judged(out: &mut Sheet, what: &str, j: &Judgement, met: Option<bool>, units: &str) {
     let requirements = match (met, j.met) {
         (Some(true), true) => "met",
@@ -52,7 +52,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
         out.add(requirements(design.name(), r.assessment.as_ref()));
         out.space();
     }
-    // the design that is written was judged at every pose; a line of its own poses must not say more
+    // the written design was assessed over the whole workspace; the line about its sampled poses must not claim more
     let written = r.chosen.or(r.least_missed);
     let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
     say!(out, "{}", r.name);

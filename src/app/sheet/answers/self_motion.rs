@@ -66,7 +66,7 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
     out
 }
 
-/// Whether the platform moves, and what shows it.
+/// The verdict: whether the platform moves, with the evidence.
 fn verdict(r: &SelfmotionAnswer) -> String {
     let freedoms = |d: usize| if d == 1 { "1 freedom".to_string() } else { format!("{d} freedoms") };
     let first = r.tangent_dimension.unwrap_or(0);

@@ -4,7 +4,7 @@ use crate::Sheet;
 use num::shown::significant;
 use records::{CoefficientsWord, Number, PolynomialRecord, PoseFamilyWord, SingularLocusAnswer};
 
-/// Characters of a polynomial that is written with its exact coefficients.
+/// The greatest length of a polynomial written with its exact coefficients, characters.
 const EXACT_LENGTH: usize = 400;
 
 /// The answer of `singular locus`.
@@ -58,7 +58,7 @@ fn roots(out: &mut Sheet, r: &SingularLocusAnswer) {
     }
 }
 
-/// The terms with exact coefficients; those with long integers over the largest one, rounded.
+/// The terms with exact coefficients; long integers are divided by the largest one and rounded.
 fn polynomial(p: &PolynomialRecord) -> String {
     let exact = joined(p, |k| p.coefficients.get(k).cloned().unwrap_or_default());
     if p.coefficient_bounds.is_none() && exact.len() <= EXACT_LENGTH {

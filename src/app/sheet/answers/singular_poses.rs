@@ -6,7 +6,7 @@ use records::{
 };
 use synthesis::singularity::RegularityWord;
 
-/// The answer of `singular poses`; the region is that of the design, or was given.
+/// The answer of `singular poses`; `of_the_design`: the region comes from the design.
 #[must_use]
 pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
     let mut out = Sheet::new();
@@ -85,7 +85,7 @@ fn judged(out: &mut Sheet, name: &str, j: &JudgedPoseRecord) {
     );
 }
 
-/// What det J does along a path, in words.
+/// The sign of det J along a path, in words.
 fn path(out: &mut Sheet, r: &SignPathRecord) {
     say!(out, "path from mode {} to mode {} (0 is the pose):", r.from, r.to);
     for (k, part) in r.parts.iter().enumerate() {
@@ -102,7 +102,7 @@ fn path(out: &mut Sheet, r: &SignPathRecord) {
     }
 }
 
-/// Which modes are joined, in words.
+/// The assembly modes joined by regular paths, in words.
 fn pairs(out: &mut Sheet, r: &SignPairsRecord) {
     let n = r.signs.len();
     out.line(

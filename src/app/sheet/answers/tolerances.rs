@@ -1,4 +1,4 @@
-//! How far joints may be off.
+//! The joint errors allowed.
 
 use super::requirements;
 use crate::{Sheet, Table, left, right};
@@ -77,7 +77,7 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
     out
 }
 
-/// What the calibration does not know of computed poses.
+/// The uncertainty of computed poses due to the errors of the calibration.
 fn computed_poses(out: &mut Sheet, r: &CalibratedPosesRecord, units: &str) {
     let known = r.correlations == CorrelationsWord::Design;
     say!(
@@ -136,7 +136,7 @@ fn joints(joints: &[JointBudgetRecord]) -> Table {
     table
 }
 
-/// What solving says about the radius.
+/// The exact check of the first-order radius.
 fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
     let radius = solved.radius.map_or_else(String::new, |r| {
         format!("; with {:.6e} {units} the worst errors found keep it when they are solved", r.0)
@@ -151,7 +151,7 @@ fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
     }
 }
 
-/// What random errors did to the pose.
+/// The effect of random errors on the pose.
 fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord) {
     say!(
         out,

@@ -49,7 +49,7 @@ fn catalogue(list: &[TopologyRecord]) -> Table {
     table
 }
 
-/// The fewest shared joints of each, by equivalent rearrangement.
+/// The fewest shared joints of each topology, by equivalent rearrangement.
 fn rearrangements(list: &[RearrangementRecord]) -> Table {
     let mut table = Table::new([
         left("id", 4),

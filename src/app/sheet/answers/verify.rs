@@ -9,7 +9,7 @@ use records::{SampleRecord, VerifyAnswer};
 pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     let mut out = Sheet::new();
     if v.sampling.is_none() {
-        // no motion was found: the sentence of the alignment is the answer
+        // no motion was found: the explanation of the alignment is the answer
         say!(out, "{a} ~ {b}: {}", v.verdict.name());
         out.add(frames(&v.frames));
         return out;
@@ -45,7 +45,7 @@ pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     out
 }
 
-/// What a sample leaves open.
+/// The open points of a sample.
 fn remark(s: &SampleRecord) -> String {
     let beyond =
         [("A", s.beyond_precision_a), ("B", s.beyond_precision_b)].into_iter().filter(|(_, n)| *n > 0);

@@ -1,4 +1,4 @@
-//! What has to hold for a row to be kept: a column, a comparison, a value.
+//! The conditions for keeping a row: a column, a comparison, a value.
 
 use crate::column::{ColumnKind, SweepCell, SweepColumn};
 
@@ -13,7 +13,7 @@ pub enum KeepComparison {
     Greater,
 }
 
-/// Longer signs first, so that `<=` is not read as `<`.
+/// The signs; longer ones first, so that `<=` is not read as `<`.
 const SIGNS: [(&str, KeepComparison); 6] = [
     ("<=", KeepComparison::AtMost),
     (">=", KeepComparison::AtLeast),
@@ -23,26 +23,26 @@ const SIGNS: [(&str, KeepComparison); 6] = [
     (">", KeepComparison::Greater),
 ];
 
-/// `conditioning >= 0.1`: a row is kept when all of them hold. An empty cell satisfies none.
+/// A condition such as `conditioning >= 0.1`; a row is kept if all conditions hold. An empty cell satisfies none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeepCondition {
-    /// Number of the column.
+    /// Index of the column.
     pub column: usize,
     comparison: KeepComparison,
     value: SweepCell,
 }
 
-/// What to write for a condition.
+/// The form of a condition, for messages.
 const FORM: &str = "write a column, one of < <= == != >= >, and a value: \"conditioning >= 0.1\"";
 
 impl KeepCondition {
     /// A condition as column, comparison and value.
     ///
     /// # Errors
-    /// That there is no comparison, and what to do.
+    /// A missing comparison, with the remedy.
     pub fn parts(text: &str) -> Result<(&str, KeepComparison, &str), (String, String)> {
         let place = SIGNS.iter().filter_map(|sign| Some((text.find(sign.0)?, sign)));
-        // of signs at one place the longer one, which stands first
+        // among signs at one place the longer one, which comes first
         let Some((at, (sign, comparison))) = place.min_by_key(|(at, _)| *at) else {
             return Err((format!("`{text}` compares nothing"), FORM.into()));
         };
@@ -52,7 +52,7 @@ impl KeepCondition {
     /// Reads a condition about one of these columns.
     ///
     /// # Errors
-    /// What is wrong with it, and what to do.
+    /// The fault of the condition, with the remedy.
     pub fn read(text: &str, columns: &[SweepColumn]) -> Result<Self, (String, String)> {
         let (name, comparison, value) = Self::parts(text)?;
         let Some(column) = columns.iter().position(|c| c.name == name) else {
@@ -81,7 +81,7 @@ impl KeepCondition {
         Ok(Self { column, comparison, value })
     }
 
-    /// Whether a row satisfies it, its cells up to this column known.
+    /// Whether a row satisfies the condition; its cells up to this column must be known.
     pub fn holds(&self, row: &[SweepCell]) -> bool {
         let cell = &row[self.column];
         match (cell, &self.value) {

@@ -1,4 +1,4 @@
-//! The plan of a sweep: a base design, what varies, what is computed, what is kept.
+//! The plan of a sweep: a base design, free quantities, computed results, conditions on rows.
 
 mod condition;
 mod place;
@@ -20,38 +20,38 @@ pub use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
 use super::column::{CANDIDATE, ColumnKind, SweepColumn};
 use ask::presets::Preset;
 
-/// Candidates of a plan, at most.
+/// Greatest number of candidates of a plan.
 const MOST_CANDIDATES: u64 = 1 << 53;
 
-/// What a plan says, checked against its base design.
+/// A plan, checked against its base design.
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
-    /// Its name.
+    /// The name of the plan.
     pub name: String,
-    /// What it is for, in words.
+    /// The purpose, in words.
     pub description: Option<String>,
-    /// What varies; the candidates are all combinations of the candidates of the blocks.
+    /// The free quantities; the candidates are all combinations of the candidates of the blocks.
     pub blocks: Vec<PlanBlock>,
-    /// The poses over which figures are the worst ones.
+    /// The poses for the worst figures.
     pub poses: PoseChoice,
-    /// How requirements are assessed.
+    /// The effort of assessing requirements.
     pub assess: AssessEffort,
-    /// The accuracy for which joints are toleranced.
+    /// The accuracy for the joint tolerances.
     pub accuracy: Option<ErrorBound>,
-    /// Steps of searches, at most.
+    /// Greatest number of steps of a search.
     pub steps: usize,
-    /// What is computed, in this order.
+    /// The computed results, in this order.
     pub tasks: Vec<SweepTask>,
-    /// What has to hold for a row to be kept.
+    /// The conditions for keeping a row.
     pub keep: Vec<KeepCondition>,
 }
 
-/// Where the base design of a plan is.
+/// The place of a plan's base design.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum BaseName {
     /// A file, relative to the plan.
     File(String),
-    /// A preset of the program: name, text.
+    /// A preset of the program, as name and text.
     Preset(&'static str, &'static str),
 }
 
@@ -71,39 +71,38 @@ pub struct PlanText<'a> {
     pub text: &'a str,
     /// Its notation.
     pub format: Format,
-    /// The designs that it may name as presets.
+    /// The presets that it may name.
     pub presets: &'static [Preset],
 }
 
 impl<'a> PlanText<'a> {
-    /// A text that names no preset.
+    /// A text without presets.
     #[must_use]
     pub fn new(text: &'a str, format: Format) -> Self {
         Self { text, format, presets: &[] }
     }
 
-    /// The same with the presets that it may name.
+    /// The same with presets.
     #[must_use]
     pub fn with_presets(self, presets: &'static [Preset]) -> Self {
         Self { presets, ..self }
     }
 }
 
-/// The poses over which figures are the worst ones.
+/// The poses for the worst figures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PoseChoice {
-    /// Home and the grid, the single poses and the trajectory of the workspace of the candidate.
+    /// Poses of the candidate's workspace: home and the grid, the single poses and the trajectory.
     Workspace,
     /// Home alone.
     Home,
-    /// Home, the corners of the region of the workspace, so many points of a Halton sequence in it and as many random
-    /// ones.
+    /// Home, the corners of the region of the workspace, this number of Halton points in it, and as many random ones.
     Region(usize),
-    /// These, in the base frame.
+    /// Listed poses, base frame.
     Listed(Vec<Pose>),
 }
 
-/// How densely requirements are looked at, and how hard they are bounded.
+/// The density of sampling requirements, and the effort of bounding them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AssessEffort {
     pub(crate) points: usize,
@@ -117,64 +116,64 @@ impl Default for AssessEffort {
     }
 }
 
-/// What a free quantity changes.
+/// The target of a free quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FreeQuantity {
     /// The pattern of the equivalent platform.
     Pattern,
     /// The drive in all legs, from the table of the plan.
     Drive,
-    /// Offset number so many of the pattern, from 0.
+    /// The offset of this index in the pattern, from 0.
     Offset(usize),
-    /// The length of a leg, from 0.
+    /// The length of the leg of this index, from 0.
     Length(usize),
-    /// A coordinate of the pose at which lengths are taken: position, then roll, pitch, yaw in degrees.
+    /// A coordinate of the pose that gives the lengths: position, then roll, pitch, yaw in degrees.
     Pose(usize),
-    /// A number that stands at this place of the text of the base design.
+    /// The number at this place in the text of the base design.
     Number(std::ops::Range<usize>),
 }
 
 /// Names of the coordinates of a pose.
 pub const POSE_COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
 
-/// Something that is computed for each candidate.
+/// A result computed for each candidate.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SweepTask {
     /// `det A` of the leg map from the base design.
     DetA,
     /// The least inverse condition number over the poses.
     Conditioning,
-    /// That at home.
+    /// The inverse condition number at home.
     HomeConditioning,
-    /// Least distances of two joints of a body.
+    /// Least distances of two joints of a body, for base and platform.
     Spacing,
-    /// How many joints carry more than one leg.
+    /// Number of joints that carry more than one leg.
     SharedJoints,
-    /// The least gap of two legs over the poses.
+    /// The least clearance of two legs over the poses.
     Clearance,
     /// Least and greatest length over legs and poses.
     LengthRange,
     /// The six lengths at the pose of the candidate.
     Lengths,
-    /// How many poses there are at the lengths of the candidate.
+    /// Number of poses at the lengths of the candidate.
     Poses,
     /// These poses with their evidence, as JSON.
     Solutions,
     /// Margins of the requirements.
     Margins,
-    /// What the table of drives says of the drive of the candidate.
+    /// The data of the candidate's drive in the table of drives.
     Drive,
-    /// Architecturally singular or not.
+    /// Whether the candidate is architecturally singular.
     Check,
     /// The largest region without singular poses, in the shape of the workspace.
     RegularBox,
-    /// How far joints may be off for the accuracy of the plan.
+    /// The joint error allowed for the accuracy of the plan.
     Tolerance,
     /// The best equivalent or dimensioned platform.
     Optimum,
     /// The joints of the platform, three coordinates for each end of each leg.
     Joints,
-    /// A platform with more real poses, from that of the candidate on.
+    /// A platform with more real poses, found by a search from the candidate.
     Climb,
     /// A field of the answer of a command.
     Field(AnswerField),
@@ -185,7 +184,7 @@ pub enum SweepTask {
 pub struct AnswerField {
     pub(crate) column: String,
     pub(crate) answer: AnswerName,
-    /// The keys on the way to it; elements of lists by their number from 1.
+    /// The keys on the path to it; elements of lists by their number from 1.
     pub path: Vec<String>,
     pub(crate) kind: ColumnKind,
     pub(crate) unit: Option<String>,
@@ -194,18 +193,18 @@ pub struct AnswerField {
 /// The commands whose answers have columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnswerName {
-    /// Requirements and margins.
+    /// The answer on requirements and margins.
     Assess,
-    /// Architectural singularity.
+    /// The answer on architectural singularity.
     Check,
-    /// Poses of lengths.
+    /// The answer on poses for lengths.
     Fk,
 }
 
 impl AnswerName {
     pub(crate) const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
 
-    /// The command.
+    /// The name of the command.
     pub fn name(self) -> &'static str {
         match self {
             Self::Assess => "assess",
@@ -215,7 +214,7 @@ impl AnswerName {
     }
 }
 
-/// The words for what is computed, with what they stand for.
+/// The words for computed results, with their meaning.
 pub const TASK_WORDS: [(&str, SweepTask); 18] = [
     ("det_a", SweepTask::DetA),
     ("conditioning", SweepTask::Conditioning),
@@ -238,7 +237,7 @@ pub const TASK_WORDS: [(&str, SweepTask); 18] = [
 ];
 
 impl SweepTask {
-    /// Whether it is about the lengths of the candidate.
+    /// Whether it depends on the lengths of the candidate.
     pub fn needs_lengths(&self) -> bool {
         match self {
             Self::Lengths | Self::Poses | Self::Solutions | Self::Climb => true,
@@ -444,24 +443,24 @@ impl SweepPlan {
         self.blocks.iter().map(|b| b.count).product()
     }
 
-    /// Whether lengths or a pose vary from candidate to candidate while the platform stays the same.
+    /// Whether only lengths or a pose vary, so that the platform stays the same.
     pub fn platform_is_fixed(&self) -> bool {
         !self
             .quantities()
             .any(|q| matches!(q, FreeQuantity::Pattern | FreeQuantity::Offset(_) | FreeQuantity::Number(_)))
     }
 
-    /// Whether the text of the base design changes.
+    /// Whether the text of the base design stays the same.
     pub fn text_is_fixed(&self) -> bool {
         !self.quantities().any(|q| matches!(q, FreeQuantity::Number(_)))
     }
 
-    /// Everything that varies.
+    /// All free quantities.
     pub fn quantities(&self) -> impl Iterator<Item = &FreeQuantity> {
         self.blocks.iter().flat_map(|b| b.axes.iter().map(|a| &a.quantity))
     }
 
-    /// All columns of the table: the number of the candidate, what varies, what is computed, the error.
+    /// All columns of the table: the number of the candidate, free quantities, computed results, the error.
     pub fn columns(&self, base: &BasePlan) -> Vec<SweepColumn> {
         let mut columns =
             vec![SweepColumn::new(CANDIDATE, ColumnKind::Integer, None, "number of the candidate, from 0")];

@@ -11,10 +11,10 @@ use files::design::{Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries,
 use machine::requirements::{TermKind, Terms};
 use platform::geom::{InvalidPose, Pose};
 
-/// Where a design names its table of poses.
+/// The key of a design's table of poses.
 pub(super) const TRAJECTORY: &str = "workspace.trajectory";
 
-/// A base design and the text it is read from, into which candidates write their numbers.
+/// A base design with its text, into which candidates write their numbers.
 #[derive(Debug, Clone)]
 pub struct BasePlan {
     pub(crate) text: String,
@@ -53,8 +53,8 @@ impl BasePlan {
         Ok(self)
     }
 
-    /// The same with the table of poses that the workspace of the design names. Its name then is that of a file beside
-    /// the design, since the files of candidates stand elsewhere.
+    /// The same with the table of poses that the workspace of the design names. Its name then means a file beside the
+    /// design, since the files of candidates are elsewhere.
     ///
     /// # Errors
     /// A text that is no table of poses.
@@ -98,10 +98,11 @@ impl BasePlan {
         self.drives.as_ref()?.drives.iter().find(|d| d.name == name)
     }
 
-    /// Where the number of a path stands: `parameters.r`, `base.P1.x`, `home.position.3`, `hardware.max_leg_force`.
+    /// The place of the number with this path: `parameters.r`, `base.P1.x`, `home.position.3`,
+    /// `hardware.max_leg_force`.
     ///
     /// # Errors
-    /// What is not there, and what is.
+    /// The missing part of the path, with the existing ones.
     pub fn place(&self, path: &str) -> Result<Range<usize>, (String, String)> {
         let mut node = &self.root;
         let mut walked = String::new();
@@ -148,7 +149,7 @@ impl BasePlan {
         }
     }
 
-    /// The text with other values at these places, as they are written in a design file.
+    /// The text with other values at these places, in the notation of a design file.
     pub fn with_values(&self, values: &[(Range<usize>, String)]) -> String {
         let mut sorted: Vec<&(Range<usize>, String)> = values.iter().collect();
         sorted.sort_by_key(|(span, _)| span.start);
@@ -163,7 +164,7 @@ impl BasePlan {
         out
     }
 
-    /// The kinds of requirements that the design has, or has with some drive.
+    /// The kinds of requirements that the design has, alone or with some drive.
     pub fn required_kinds(&self) -> Vec<TermKind> {
         let drives = self.drives.iter().flat_map(|table| &table.drives);
         let designs = std::iter::once(self.design.clone()).chain(drives.map(|d| self.design.with_drive(d)));
@@ -178,7 +179,7 @@ fn kinds_of(design: &Design) -> Vec<TermKind> {
     terms.fixed().into_iter().chain(terms.at(&home)).map(|(term, _)| term.kind).collect()
 }
 
-/// What is wrong with a base design; of cranks it says what a sweep takes.
+/// The violations of a base design; for cranks, with the kinds of designs that a sweep accepts.
 fn refused_as_base(mut violations: Vec<Violation>) -> Vec<Violation> {
     for v in violations.iter_mut().filter(|v| v.code == files::design::Code::Rotary) {
         v.message =

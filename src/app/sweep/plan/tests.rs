@@ -1,4 +1,4 @@
-//! Plans that are read, plans that are refused, and what their candidates are.
+//! Valid plans, refused plans, and the candidates of plans.
 
 use super::*;
 use crate::column::SweepCell;
@@ -224,7 +224,7 @@ fn slips_are_named_with_their_line_and_what_was_meant() {
         let found = faults(text);
         assert!(found.iter().any(|(l, t)| *l == line && t.contains(part)), "{text}\n{part}: {found:#?}");
     }
-    // all of them in one go
+    // all of them at once
     assert!(faults("nmae = 'p'\ncompute = ['x']\n").len() >= 4);
 }
 
@@ -256,7 +256,7 @@ fn mutated_plans_are_read_or_refused_and_nothing_else() {
         let text: String = text.into_iter().collect();
         match plan(&text) {
             Ok(plan) => {
-                // what is read has candidates
+                // every accepted plan has candidates
                 let last = plan.count() - 1;
                 assert_eq!(plan.values(1, last).len(), plan.quantities().count(), "{text}");
                 read += 1;

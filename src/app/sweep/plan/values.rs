@@ -1,4 +1,4 @@
-//! What the free quantities of candidate `k` are.
+//! The values of the free quantities of candidate `k`.
 
 use super::{FreeQuantity, SweepPlan};
 use crate::column::{SweepCell, SweepColumn};
@@ -8,17 +8,17 @@ use crate::sample::{PointPlace, PointSpread};
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanBlock {
     pub(crate) spreading: Spreading,
-    /// Candidates of the block.
+    /// Number of candidates of the block.
     pub count: u64,
     pub(crate) axes: Vec<PlanAxis>,
 }
 
-/// How the candidates of a block follow one another.
+/// The order of the candidates of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spreading {
     /// All combinations, the last axis fastest.
     Grid,
-    /// Candidate `j` has element `j` of each list.
+    /// Candidate `j` takes element `j` of each list.
     List,
     /// Points of the unit cube.
     Points(PointSpread),
@@ -35,26 +35,25 @@ pub struct PlanAxis {
 /// The values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisValues {
-    /// From one number to another, with steps of the same size or, on a logarithmic scale, of the same ratio; `count`
-    /// values on a grid.
+    /// A range of numbers in steps of equal size or, on a logarithmic scale, of equal ratio; `count` values on a grid.
     Range {
         /// The first value.
         from: f64,
-        /// The last one.
+        /// The last value.
         to: f64,
         /// Whether the steps are factors.
         logarithmic: bool,
-        /// How many values.
+        /// Number of values.
         count: u64,
     },
-    /// These numbers.
+    /// Listed numbers.
     Numbers(Vec<f64>),
-    /// These texts.
+    /// Listed texts.
     Words(Vec<String>),
 }
 
 impl AxisValues {
-    /// How many values a grid or a list takes from it.
+    /// Number of values on a grid or in a list.
     pub(crate) fn len(&self) -> u64 {
         match self {
             Self::Range { count, .. } => *count,
@@ -63,7 +62,7 @@ impl AxisValues {
         }
     }
 
-    /// Value `i` of those.
+    /// The value of index `i`.
     fn at(&self, i: u64) -> SweepCell {
         match self {
             Self::Range { count, to, .. } if i + 1 == *count && i > 0 => SweepCell::Number(*to),
@@ -73,7 +72,7 @@ impl AxisValues {
         }
     }
 
-    /// The value at `u` in `[0, 1)`: of a list the element in whose equal share of the interval `u` is.
+    /// The value at `u` in `[0, 1)`; a list is divided into equal shares of this interval.
     fn within(&self, u: f64) -> SweepCell {
         let element = |n: usize| ((u * n as f64) as usize).min(n - 1);
         match self {
@@ -106,8 +105,8 @@ impl PlanBlock {
         }
     }
 
-    /// Whether offsets from number `used` on have their first values in candidate `j` of the block: those of a grid
-    /// each by itself, those of lists and points where nothing else varies with them.
+    /// Whether candidate `j` of the block has first values for the offsets from number `used` on. On a grid each offset
+    /// counts alone; in lists and points only if nothing else varies with them.
     fn has_first_of_unused(&self, used: usize, mut j: u64) -> bool {
         let unused = |axis: &PlanAxis| matches!(axis.quantity, FreeQuantity::Offset(i) if i >= used);
         if self.spreading != Spreading::Grid {
@@ -122,7 +121,7 @@ impl PlanBlock {
 }
 
 impl SweepPlan {
-    /// Candidate `j` of each block, the last one the fastest, that candidate `k` is made of.
+    /// The candidates `j` of each block that make up candidate `k`; the last block varies fastest.
     fn of_blocks(&self, k: u64) -> Vec<u64> {
         let mut numbers = vec![0; self.blocks.len()];
         let mut rest = k;
@@ -134,15 +133,15 @@ impl SweepPlan {
     }
 
     /// Whether candidate `k` is the first of those that differ only in offsets from number `used` on, as far as blocks
-    /// tell: of points that mix them with other quantities all are.
+    /// can tell. Points that mix these offsets with other quantities all count as first.
     pub fn has_first_of_unused(&self, k: u64, used: usize) -> bool {
         self.blocks.iter().zip(self.of_blocks(k)).all(|(block, j)| block.has_first_of_unused(used, j))
     }
 
-    /// The values of the free quantities of candidate `k`, in the order of their columns: candidate `j` of each block,
-    /// of which the last one is the fastest.
+    /// The values of the free quantities of candidate `k`, in the order of their columns: one candidate of each block.
+    /// The last block varies fastest.
     ///
-    /// They depend on the plan, the seed and `k` alone.
+    /// They depend only on the plan, the seed and `k`.
     pub fn values(&self, seed: u64, k: u64) -> Vec<SweepCell> {
         let mut out = Vec::new();
         for (b, (block, j)) in self.blocks.iter().zip(self.of_blocks(k)).enumerate() {

@@ -1,5 +1,4 @@
-//! Points by their number alone: candidate `k` of a block is computed from the seed, the block and `k`, whatever else
-//! is computed and where.
+//! Points by their number: candidate `k` of a block depends only on the seed, the block and `k`.
 
 mod sobol;
 
@@ -8,27 +7,27 @@ use num::{Purpose, Rng};
 pub(super) use sobol::DIMENSIONS;
 use sobol::scrambled;
 
-/// Candidates of a block, at most: numbers of streams keep eight bits for the block.
+/// Greatest number of candidates of a block: stream numbers reserve eight bits for the block.
 pub(super) const MOST: u64 = 1 << 48;
 
-/// How the points of a block are spread over the unit cube.
+/// The distribution of the points of a block in the unit cube.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PointSpread {
     /// Independent uniform numbers.
     Uniform,
-    /// A Latin hypercube: each coordinate has one point in each of as many equal intervals as there are points.
+    /// A Latin hypercube: each of as many equal intervals as there are points holds one point in each coordinate.
     LatinHypercube,
     /// A Sobol sequence with Owen's scrambling.
     Sobol,
 }
 
-/// Where a point is drawn.
+/// The block of a point, with the seed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PointPlace {
     pub(super) seed: u64,
     /// Number of the block.
     pub(super) block: u64,
-    /// Points of the block.
+    /// Number of points of the block.
     pub(super) count: u64,
 }
 
@@ -60,13 +59,13 @@ impl PointPlace {
 /// The greatest double below 1.
 const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
-/// Rounds of the network below; four make it a permutation that tests do not tell from a random one (Luby, Rackoff
-/// 1988), two more cost little.
+/// Number of rounds of the network below. Four make it indistinguishable from a random permutation in tests (Luby,
+/// Rackoff 1988), and two more cost little.
 const ROUNDS: u64 = 6;
 
-/// The place of `k` in a permutation of the numbers below `count`: a Feistel network over the next even number of bits,
-/// applied until the number is below `count` (cycle walking; Black, Rogaway 2002). The domain is less than four times
-/// `count`, so that a few turns do on average.
+/// The place of `k` in a permutation of the numbers below `count`. It is a Feistel network over the next even number of
+/// bits, applied until the number is below `count` (cycle walking; Black, Rogaway 2002). The domain is less than four
+/// times `count`, so a few rounds suffice on average.
 fn permuted(k: u64, count: u64, key: u64) -> u64 {
     let bits = (64 - count.saturating_sub(1).leading_zeros()).max(2).next_multiple_of(2);
     let half = bits / 2;
@@ -127,7 +126,7 @@ mod tests {
             assert_ne!(point(&place, 17), point(&place, 18));
             assert_ne!(point(&place, 17), point(&PointPlace { seed: 6, ..place }, 17));
             assert_ne!(point(&place, 17), point(&PointPlace { block: 1, ..place }, 17));
-            // more dimensions leave the first ones as they are
+            // further dimensions do not change the first ones
             assert_eq!(point(&place, 17), place.point(spread, 17, 5)[..3]);
             assert!((0..100).flat_map(|k| point(&place, k)).all(|x| (0.0..1.0).contains(&x)));
         }

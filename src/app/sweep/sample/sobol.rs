@@ -1,16 +1,16 @@
-//! Sobol points by their number, scrambled after Owen.
+//! Sobol points by their number, with Owen's scrambling.
 //!
-//! None of the crates there are fits: `sobol_burley` has single precision and 2^16 points, `sobol` and `sobol-qmc` walk
-//! from the first point and do not scramble. The direction numbers are those of Joe and Kuo (2008).
+//! No existing crate fits: `sobol_burley` has single precision and 2^16 points, and `sobol` and `sobol-qmc` enumerate
+//! from the first point without scrambling. The direction numbers are those of Joe and Kuo (2008).
 
 use std::sync::LazyLock;
 
 use super::{BELOW_ONE, hashed};
 
-/// Dimensions that a block may have.
+/// Greatest number of dimensions of a block.
 pub(crate) const DIMENSIONS: usize = 64;
 
-/// Binary digits of a coordinate before scrambling: 2^32 points differ.
+/// Number of binary digits of a coordinate before scrambling: 2^32 points differ.
 const DIGITS: usize = 32;
 
 /// `2^32`.
@@ -45,17 +45,17 @@ fn directions(line: &str) -> [u32; DIGITS] {
     v
 }
 
-/// Coordinate `d` of point `k` (the lower 32 bits of it count), as 32 binary digits.
+/// Coordinate `d` of point `k`, as 32 binary digits; only the lower 32 bits of `k` count.
 fn digits(d: usize, k: u64) -> u32 {
     let v = &DIRECTIONS[d];
     (0..DIGITS).filter(|i| k >> i & 1 == 1).fold(0, |x, i| x ^ v[i])
 }
 
-/// Coordinate `d` of point `k` with nested uniform scrambling (Owen 1995): each digit is changed or not by random bits
-/// that belong to the digits before it, and behind the last digit follows `rest`, uniform in `[0, 1)`.
+/// Coordinate `d` of point `k` with nested uniform scrambling (Owen 1995). Random bits that depend on the preceding
+/// digits decide whether a digit changes. After the last digit follows `rest`, uniform in `[0, 1)`.
 ///
-/// The points of a power of two have, as those without scrambling, one point in each elementary interval that should
-/// have one; each point by itself is uniform.
+/// As without scrambling, a number of points that is a power of two has one point in each elementary interval of that
+/// volume. Each point by itself is uniform.
 pub(super) fn scrambled(d: usize, k: u64, key: u64, rest: f64) -> f64 {
     let plain = digits(d, k);
     let mut out = 0u32;
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(point(3), [0.75, 0.25, 0.25]);
         assert_eq!(point(4), [0.125, 0.625, 0.375]);
         assert_eq!(DIRECTIONS.len(), DIMENSIONS);
-        // every matrix of directions is regular: its diagonal is one
+        // every matrix of directions is regular, since its diagonal is one
         assert!(DIRECTIONS.iter().flat_map(|v| v.iter().enumerate()).all(|(i, x)| x >> (31 - i) & 1 == 1));
     }
 

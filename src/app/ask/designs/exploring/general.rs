@@ -12,8 +12,8 @@ use synthesis::components::ComponentOptions;
 use synthesis::relocate::search::MoveSearchOptions;
 use verify::VerdictWord;
 
-/// How far a joint of the design may stand beyond a corner of the triangles sought, in lengths of the side, where
-/// nothing is said: what exists is recognised, nothing is chosen.
+/// The default limit of a joint's distance beyond a corner of the triangles sought, in lengths of the side. It is wide,
+/// since existing triangles are recognised rather than chosen.
 pub const NEAREST_EXTENSION: f64 = 1.0;
 
 /// The limits of the nearest octahedral platform of a design.
@@ -22,20 +22,20 @@ pub fn nearest_options(design: &Design, extension: f64) -> NearestOptions {
     NearestOptions { extension, min_abs_det: design.optimize.min_abs_det.unwrap_or(DEFAULT_MIN_ABS_DET) }
 }
 
-/// All about a design that is not octahedral.
+/// The results for a design that is not octahedral.
 #[derive(Debug)]
 pub struct ExploredDesign {
     /// Its families of replaceable legs.
     pub families: ReplaceableLegs,
-    /// Equivalent platforms without shared joints; `None` where the design is singular or no leg can be moved.
+    /// Equivalent platforms without shared joints; `None` if the design is singular or no leg can be moved.
     pub moves: Option<MoveSearchReport>,
     /// The limits of the nearest octahedral platform.
     pub limits: NearestOptions,
-    /// The nearest octahedral platform, and the equivalent of that one next to the design.
+    /// The nearest octahedral platform, and its equivalent near the design.
     pub near: Option<NearestDesigns>,
-    /// Whether that equivalent meets the requirements of the design; `None` where nothing is required.
+    /// Whether this equivalent meets the requirements of the design; `None` without requirements.
     pub assessed: Option<AssessReport>,
-    /// The design compared with the equivalent found, else the nearest octahedral platform with its equivalent.
+    /// The comparison of the design with its equivalent, or of the nearest octahedral platform with its equivalent.
     pub compared: Option<ComparedDesigns>,
     /// Poses of the design.
     pub poses: OwnPoses,
@@ -91,13 +91,13 @@ impl ExploredDesign {
         self.chosen()?.design.as_ref()
     }
 
-    /// The design is architecturally singular, and so is every platform made of its legs.
+    /// Whether the design is architecturally singular; then every platform made of its legs is singular too.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         self.families.found.leg_rank.value < 6
     }
 
-    /// Is there an equivalent platform without shared joints other than the design?
+    /// The verdict: whether an equivalent platform without shared joints exists, other than the design.
     #[must_use]
     pub fn verdict(&self) -> ExploreVerdict {
         let undecided = ExploreVerdict::Compared(VerdictWord::Inconclusive);

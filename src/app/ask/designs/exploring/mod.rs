@@ -1,4 +1,4 @@
-//! All about a design: the best platform of its class, or an equivalent platform of a design that is not octahedral.
+//! Explores a design: the best platform of its class, or an equivalent platform for a design that is not octahedral.
 
 mod general;
 mod octahedral;
@@ -19,13 +19,13 @@ use platform::manipulator::{LegLengths, Octahedral};
 use synthesis::relocate::search::SearchError;
 use verify::{VerdictWord, VerifyError};
 
-/// How far the exploration is.
+/// The progress of the exploration.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ExploreProgress {
     /// A stage begins: its number, from 1, and its name.
     Stage(usize, &'static str),
-    /// Of the search for the best platform, and of the search for one on holes.
+    /// The progress of the search for the best platform, or for a platform on holes.
     Search(OptimizeProgress),
     /// A search has ended, and another one may begin.
     Searched,
@@ -77,50 +77,50 @@ impl<'a> ExploreOptions<'a> {
         Self::default()
     }
 
-    /// Seed of all random numbers.
+    /// Sets the seed of all random numbers.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// How many sets of lengths two designs are solved and compared at.
+    /// Sets the number of length sets; two designs are solved and compared at each.
     #[must_use]
     pub fn samples(mut self, samples: usize) -> Self {
         self.samples = samples;
         self
     }
 
-    /// How far a joint may stand beyond a corner, on the extension of its side, in lengths of the side; 0.3 when
-    /// absent, and 1 for the nearest octahedral platform of a design that is not octahedral.
+    /// Sets the greatest distance of a joint beyond a corner, on the extension of its side, in lengths of the side. The
+    /// default is 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral.
     #[must_use]
     pub fn extension(mut self, extension: Option<f64>) -> Self {
         self.extension = extension;
         self
     }
 
-    /// The drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
+    /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
     #[must_use]
     pub fn drives(mut self, table: Option<&'a DriveTable>) -> Self {
         self.drives = table;
         self
     }
 
-    /// When the judging ends of what a search found that is ended otherwise.
+    /// Sets the end of the assessments that follow an interrupted search.
     #[must_use]
     pub fn until(mut self, until: Option<Instant>) -> Self {
         self.until = until;
         self
     }
 
-    /// What ends the search for the best platform before its time; the answer has the best until then.
+    /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
     #[must_use]
     pub fn cancel(mut self, cancel: &Cancel) -> Self {
         self.cancel = cancel.clone();
         self
     }
 
-    /// Is told how far the exploration is, and may end the search for the best platform.
+    /// Sets a function that sees the progress, and may end the search for the best platform.
     #[must_use]
     pub fn on_progress(mut self, look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) -> Self {
         self.on_progress = Some(Box::new(look));
@@ -134,7 +134,7 @@ impl<'a> ExploreOptions<'a> {
         self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
     }
 
-    /// All stages are gone through: only searches can be ended.
+    /// Every stage is run: only searches can be ended.
     fn stage(&mut self, number: usize, name: &'static str) {
         let _ = self.flow(ExploreProgress::Stage(number, name));
     }
@@ -164,10 +164,10 @@ impl<'a> ExploreOptions<'a> {
     }
 }
 
-/// Why a design is not explored.
+/// The reason why a design is not explored.
 #[derive(Debug, ThisError)]
 pub enum NoExploration {
-    /// The best platform cannot be searched.
+    /// The best platform cannot be searched for.
     #[error(transparent)]
     Search(Error),
     /// Its joints cannot be put on holes.
@@ -176,7 +176,7 @@ pub enum NoExploration {
     /// The families of replaceable legs cannot be found.
     #[error(transparent)]
     Families(#[from] NoReplaceableLegs),
-    /// Equivalent platforms cannot be searched.
+    /// Equivalent platforms cannot be searched for.
     #[error(transparent)]
     Moves(#[from] SearchError),
     /// Two designs cannot be compared.
@@ -187,7 +187,7 @@ pub enum NoExploration {
     Poses(#[from] NoOwnPoses),
 }
 
-/// All about a design.
+/// The results for a design.
 #[derive(Debug)]
 pub enum ExploreReport {
     /// An octahedral design.
@@ -196,22 +196,23 @@ pub enum ExploreReport {
     General(Box<ExploredDesign>),
 }
 
-/// The verdict of `explore`: that of the comparison, or why there was none.
+/// The verdict of `explore`: the verdict of the comparison, or the reason why there was none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExploreVerdict {
     /// Every branch of offsets is proved to violate the limits, or no start met the requirements together.
     Infeasible,
-    /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or
-    /// every platform that its replaceable legs make shares joints.
+    /// No other platform without shared joints is equivalent to the design. Either no leg can be replaced, or every
+    /// platform made of its replaceable legs shares joints.
     None,
-    /// The platform found misses requirements.
+    /// The platform found violates requirements.
     Violated,
-    /// The platform meets its requirements; its triangles were chosen too, so that it is not equivalent to the design.
+    /// The platform meets its requirements; its triangles were chosen too, so it is not equivalent to the design.
     NewKinematics,
     /// The platform meets its requirements with its joints on the holes that the design states.
     OnHoles,
-    /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
+    /// The verdict of the comparison; also `inconclusive` if no offsets were found and some branches are not proved
+    /// empty.
     #[serde(untagged)]
     Compared(VerdictWord),
 }
@@ -231,13 +232,13 @@ impl ExploreVerdict {
     }
 }
 
-/// Whose leg lengths poses belong to.
+/// The source of the leg lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LengthsOrigin {
-    /// Those of the design.
+    /// The lengths of the design.
     Design,
-    /// The design has none: those of its home pose.
+    /// The lengths at the home pose, since the design has none.
     Home,
 }
 
@@ -246,16 +247,16 @@ pub enum LengthsOrigin {
 pub struct OwnPoses {
     /// The lengths.
     pub lengths: LegLengths,
-    /// Whose they are.
+    /// The source of the lengths.
     pub origin: LengthsOrigin,
     /// The poses.
     pub solutions: FkSolutions,
 }
 
-/// Why there are no poses.
+/// The reason why there are no poses.
 #[derive(Debug, Clone, PartialEq, ThisError)]
 pub enum NoOwnPoses {
-    /// The design has no lengths, and its home pose none either.
+    /// Neither the design nor its home pose has lengths.
     #[error("the home pose has no finite leg lengths")]
     NoLengths,
     /// Forward kinematics failed.
@@ -264,7 +265,7 @@ pub enum NoOwnPoses {
 }
 
 impl Design {
-    /// The poses at the lengths of the design, or at those of its home pose.
+    /// The poses at the lengths of the design, or at the lengths of its home pose.
     ///
     /// # Errors
     /// [`NoOwnPoses`].
@@ -278,8 +279,9 @@ impl Design {
         Ok(OwnPoses { lengths, origin, solutions })
     }
 
-    /// All about the design. Octahedral: the best platform without shared joints, its comparison with the design. Other
-    /// designs: replaceable legs, an equivalent platform by moves of legs, the nearest octahedral platform.
+    /// Explores the design. For an octahedral design: the best platform without shared joints, and its comparison with
+    /// the design. For other designs: replaceable legs, an equivalent platform made by moving legs, and the nearest
+    /// octahedral platform.
     ///
     /// # Errors
     /// [`NoExploration`].

@@ -14,11 +14,10 @@ use platform::manipulator::Octahedral;
 use synthesis::Family;
 use verify::{Verdict, VerdictWord};
 
-/// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was
-/// found.
+/// The platform on the holes that the design states; `None` if it states none, or no platform was found.
 type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
 
-/// All about an octahedral design.
+/// The results for an octahedral design.
 #[derive(Debug)]
 pub struct ExploredClass {
     /// Its triangles.
@@ -27,34 +26,34 @@ pub struct ExploredClass {
     pub family: Family,
     /// The best platform.
     pub search: OptimizeReport,
-    /// The platform on the holes that the design states; `None` where it states none, or no platform was found.
+    /// The platform on the holes that the design states; `None` if it states none, or no platform was found.
     pub holes: Option<Result<DesignOnHoles, NoRounding>>,
-    /// Whether the best platform keeps the default reserve; `None` where the design states one.
+    /// Whether the best platform keeps the default safety margin; `None` if the design states its own.
     pub keeps_reserve: Option<bool>,
-    /// The design compared with the best platform; `None` where there is none, or one with other triangles.
+    /// The comparison of the design with the best platform; `None` if there is none, or it has other triangles.
     pub compared: Option<ComparedDesigns>,
     /// Poses of the design.
     pub poses: OwnPoses,
 }
 
-/// What decides about the platform found: its requirements first, then the comparison.
+/// The decisive fact about the platform found: its requirements first, then the comparison.
 #[derive(Debug)]
 pub enum ExploreJudgement<'a> {
-    /// There is none, and that is known.
+    /// There is no platform, and this is proved or no start led to one.
     Infeasible,
-    /// None was found.
+    /// No platform was found.
     NotFound,
-    /// It misses requirements.
+    /// The platform violates requirements.
     Violated(&'a Design),
-    /// It is not proved to meet its requirements.
+    /// The platform is not proved to meet its requirements.
     Unproved(&'a Design),
-    /// It meets its requirements, and this is how it compares with the design.
+    /// The platform meets its requirements; the comparison with the design decides.
     Compared(&'a ComparedDesigns),
-    /// It meets its requirements, and is not meant to have the kinematics of the design.
+    /// The platform meets its requirements, and has other kinematics than the design by intention.
     New,
-    /// It meets its requirements with its joints on the holes that the design states.
+    /// The platform meets its requirements with its joints on the holes that the design states.
     OnHoles,
-    /// No platform has its joints on those holes, and why.
+    /// No platform has its joints on these holes, for this reason.
     NoHoles(String),
 }
 
@@ -82,7 +81,7 @@ impl ExploredClass {
         Ok(Self { octahedral, family, search, holes, keeps_reserve, compared, poses })
     }
 
-    /// The platform to build: that on the holes, where the design states them.
+    /// The platform to build: on the holes, if the design states them.
     #[must_use]
     pub fn built(&self) -> Option<&Design> {
         match &self.holes {
@@ -92,7 +91,7 @@ impl ExploredClass {
         }
     }
 
-    /// What decides about the platform found.
+    /// The decisive fact about the platform found.
     #[must_use]
     pub fn judgement(&self) -> ExploreJudgement<'_> {
         match &self.holes {
@@ -119,7 +118,7 @@ impl ExploredClass {
         }
     }
 
-    /// The word for all of it.
+    /// The verdict of the exploration.
     #[must_use]
     pub fn verdict(&self) -> ExploreVerdict {
         match self.judgement() {
@@ -135,15 +134,15 @@ impl ExploredClass {
     }
 }
 
-/// What stands against both roundings.
+/// The obstacles to both roundings.
 fn why_none(on: &DesignOnHoles) -> String {
     let exact = on.rounding.exact.as_ref().err().map(ToString::to_string);
     let nearest = on.rounding.nearest.as_ref().err().map(ToString::to_string);
     exact.into_iter().chain(nearest).collect::<Vec<_>>().join("; ")
 }
 
-/// The search with the default reserve first, where the design states none, and without it where that leads to no
-/// platform; with whether the platform keeps that reserve.
+/// Searches first with the default safety margin, if the design states none, and without it if no platform is found.
+/// Also returns whether the platform keeps this margin.
 fn searched_carefully(
     design: &Design,
     options: &mut ExploreOptions<'_>,
@@ -164,9 +163,9 @@ fn searched_carefully(
     Ok((found, holes, Some(false)))
 }
 
-/// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to
-/// a platform on the holes that is not proved to meet its requirements, the search without it is the answer if it leads
-/// to one that is.
+/// Searches for the best platform, and for the same on the holes that the design states. A symmetry kept unasked may
+/// prevent a platform on the holes that is proved to meet its requirements. The search without the symmetry is then the
+/// answer, if it leads to such a platform.
 fn searched(
     design: &Design,
     explains: bool,
@@ -189,7 +188,7 @@ fn searched(
     Ok((other, on_holes))
 }
 
-/// Whether freedoms are opened is decided later.
+/// One search; freedoms are opened later, if at all.
 fn search_once(
     design: &Design,
     explains: bool,
@@ -201,7 +200,8 @@ fn search_once(
     Ok((found, holes))
 }
 
-/// The closest platform with its joints on the holes that the design states; `None` without such a platform or holes.
+/// The platform found, or the one with the least violation, with its joints on the holes of the design; `None` without
+/// platform or holes.
 fn on_holes(
     design: &Design,
     found: &OptimizeReport,
@@ -223,25 +223,25 @@ fn on_holes(
     rounded.map(Some).map_err(NoExploration::Holes)
 }
 
-/// Whether a platform stands on the holes and is proved to meet its requirements.
+/// Whether a platform is on the holes and is proved to meet its requirements.
 fn is_met(holes: &OnHoles) -> bool {
     matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true))
 }
 
 impl OptimizeReport {
-    /// The platform found, or the one that misses the requirements least.
+    /// The platform found, or the one with the least violation.
     #[must_use]
     pub fn closest(&self) -> Option<&Design> {
         self.checked().or(self.nearest()).map(|c| &c.design)
     }
 
-    /// Whether the platform found meets what is required; `Some(true)` where nothing is.
+    /// Whether the platform found meets its requirements; `Some(true)` without requirements.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.checked().map_or(Some(true), Checked::met)
     }
 
-    /// Whether the platform has the kinematics of the design by its making: with other triangles it has not.
+    /// Whether the platform has the kinematics of the design by construction; with other triangles it has not.
     #[must_use]
     pub fn keeps_class(&self) -> bool {
         match &self.evidence {
@@ -250,7 +250,7 @@ impl OptimizeReport {
         }
     }
 
-    /// The offsets and `det A` of the map from the design, where there are both.
+    /// The offsets and `det A` of the leg map from the design, if both exist.
     #[must_use]
     pub fn offsets(&self) -> Option<([f64; 6], f64)> {
         match &self.evidence {
@@ -264,7 +264,7 @@ impl OptimizeReport {
         }
     }
 
-    /// Gives the platform found the leg lengths of the pose at which the design has its own.
+    /// Gives the platform found leg lengths: those at the pose of the design's own lengths.
     fn take_lengths_of(&mut self, design: &Design) {
         let lengths = design.lengths.map(|l| l.squared());
         match &mut self.evidence {

@@ -1,4 +1,4 @@
-//! The best platform with the best drive of a table: the search once for each drive, but for those that cannot win.
+//! The best platform with the best drive of a table: one search for each drive, except for drives that cannot win.
 
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -11,18 +11,18 @@ use files::design::{Drive, DriveTable};
 use machine::requirements::TermKind;
 use optimize::dimensional::{DimensionalOutcome, Progress, ShapeSearchOptions};
 
-/// What decides between drives with which the requirements can be met.
+/// The criterion for choosing among drives with which the requirements can be met.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DriveRanking {
-    /// The lowest price, and of equal prices the best value of the first objective: every drive of the table has a
+    /// The lowest price, and for equal prices the best value of the first objective; every drive of the table has a
     /// price.
     Price,
     /// The best value of the first objective: some drive of the table has no price.
     Objective,
 }
 
-/// A design with a drive, and what the search found for it.
+/// A design with a drive, and its search result.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct DrivenPlatform {
@@ -32,26 +32,26 @@ pub struct DrivenPlatform {
     pub found: FoundPlatform,
 }
 
-/// What became of a drive.
+/// The outcome for a drive.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DriveOutcome {
-    /// The search with it.
+    /// The drive was searched.
     Searched(Box<DrivenPlatform>),
-    /// Not searched: it costs more than this drive, with which the requirements can be met.
+    /// Not searched: it costs more than this drive, which can meet the requirements.
     Dearer(String),
-    /// Not searched: it can do nothing that this drive cannot, with which no start met the requirements.
+    /// Not searched: it is in no respect better than this drive, for which no start met the requirements.
     Weaker(String),
-    /// Not searched: the search was told to end.
+    /// Not searched: the search was interrupted.
     NotTried,
 }
 
-/// A drive of the table with what became of it.
+/// A drive of the table with its outcome.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SearchedDrive {
     /// The drive.
     pub drive: Drive,
-    /// What became of it.
+    /// The outcome.
     pub outcome: DriveOutcome,
 }
 
@@ -63,7 +63,7 @@ impl SearchedDrive {
         }
     }
 
-    /// The value of the first objective, greater for better, where the requirements are met.
+    /// The value of the first objective, greater for better, if the requirements are met.
     fn gain(&self) -> Option<f64> {
         let found = &self.searched()?.found;
         let (objective, value) = found.checked.as_ref().filter(|_| found.is_met())?.objectives.first()?;
@@ -71,37 +71,37 @@ impl SearchedDrive {
     }
 }
 
-/// All drives of a table.
+/// The outcomes for all drives of a table.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct DriveSearch {
-    /// What decided.
+    /// The criterion.
     pub ranking: DriveRanking,
-    /// The best first; those with which the requirements are met before the others.
+    /// The drives, the best first; drives with which the requirements are met come before the others.
     pub drives: Vec<SearchedDrive>,
-    /// The unit of the prices, as the table writes it.
+    /// The unit of the prices, as in the table.
     pub currency: Option<String>,
-    /// Whether the search was told to end before all drives were tried that could win.
+    /// Whether the search was interrupted before every drive that could win was tried.
     pub interrupted: bool,
 }
 
 impl DriveSearch {
-    /// The drive of the answer: the best with which the requirements are met.
+    /// The chosen drive: the best with which the requirements are met.
     #[must_use]
     pub fn chosen(&self) -> Option<&Drive> {
         self.drives.first().filter(|d| d.gain().is_some()).map(|d| &d.drive)
     }
 
-    /// The answer: the platform with the drive chosen; where there is none that of the drive with which most was
-    /// reached. `None` where no search was begun.
+    /// The answer: the platform with the chosen drive, or else with the drive of the best result. `None` if no search
+    /// was begun.
     #[must_use]
     pub fn answer(&self) -> Option<&DrivenPlatform> {
         self.drives.iter().find_map(SearchedDrive::searched)
     }
 }
 
-/// What a drive allows, the reserves taken off: shortest and longest leg, force, speed, stiffness, and whether its mass
-/// counts.
+/// The limits of a drive minus the safety margins: shortest and longest leg, force, speed, stiffness, and whether its
+/// mass counts.
 struct DriveRange {
     legs: [f64; 2],
     most: [f64; 2],
@@ -129,8 +129,8 @@ impl DriveRange {
         }
     }
 
-    /// Whether every platform that meets the requirements with the other drive meets them with this one: each limit of
-    /// the other is at least as tight, and what is no limit (mass, stiffness) is the same.
+    /// Whether every platform that meets the requirements with the other drive meets them with this one. Each limit of
+    /// the other is at least as tight, and the rest (mass, stiffness) is the same.
     fn covers(&self, other: &Self) -> bool {
         let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
             (None, None) => true,
@@ -145,8 +145,8 @@ impl DriveRange {
     }
 }
 
-/// The order in which drives are tried: by price, then mass, so that the first with which the requirements are met is
-/// the answer; else the longest and strongest first, because what it cannot do others cannot.
+/// The order of trials. By price, then mass, so that the first drive that meets the requirements is the answer. Without
+/// prices the longest and strongest first, since others cannot do more.
 fn order_of_trials(drives: &[Drive], ranking: DriveRanking) -> Vec<&Drive> {
     let mut out: Vec<&Drive> = drives.iter().collect();
     let last = |x: Option<f64>| x.unwrap_or(f64::INFINITY);
@@ -161,8 +161,8 @@ fn order_of_trials(drives: &[Drive], ranking: DriveRanking) -> Vec<&Drive> {
     out
 }
 
-/// The best first: requirements met, by price and gain; then by how much was reached; then what was not searched, as in
-/// the table.
+/// The order of answers. First the drives that meet the requirements, by price and gain. Then the others by the result
+/// reached, and last the drives not searched, in the order of the table.
 fn order_of_answers(a: &SearchedDrive, b: &SearchedDrive, ranking: DriveRanking) -> Ordering {
     let met = |d: &SearchedDrive| d.gain().is_some();
     let reached = |d: &SearchedDrive| {
@@ -181,14 +181,14 @@ fn order_of_answers(a: &SearchedDrive, b: &SearchedDrive, ranking: DriveRanking)
     })
 }
 
-/// Searches the best platform of a design with each drive of a table, and ranks the drives.
+/// Searches for the best platform of a design with each drive of a table, and ranks the drives.
 ///
-/// A drive is left out where it cannot win: with prices, where a cheaper one does; and where it can do nothing that a
-/// drive cannot with which no start met the requirements. When `progress` says to break the drives tried until then are
-/// ranked.
+/// A drive is left out if it cannot win. With prices, it loses against a cheaper drive that meets the requirements. It
+/// also loses if it is in no respect better than a drive for which no start met the requirements. When `progress` ends
+/// the search, the drives tried until then are ranked.
 ///
 /// # Errors
-/// As of [`Design::optimize_with`].
+/// The errors of [`Design::optimize_with`].
 pub fn search_drives(
     design: &Design,
     table: &DriveTable,
@@ -220,7 +220,7 @@ pub fn search_drives(
     Ok(DriveSearch { ranking, drives: tried, currency: table.currency.clone(), interrupted })
 }
 
-/// A drive that costs less and with which the requirements are met.
+/// A cheaper drive with which the requirements are met.
 fn cheaper<'t>(tried: &'t [SearchedDrive], drive: &Drive, ranking: DriveRanking) -> Option<&'t Drive> {
     let costs_less = |d: &&SearchedDrive| {
         let prices = d.drive.price.zip(drive.price);
@@ -229,7 +229,7 @@ fn cheaper<'t>(tried: &'t [SearchedDrive], drive: &Drive, ranking: DriveRanking)
     (ranking == DriveRanking::Price).then(|| tried.iter().find(costs_less))?.map(|d| &d.drive)
 }
 
-/// A drive that can do all that this one can, and with which no start met the requirements.
+/// A drive that is at least as good in every respect, and for which no start met the requirements.
 fn stronger<'t>(design: &Design, tried: &'t [SearchedDrive], drive: &Drive) -> Option<&'t Drive> {
     let range = DriveRange::of(design, drive);
     let fails = |d: &&SearchedDrive| {
@@ -279,11 +279,11 @@ mod tests {
         let plain = bench("");
         assert!(covers(&plain, &wide, &short) && !covers(&plain, &short, &wide));
         assert!(covers(&plain, &wide, &wide));
-        // the design's own limit of the force stands where the drive has none
+        // the force limit of the design applies if the drive has none
         let own = plain.hardware.max_leg_force.unwrap();
         assert_eq!(covers(&plain, &wide, &free), own <= 60.0);
         assert_eq!(covers(&plain, &free, &wide), own >= 60.0);
-        // a tenth of the travel is kept at either end: the short drive starts 4 lower than the wide one
+        // a tenth of the travel is kept free at either end: the short drive starts 4 lower than the wide one
         let reserved = bench("[limits]\nreserve = \"10%\"\n");
         assert!(!covers(&reserved, &wide, &short) && covers(&reserved, &wide, &wide));
     }

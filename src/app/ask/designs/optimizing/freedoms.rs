@@ -1,4 +1,4 @@
-//! Which freedom resolves a conflict: the search again with one more opened, and what came of it.
+//! The freedoms that resolve a conflict: repeats the search with one more freedom each.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ use optimize::offsets::DEFAULT_MIN_ABS_DET;
 use platform::manipulator::Octahedral;
 use verify::VerifyError;
 
-/// A freedom that a design does not have.
+/// A freedom that a design does not allow.
 #[derive(
     Debug,
     Clone,
@@ -39,17 +39,17 @@ pub enum ConflictFreedom {
     Triangles,
     /// The legs have a longer stroke.
     Stroke,
-    /// The envelope of the base is wider on every side.
+    /// The base envelope is wider on every side.
     BaseEnvelope,
-    /// The envelope of the platform is wider on every side.
+    /// The platform envelope is wider on every side.
     PlatformEnvelope,
-    /// The envelope of the machine is wider on every side.
+    /// The machine envelope is wider on every side.
     MachineEnvelope,
-    /// The plate of the base is wider on every side: its outline has a greater margin around the joints.
+    /// The base plate is wider on every side: its outline has a greater margin around the joints.
     BaseMargin,
-    /// The plate of the platform is wider on every side.
+    /// The platform plate is wider on every side.
     PlatformMargin,
-    /// The least `|det A|` that the search holds, and the design does not state, is left out.
+    /// The default limit of the least `|det A|`, which the design does not state, is dropped.
     MinAbsDet,
 }
 
@@ -68,7 +68,7 @@ impl ConflictFreedom {
         Self::MinAbsDet,
     ];
 
-    /// The word for it.
+    /// The code of the freedom.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -85,7 +85,7 @@ impl ConflictFreedom {
         }
     }
 
-    /// The variables that open it; `None` for a limit that gives way.
+    /// The variables that it adds; `None` for a limit that is relaxed.
     fn variable(self) -> Option<VariableKind> {
         match self {
             Self::HomeHeight => Some(VariableKind::HomeHeight),
@@ -95,7 +95,7 @@ impl ConflictFreedom {
         }
     }
 
-    /// The requirements that it gives room to.
+    /// The requirements that it eases.
     fn kinds(self) -> &'static [TermKind] {
         match self {
             Self::Stroke => &[TermKind::LegTooShort, TermKind::LegTooLong],
@@ -109,21 +109,21 @@ impl ConflictFreedom {
     }
 }
 
-/// Outcome of a search with a freedom more.
+/// The outcome of a search with one more freedom.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FreedomOutcome {
-    /// A platform was found that meets all requirements with their reserves, proved by [`Design::assess`].
+    /// A platform is proved by [`Design::assess`] to meet all requirements with their safety margins.
     Resolved(Box<Checked>),
-    /// One was found that meets them at the poses looked at; not all is proved.
+    /// A platform meets the requirements at the sampled poses; some are unproved.
     Undecided(Box<Checked>),
     /// No start met the requirements.
     Unresolved,
-    /// The search was told to end before.
+    /// The search was interrupted before.
     NotTried,
 }
 
 impl FreedomOutcome {
-    /// The word for it.
+    /// The code of the outcome.
     #[must_use]
     pub fn word(&self) -> FreedomWord {
         match self {
@@ -144,32 +144,32 @@ impl FreedomOutcome {
     }
 }
 
-/// Word for the outcome of a search with a freedom more.
+/// The code for the outcome of a search with one more freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FreedomWord {
-    /// A platform was found that is proved to meet all requirements.
+    /// A platform is proved to meet all requirements.
     Resolved,
-    /// One was found that meets them at the poses looked at; not all is proved.
+    /// A platform meets the requirements at the sampled poses; some are unproved.
     Undecided,
     /// No start met the requirements.
     Unresolved,
-    /// The search was told to end before.
+    /// The search was interrupted before.
     NotTried,
 }
 
-/// A freedom with the search that had it.
+/// A freedom with its search result.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct OpenedFreedom {
-    /// Which.
+    /// The freedom.
     pub freedom: ConflictFreedom,
-    /// By how much a limit gave way in the last search, design units; for a variable by how much the platform found
-    /// differs: its height in design units; `None` where there is no such number.
+    /// The amount by which a limit was relaxed in the last search, design units. For a variable, the difference in
+    /// height of the platform found, design units. `None` if there is no such number.
     pub amount: Option<f64>,
-    /// What came of it.
+    /// The outcome of the search.
     pub outcome: FreedomOutcome,
-    /// Demands of the conflict that have to give less with it, from how much to how much.
+    /// The demands of the conflict that need less relaxation with this freedom, with both amounts.
     pub eased: Vec<EasedDemand>,
 }
 
@@ -181,23 +181,23 @@ impl OpenedFreedom {
     }
 }
 
-/// A demand of a conflict that has to give less when a default of the search is left out.
+/// A demand of a conflict that needs less relaxation without a default limit of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EasedDemand {
-    /// Which.
+    /// The demand.
     pub demand: Demand,
-    /// By how much it has to give under the default.
+    /// The amount of relaxation with the default limit.
     pub from: f64,
-    /// By how much without it.
+    /// The amount of relaxation without it.
     pub to: f64,
 }
 
-/// Multiples of the amount that the conflict names, tried one after the other.
+/// Factors on the amount that the conflict names, tried in order.
 const ATTEMPTS: [f64; 4] = [1.1, 1.3, 2.0, 4.0];
-/// The first amount where the conflict names none, as a part of the limit.
+/// The first amount if the conflict names none, as a share of the limit.
 const FIRST: f64 = 0.02;
 
-/// The search of one attempt: a quarter of the whole one.
+/// The options of one attempt: a quarter of the effort of the whole search.
 fn smaller(options: &ShapeSearchOptions) -> ShapeSearchOptions {
     let quarter = |n: usize| n.div_ceil(4).max(1);
     ShapeSearchOptions {
@@ -208,13 +208,13 @@ fn smaller(options: &ShapeSearchOptions) -> ShapeSearchOptions {
     }
 }
 
-/// The least `|det A|` where it is to decide about nothing, as a part of the usual one.
+/// A least `|det A|` too small to be decisive, as a share of the usual one.
 const LOOSE: f64 = 1e-3;
-/// A demand is eased where it has to give less by more than this share.
+/// A demand is eased if its relaxation decreases by more than this share.
 const EASED: f64 = 1e-2;
 
-/// The design without the least `|det A|` that it does not state; `None` where it states one, or where the search holds
-/// none.
+/// The design without the default limit of the least `|det A|`; `None` if it states one, or the search has no such
+/// limit.
 fn without_default_determinant(design: &Design, extension: f64) -> Option<Design> {
     let v = dimensional_problem(design, extension).variables;
     let holds = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
@@ -223,12 +223,12 @@ fn without_default_determinant(design: &Design, extension: f64) -> Option<Design
     (holds && design.optimize.min_abs_det.is_none()).then_some(loose)
 }
 
-/// The least by which a demand has to give.
+/// The least amount by which a demand has to be relaxed.
 fn given(g: &Give) -> f64 {
     g.alone.unwrap_or(g.together)
 }
 
-/// The demands of a conflict that give less in another.
+/// The demands that need less relaxation in the second conflict.
 fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<EasedDemand> {
     let less = |g: &Give| {
         let other = after.demands.iter().find(|other| other.demand == g.demand)?;
@@ -238,8 +238,8 @@ fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<EasedDe
     before.demands.iter().filter_map(less).collect()
 }
 
-/// The freedoms that a design does not have: defaults of the search first, then those of its variables, then the limits
-/// of the conflict.
+/// The freedoms that a design does not allow: defaults of the search first, then variables, then the limits of the
+/// conflict.
 fn closed(design: &Design, report: &DimensionalReport, extension: f64) -> Vec<ConflictFreedom> {
     let has = |kind| design.search.variables.contains(&kind);
     let mut out = Vec::new();
@@ -269,15 +269,16 @@ fn closed(design: &Design, report: &DimensionalReport, extension: f64) -> Vec<Co
     out
 }
 
-/// By how much the requirements of a kind give in the conflict: alone where that was found, else with the others.
+/// The amount by which the requirements of a kind have to be relaxed in the conflict: alone if known, else together
+/// with the others.
 fn gives(report: &DimensionalReport, kind: TermKind) -> f64 {
     let DimensionalOutcome::Infeasible(conflict) = &report.outcome else { return 0.0 };
     let own = conflict.demands.iter().find(|g| g.demand == Demand::Requirement(kind));
     own.map_or(0.0, |g| g.alone.unwrap_or(g.together))
 }
 
-/// The design with a limit that gives way by an amount; for the stroke `ends` says how much of it is added at the short
-/// end and at the long one of a range.
+/// The design with a limit relaxed by an amount. For the stroke, `ends` gives the parts added at the short and at the
+/// long end of the range.
 fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2]) -> Design {
     let mut out = design.clone();
     let grown = |e: &mut Option<Envelope>| {
@@ -317,7 +318,7 @@ fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2])
     out
 }
 
-/// The first amounts, and for a stroke how it is shared between the ends.
+/// The first amount; for a stroke also its distribution over the ends.
 fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFreedom) -> (f64, [f64; 2]) {
     let half = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
     let part = |x: f64, whole: f64| if x > 0.0 { x } else { FIRST * whole };
@@ -337,7 +338,7 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFr
                 Some(LengthLimits::Stroke { .. }) => {
                     (part(0.5 * long.max(short), range.1 - range.0), [0.0; 2])
                 }
-                // one end suffices where it can give alone
+                // one end suffices if relaxing it alone resolves the conflict
                 _ if long > 0.0 && (long <= short || short <= 0.0) => (long, [0.0, 1.0]),
                 _ if short > 0.0 => (short, [1.0, 0.0]),
                 _ => (FIRST * (range.1 - range.0), [0.5; 2]),
@@ -353,7 +354,7 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFr
     }
 }
 
-/// One search; `Break` where it was told to end.
+/// One search; `Break` if it was interrupted.
 type AttemptFlow = ControlFlow<(), Option<Box<Checked>>>;
 
 /// Searches with one more freedom each.
@@ -366,7 +367,7 @@ pub(crate) struct FreedomSearch<'a, 'p> {
 }
 
 impl FreedomSearch<'_, '_> {
-    /// All freedoms that are closed, one after the other.
+    /// Tries all freedoms that the design does not allow, one after the other.
     pub(crate) fn run(mut self) -> Result<Vec<OpenedFreedom>, VerifyError> {
         let mut out = Vec::new();
         let mut ended = false;
@@ -383,7 +384,7 @@ impl FreedomSearch<'_, '_> {
         Ok(out)
     }
 
-    /// `None` for a freedom that cannot be asked for.
+    /// Tries one freedom; `None` if it cannot be searched.
     fn open(&mut self, freedom: ConflictFreedom) -> Result<Option<OpenedFreedom>, VerifyError> {
         let told = |outcome, amount| Some(OpenedFreedom { freedom, amount, outcome, eased: Vec::new() });
         if freedom == ConflictFreedom::MinAbsDet {
@@ -443,8 +444,8 @@ impl FreedomSearch<'_, '_> {
         })
     }
 
-    /// The search without the least `|det A|`. Where that does not resolve the conflict, the conflict without it:
-    /// `None` where nothing has to give less.
+    /// Searches without the least `|det A|`. If this does not resolve the conflict, it compares the conflicts; `None`
+    /// if no demand is eased.
     fn without_default(&mut self) -> Result<Option<OpenedFreedom>, VerifyError> {
         let freedom = ConflictFreedom::MinAbsDet;
         let told = |outcome, eased| Some(OpenedFreedom { freedom, amount: None, outcome, eased });
@@ -467,9 +468,9 @@ impl FreedomSearch<'_, '_> {
         Ok(if less.is_empty() { None } else { told(FreedomOutcome::Unresolved, less) })
     }
 
-    /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be
-    /// asked. A design that has three-fold symmetry and names none is searched with it first, which has few variables,
-    /// and without it where nothing is found.
+    /// Searches for a design with more freedom, and assesses the platform found; `None` if the problem is invalid. A
+    /// design with three-fold symmetry that names none is searched with the symmetry first, which has few variables,
+    /// then without it.
     fn search(
         &mut self,
         freedom: ConflictFreedom,
@@ -502,7 +503,7 @@ impl FreedomSearch<'_, '_> {
         });
         let found: Option<DimensionalSolution> = match found {
             Ok(found) => found,
-            // a problem that cannot be asked with another variable is no freedom
+            // an invalid problem with another variable is no freedom
             Err(_) => return Ok(None),
         };
         if ended && found.is_none() {

@@ -1,4 +1,4 @@
-//! Platforms that a search found, as designs, and what code that no search uses says of them.
+//! Platforms found by a search, as designs, with an assessment independent of all search code.
 
 use std::time::Instant;
 
@@ -20,12 +20,12 @@ use platform::manipulator::{Body, Manipulator, Octahedral, inverse_condition, ja
 use synthesis::{joint_free, sliding_body};
 use verify::{Verification, VerifyError, verify};
 
-/// Points of the dense evaluation, and as many random ones.
+/// Number of points of the dense evaluation; as many random points are added.
 const POINTS: usize = 5000;
-/// Samples of the comparison with the design.
+/// Number of samples of the comparison with the design.
 const SAMPLES: usize = 3;
 
-/// The outcome of a search for offsets, with the check that does not use its code.
+/// The status of a search for offsets, after the independent check.
 pub(crate) fn offset_status(report: &OffsetReport, checked: Option<&Checked>) -> OptimizeStatus {
     let met = checked.map(Checked::met);
     match report.outcome {
@@ -38,7 +38,7 @@ pub(crate) fn offset_status(report: &OffsetReport, checked: Option<&Checked>) ->
     }
 }
 
-/// The outcome of a search under requirements, with the check that does not use its code.
+/// The status of a search under requirements, after the independent check.
 pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Checked>) -> OptimizeStatus {
     match (&report.outcome, checked) {
         _ if report.interrupted => OptimizeStatus::Interrupted,
@@ -52,17 +52,17 @@ pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Ch
     }
 }
 
-/// A platform that is not proved to meet its requirements is not called optimal or feasible.
+/// The status of a platform that is not proved to meet its requirements; it is neither optimal nor feasible.
 fn missed(met: Option<bool>) -> OptimizeStatus {
     if met == Some(false) { OptimizeStatus::Violated } else { OptimizeStatus::Undecided }
 }
 
-/// Whether the requirements are met with their reserves; `Some(true)` where there are none.
+/// Whether the requirements are met with their safety margins; `Some(true)` without requirements.
 pub fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> {
     assessed.map_or(Some(true), AssessReport::met_with_reserve)
 }
 
-/// The optimised platform as a design with the tables of the one it comes from.
+/// The optimised platform as a design, with the tables of its original.
 pub(crate) fn optimised_design(
     design: &Design,
     problem: &OffsetProblem,
@@ -80,12 +80,13 @@ pub(crate) fn optimised_design(
     out.with_tables_of(design).into()
 }
 
-/// The platform with names: vertices keep theirs, an edge joint is named after its edge and given by its offset on it.
+/// The platform with names: vertices keep theirs, and an edge joint has the name of its edge and is given by its
+/// offset.
 fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 6]) -> DesignModel {
     let (base, platform) = (design.base_names(), design.platform_names());
     let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
     let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
-    // names belong to joints, whose order need not be that of the legs
+    // names belong to joints, in an order that may differ from the legs
     let (mut a, mut b) =
         (vec![String::new(); m.base_joints().len()], vec![String::new(); m.platform_joints().len()]);
     let mut origins = [vec![Origin::New; a.len()], vec![Origin::New; b.len()]];
@@ -112,40 +113,40 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 
     named.unwrap_or(plain).constructed_from(design, [&origins[0], &origins[1]])
 }
 
-/// A platform with the evidence gathered by other code.
+/// A platform with independently computed evidence.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Checked {
     /// The platform as a design.
     pub design: Design,
-    /// Requirements of the search, densely: those of the design, and the room of joints that offsets separate.
+    /// The requirements of the search over many poses: those of the design, and the spacing of joints that offsets
+    /// separate.
     pub assessment: Assessment,
-    /// What [`Design::assess`] says of the design; `None` where it requires nothing.
+    /// The result of [`Design::assess`]; `None` without requirements.
     pub assessed: Option<AssessReport>,
-    /// Objectives, densely.
+    /// The objectives over many poses.
     pub objectives: Vec<(Objective, f64)>,
-    /// Of the poses that the search held, the one with the worst conditioning and its place among them, where the first
-    /// objective is the worst conditioning.
+    /// The held pose with the worst conditioning, and its index among the held poses, if the first objective is the
+    /// worst conditioning.
     pub worst_pose: Option<(usize, Pose)>,
-    /// Equivalence with the design, where the variables keep it.
+    /// The equivalence with the design, if the variables keep it.
     pub verification: Option<Verification>,
 }
 
 impl Checked {
-    /// Whether the platform meets the requirements with the reserve on each: proved by [`Design::assess`] either way,
-    /// or `None`.
+    /// Whether the platform is proved to meet the requirements with the safety margin on each; `None`: undecided.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         if self.assessment.all_met() { met_or_nothing_required(self.assessed.as_ref()) } else { Some(false) }
     }
 }
 
-/// How a platform that was found is judged.
+/// The options of assessing a platform.
 #[derive(Debug, Clone, Copy)]
 pub struct Judging {
-    /// Seed of the search, and of the poses looked at.
+    /// Seed of the search and of the sampled poses.
     pub seed: u64,
-    /// When proofs end with what they have.
+    /// The time at which proofs end with their result so far.
     pub until: Option<Instant>,
 }
 
@@ -155,7 +156,7 @@ impl From<&ShapeSearchOptions> for Judging {
     }
 }
 
-/// The platform as a design, evaluated by code that the optimiser does not use.
+/// The platform as a design, evaluated independently of the optimiser.
 pub(crate) fn checked(
     design: &Design,
     problem: &DimensionalProblem,
@@ -180,8 +181,8 @@ pub(crate) fn checked_offsets(
     judged(design, &general, out, (&design.home_or_default(), &problem.poses), true, judging)
 }
 
-/// A platform found for a design over poses that were held, evaluated by code that no search uses; `keeps_class`: it is
-/// meant to be equivalent to the design.
+/// A platform found for a design over held poses, evaluated independently of every search. `keeps_class`: it should be
+/// equivalent to the design.
 fn judged(
     design: &Design,
     problem: &DimensionalProblem,
@@ -193,7 +194,7 @@ fn judged(
     let space = problem.space.with_home(*home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
     let options = AssessOptions::new().points(POINTS).seed(seed);
-    // the platform that is written, which may differ from that of the search by rounding
+    // the platform as written, which may differ from the search result by rounding
     let platform = out.manipulator();
     let assessment = assess(platform, &requirements, &space, &options);
     let values = evaluate(problem, platform, &space, held, POINTS, seed);
@@ -212,7 +213,7 @@ fn judged(
     Ok(Checked { design: out, assessment, assessed, objectives, worst_pose, verification })
 }
 
-/// The pose with the least inverse condition number, with its place.
+/// The pose with the least inverse condition number, with its index.
 fn worst_conditioned(m: &Manipulator, poses: &[Pose], length: f64) -> Option<(usize, Pose)> {
     let value = |pose: &Pose| inverse_condition(&jacobian(m, pose, length));
     let values = poses.iter().map(value).enumerate();
@@ -224,7 +225,7 @@ fn worst_conditioned(m: &Manipulator, poses: &[Pose], length: f64) -> Option<(us
 fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolution, seed: u64) -> Design {
     let octahedral = Octahedral::recognise(design.manipulator()).ok().zip(s.offsets);
     let mut out = if let Some((o, t)) = octahedral {
-        // triangles that are not chosen are those of the design, to the last digit
+        // triangles that are not variables equal those of the design, to the last digit
         let fixed = problem.variables.triangles == Triangles::Fixed;
         let own = if fixed { joint_free(&o, t).ok() } else { None };
         joint_free_design(design, &o, own.as_ref().map_or(&s.manipulator, |(m, _)| m), t)
@@ -234,7 +235,7 @@ fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolut
         let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
         let kept = [base.len(), platform.len()].map(|n| (0..n).map(Origin::Kept).collect::<Vec<_>>());
         let named = plain.clone().with_joint_names(base, platform);
-        // joints that have stayed where they were
+        // joints that have stayed in place
         named.map_or(plain, |named| named.constructed_from(design, [&kept[0], &kept[1]]))
     };
     out.source.clone_from(&design.source);
@@ -266,8 +267,8 @@ mod tests {
     use super::*;
     use num::Rng;
 
-    /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the
-    /// line of `X` and `Y` and on no vertex.
+    /// Draws random triangles, leg orders and offsets. Joint `X` stays in place, and joint `X_Y` is on the line of `X`
+    /// and `Y`, away from every vertex.
     #[test]
     fn joints_are_where_their_names_say() {
         let mut rng = Rng::new(8);

@@ -1,4 +1,4 @@
-//! The best platform for a design: one question, whoever asks it.
+//! The best platform for a design; all callers ask the same question here.
 
 pub mod drive_search;
 pub mod freedoms;
@@ -35,24 +35,24 @@ use optimize::offsets::{self, OffsetProblem, OffsetReport, OffsetSolution};
 use platform::manipulator::Octahedral;
 use verify::VerifyError;
 
-/// Most worker threads.
+/// Greatest number of worker threads.
 const MOST_THREADS: usize = 1024;
-/// The part of a limit of time that the judging has: one over this number, and this long at most.
+/// The share of a time limit kept for assessments: one over this number, and at most this time.
 const FOR_JUDGING: (u32, Duration) = (4, Duration::from_secs(10));
 
-/// How far the search is.
+/// The progress of the search.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum OptimizeProgress {
-    /// Of the search for offsets.
+    /// The progress of the search for offsets.
     Offsets(offsets::OffsetProgress),
-    /// Of the search for a platform that meets its requirements.
+    /// The progress of the search for a platform that meets its requirements.
     Dimensions(dimensional::Progress),
-    /// Of that search with the drive of this name.
+    /// The progress of this search with the drive of this name.
     Drive(String, dimensional::Progress),
-    /// Of that search with one more freedom.
+    /// The progress of this search with one more freedom.
     Freedom(ConflictFreedom, dimensional::Progress),
-    /// Other local optima are judged.
+    /// The other local optima are being assessed.
     Judging,
 }
 
@@ -68,7 +68,7 @@ impl std::fmt::Display for OptimizeProgress {
     }
 }
 
-/// When a search that has so much time ends, and when the judging of what it found.
+/// The end of a search with this time limit, and the end of the assessments of its results.
 pub fn ends_of(limit: Duration) -> Option<[Instant; 2]> {
     let now = Instant::now();
     let kept = (limit / FOR_JUDGING.0).min(FOR_JUDGING.1);
@@ -132,75 +132,75 @@ impl Default for OptimizeOptions<'_> {
 }
 
 impl<'a> OptimizeOptions<'a> {
-    /// The defaults: seed 1, a thread for each processor, joints at most 0.3 of a side beyond its corners, optimal
+    /// The defaults: seed 1, one thread for each processor, joints at most 0.3 of a side beyond its corners, optimal
     /// within one per cent.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Seed of starting points. Same seed, same answer, whatever the number of threads.
+    /// Sets the seed of the starting points. The answer depends on the seed and not on the number of threads.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// How many threads search.
+    /// Sets the number of search threads.
     #[must_use]
     pub fn threads(mut self, threads: Threads) -> Self {
         self.threads = threads;
         self
     }
 
-    /// How far a joint may sit out on the extension of its edge, edge lengths; 0 keeps joints inside the edges.
+    /// Sets the greatest distance of a joint on the extension of its edge, in edge lengths; 0 keeps joints inside the
+    /// edges.
     #[must_use]
     pub fn extension(mut self, extension: f64) -> Self {
         self.extension = extension;
         self
     }
 
-    /// Whether every branch of offsets is searched for its own best, which takes ten times as long.
+    /// Sets whether every branch of offsets is searched for its own best, which takes ten times as long.
     #[must_use]
     pub fn survey(mut self, survey: bool) -> Self {
         self.survey = survey;
         self
     }
 
-    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer counts
-    /// as optimal.
+    /// Sets the greatest relative gap between the answer and the proved upper bound over all offsets at which the
+    /// answer counts as optimal.
     #[must_use]
     pub fn gap(mut self, gap: f64) -> Self {
         self.gap = gap;
         self
     }
 
-    /// Whether the other local optima under requirements are judged too, which takes as long for each as for the
-    /// answer.
+    /// Sets whether the other local optima under requirements are assessed too; each takes as long as the answer.
     #[must_use]
     pub fn candidates(mut self, candidates: bool) -> Self {
         self.candidates = candidates;
         self
     }
 
-    /// Whether, where nothing meets the requirements, the search is made again with one more freedom each: a longer
-    /// stroke, another height of home, a wider envelope.
+    /// Sets whether a search without success is repeated with one more freedom each: a longer stroke, another height of
+    /// home, a wider envelope.
     #[must_use]
     pub fn freedoms(mut self, freedoms: bool) -> Self {
         self.freedoms = freedoms;
         self
     }
 
-    /// The drives to choose from: the search is made with each drive that could win, and the answer is the best
-    /// platform with its drive, the cheapest with which the requirements are met where every drive has a price.
+    /// Sets the drives to choose from. Each drive that could win is searched, and the answer is the best platform with
+    /// its drive. If every drive has a price, the cheapest that meets the requirements wins.
     #[must_use]
     pub fn drives(mut self, table: &'a DriveTable) -> Self {
         self.drives = Some(table);
         self
     }
 
-    /// How long it may take from now on. The last quarter of the time, at most ten seconds, is for the judging of the
-    /// best until then.
+    /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
+    /// result until then.
     #[must_use]
     pub fn time_limit(mut self, limit: Duration) -> Self {
         let ends = ends_of(limit);
@@ -208,26 +208,26 @@ impl<'a> OptimizeOptions<'a> {
         self
     }
 
-    /// When the judging ends of what a search found that is ended otherwise.
+    /// Sets the end of the assessments that follow an interrupted search.
     pub fn until(mut self, until: Option<Instant>) -> Self {
         self.until = until;
         self
     }
 
-    /// Whether a conflict is looked for where nothing meets the requirements.
+    /// Sets whether a conflict is searched for if no platform meets the requirements.
     pub fn explains(mut self, explains: bool) -> Self {
         self.explains = explains;
         self
     }
 
-    /// What ends the search before its time; the answer is then the best until then.
+    /// Sets the cancellation of the search; the answer is then the best until then.
     #[must_use]
     pub fn cancel(mut self, cancel: &Cancel) -> Self {
         self.cancel = cancel.clone();
         self
     }
 
-    /// Is told how far the search is, and may end it.
+    /// Sets a function that sees the progress, and may end the search.
     #[must_use]
     pub fn on_progress(mut self, look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) -> Self {
         self.on_progress = Some(Box::new(look));
@@ -249,33 +249,32 @@ impl<'a> OptimizeOptions<'a> {
     }
 }
 
-/// What came of a search.
+/// The status of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "OptimizeWord")]
 pub enum OptimizeStatus {
-    /// The requirements are met, and no offsets are better by more than `tolerance`: proved.
+    /// The requirements are met, and it is proved that no offsets are better by more than `tolerance`.
     Optimal,
-    /// The requirements are met, and the platform is a local optimum, the best of all starts; that none is better is
-    /// not proved.
+    /// The requirements are met, and the platform is a local optimum, the best of all starts; a better one is possible.
     BestFound,
-    /// The requirements are met; better platforms may be near, or a bound on all others was asked for and is not proved
-    /// to within `tolerance`.
+    /// The requirements are met; better platforms may be near, or a requested bound is not proved to within
+    /// `tolerance`.
     Feasible,
-    /// There is no platform: proved where `conflict` says so, else no start met the requirements.
+    /// There is no platform: proved if `conflict` says so, otherwise no start met the requirements.
     Infeasible,
-    /// Nothing that meets the requirements was found, or what was found is not proved to meet them.
+    /// No platform was found that is proved to meet the requirements.
     Undecided,
-    /// The platform found misses requirements; the assessment names them.
+    /// The platform found violates requirements; the assessment names them.
     Violated,
-    /// The search was told to end; the answer is the best until then.
+    /// The search was interrupted; the answer is the best until then.
     Interrupted,
-    /// With mode = "pareto": a front whose members are proved to meet their requirements.
+    /// A Pareto front with mode = "pareto"; its members are proved to meet their requirements.
     Front,
 }
 
 impl OptimizeStatus {
-    /// The word for it.
+    /// The code of the status.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -301,19 +300,18 @@ impl std::fmt::Display for OptimizeStatus {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct OptimizeReport {
-    /// The outcome in a word.
+    /// The status.
     pub status: OptimizeStatus,
-    /// The design that the search began with: the one asked about, with the drive chosen, or with the variables that
-    /// were chosen for it.
+    /// The design at the start of the search: the requested one, with the chosen drive or the variables chosen for it.
     pub asked: Design,
-    /// Whether the sizes of the bodies and the height of home were chosen because no leg of the design can be replaced.
+    /// Whether the sizes of the bodies and the height of home are variables because no leg of the design can be
+    /// replaced.
     pub chooses_sizes: bool,
-    /// The drives of a table; `None` where none was given.
+    /// The drives of a table; `None` without a table.
     pub drives: Option<DriveSearch>,
-    /// Where nothing that meets the requirements was found: what came of one more freedom; `None` where none was tried.
+    /// The results of one more freedom each, after a search without success; `None` if none was tried.
     pub freedoms: Option<Vec<OpenedFreedom>>,
-    /// Other local optima that meet the requirements at the poses that the search held, best first; `None` where they
-    /// were not asked for.
+    /// Other local optima that meet the requirements at the held poses, best first; `None`: not requested.
     pub candidates: Option<Vec<Checked>>,
     /// The platforms, with the evidence for them.
     pub evidence: OptimizeEvidence,
@@ -322,15 +320,15 @@ pub struct OptimizeReport {
 /// The platforms of an [`OptimizeReport`], with the evidence for them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OptimizeEvidence {
-    /// Of offsets alone, for the best worst-case conditioning: branches, bound, re-check.
+    /// A search for offsets alone with the best worst-case conditioning: branches, bound, independent check.
     Offsets(Box<FoundOffsets>),
-    /// Of a platform under requirements.
+    /// A search for a platform under requirements.
     Dimensions(Box<FoundPlatform>),
-    /// Of platforms of which none is better in every objective.
+    /// A search for a Pareto front.
     Front(Box<FoundFront>),
 }
 
-/// The result of a search for offsets, judged by code that the search does not use.
+/// The result of a search for offsets, assessed independently of the search code.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FoundOffsets {
@@ -342,7 +340,7 @@ pub struct FoundOffsets {
     pub checked: Option<Checked>,
 }
 
-/// The status and the value of what was optimised.
+/// The status and the value of the objective.
 impl std::fmt::Display for OptimizeReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.status)?;
@@ -367,13 +365,13 @@ impl std::fmt::Display for OptimizeReport {
 }
 
 impl OptimizeReport {
-    /// The report of a search alone.
+    /// The report of a search without further results.
     fn new(asked: Design, status: OptimizeStatus, evidence: OptimizeEvidence) -> Self {
         let (drives, freedoms, candidates) = (None, None, None);
         Self { status, asked, chooses_sizes: false, drives, freedoms, candidates, evidence }
     }
 
-    /// The platform found, judged; `None` where there is none, and for a front.
+    /// The platform found, assessed; `None` if there is none, and for a front.
     #[must_use]
     pub fn checked(&self) -> Option<&Checked> {
         match &self.evidence {
@@ -383,7 +381,7 @@ impl OptimizeReport {
         }
     }
 
-    /// Where nothing that meets the requirements was found: the platform that misses them least, as the search sees it.
+    /// The platform with the least violation, as seen by the search, if none meets the requirements.
     #[must_use]
     pub fn nearest(&self) -> Option<&Checked> {
         match &self.evidence {
@@ -392,14 +390,14 @@ impl OptimizeReport {
         }
     }
 
-    /// The platform found, with the tables of the design it is from.
+    /// The platform found, with the tables of its original design.
     #[must_use]
     pub fn design(&self) -> Option<&Design> {
         self.checked().map(|c| &c.design)
     }
 
-    /// What became of the three-fold symmetry of a design that names no symmetry; `None` where it has none, names one,
-    /// or the search could not break it.
+    /// The search result for the three-fold symmetry of a design that names none. `None` if it has none, names one, or
+    /// the search could not break it.
     #[must_use]
     pub fn symmetry(&self) -> Option<StartSymmetry> {
         match &self.evidence {
@@ -409,10 +407,10 @@ impl OptimizeReport {
         }
     }
 
-    /// Where nothing was found: the searches with one more freedom each.
+    /// After a search without success: searches with one more freedom each.
     ///
     /// # Errors
-    /// As of [`Design::optimize_with`].
+    /// The errors of [`Design::optimize_with`].
     pub fn open_freedoms(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), Error> {
         let report = match &self.evidence {
             OptimizeEvidence::Dimensions(found) if found.checked.is_none() => Some(&found.report),
@@ -433,10 +431,10 @@ impl OptimizeReport {
         Ok(())
     }
 
-    /// Judges the other local optima as the answer was judged.
+    /// Assesses the other local optima like the answer.
     fn judge_candidates(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), VerifyError> {
         let OptimizeEvidence::Dimensions(found) = &self.evidence else { return Ok(()) };
-        // an end that is asked for now is one of the judging, which ends by itself
+        // an interruption now concerns the assessment, which ends by itself
         let _ = options.flow(OptimizeProgress::Judging);
         let judging = Judging::from(&options.search());
         let of = |(k, s): (usize, &DimensionalSolution)| {
@@ -451,21 +449,21 @@ impl OptimizeReport {
 }
 
 impl Design {
-    /// The best platform for this design: under all its requirements where it has any, else the equivalent platform
-    /// without shared joints with the best worst-case conditioning.
+    /// The best platform for this design under all its requirements. Without requirements, the equivalent platform
+    /// without shared joints that has the best worst-case conditioning.
     ///
     /// # Errors
-    /// A design that cannot be optimised as it asks: one that is not octahedral and names no other variables, for
-    /// instance.
+    /// A design that cannot be optimised as requested, for instance one that is not octahedral and names no other
+    /// variables.
     pub fn optimize(&self) -> Result<OptimizeReport, Error> {
         self.optimize_with(OptimizeOptions::new())
     }
 
     /// As [`optimize`](Self::optimize), with options. The command `equipod optimize`, `explore`, sweeps and the Python
-    /// package ask this function.
+    /// package call this function.
     ///
     /// # Errors
-    /// As [`optimize`](Self::optimize).
+    /// The errors of [`optimize`](Self::optimize).
     pub fn optimize_with(&self, mut options: OptimizeOptions<'_>) -> Result<OptimizeReport, Error> {
         let table = options.drives;
         if let (None, Some(file)) = (table, &self.drive_table) {

@@ -1,5 +1,5 @@
-//! The search for platforms under the requirements of a design. Where the design has a three-fold symmetry and names
-//! none, the symmetry is kept first, and given up where nothing that has it meets the requirements.
+//! The search for platforms under the requirements of a design. A three-fold symmetry that the design has and does not
+//! name is kept first, and dropped if no symmetric platform meets the requirements.
 
 use std::ops::ControlFlow;
 
@@ -17,8 +17,8 @@ use optimize::dimensional::{
 use platform::manipulator::{Body, Octahedral};
 use verify::VerifyError;
 
-/// Whether the search keeps the three-fold symmetry of a design that names no symmetry: the design has it at home, the
-/// variables of `free`, the problem without it, could break it, and the holes that the design states turn with it.
+/// Whether the search keeps the three-fold symmetry of a design that names none. The design must have it at home, and
+/// the stated holes must share it. The variables of `free`, the problem without it, must be able to break it.
 pub(super) fn keeps_symmetry_of_start(
     design: &Design,
     free: &DimensionalProblem,
@@ -42,7 +42,7 @@ pub(super) fn keeps_symmetry_of_start(
     Some(kept)
 }
 
-/// The result of a search under requirements, judged by code that the search does not use.
+/// The result of a search under requirements, assessed independently of the search code.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FoundPlatform {
@@ -52,9 +52,9 @@ pub struct FoundPlatform {
     pub report: DimensionalReport,
     /// The platform found.
     pub checked: Option<Checked>,
-    /// The platform that misses the requirements least, where none that meets them was found.
+    /// The platform with the least violation, if none meets the requirements.
     pub nearest: Option<Checked>,
-    /// Where the design has a symmetry and names none: what became of it.
+    /// The result for the symmetry, if the design has one and names none.
     pub symmetry: Option<StartSymmetry>,
 }
 
@@ -72,20 +72,19 @@ impl FoundPlatform {
         Ok(Self { checked: found, nearest, problem, report, symmetry })
     }
 
-    /// The outcome in a word.
+    /// The status of the search.
     #[must_use]
     pub fn status(&self) -> OptimizeStatus {
         dimensional_status(&self.report, self.checked.as_ref())
     }
 
-    /// Whether the platform found is proved to meet all requirements with their reserves.
+    /// Whether the platform found is proved to meet all requirements with their safety margins.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.checked.as_ref().and_then(Checked::met) == Some(true)
     }
 
-    /// How much was reached: a platform that meets the requirements, one that is not known to, one that misses some,
-    /// none.
+    /// The rank of the result: a platform that meets the requirements, an unproved one, one that violates some, none.
     pub fn rank(&self) -> u8 {
         match self.checked.as_ref().map(Checked::met) {
             Some(Some(true)) => 3,
@@ -96,11 +95,11 @@ impl FoundPlatform {
     }
 }
 
-/// The best platform of a design under its requirements, with the symmetry of the design where the search keeps it
-/// unasked. `explains`: where nothing meets the requirements a conflict is looked for.
+/// Searches for the best platform of a design under its requirements, with its symmetry if the search keeps it unasked.
+/// With `explains`, a failed search is followed by a search for a conflict.
 ///
 /// # Errors
-/// A problem that cannot be asked, or a platform that cannot be compared with the design.
+/// An invalid problem, or a platform that cannot be compared with the design.
 pub(crate) fn find_platform(
     design: &Design,
     extension: f64,
@@ -137,7 +136,7 @@ pub(crate) fn find_platform(
     Ok(FoundPlatform { report, ..symmetric })
 }
 
-/// A front, its members judged.
+/// A Pareto front with its members assessed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FoundFront {
@@ -147,7 +146,7 @@ pub struct FoundFront {
     pub report: ParetoReport,
     /// The members in the order of the front.
     pub members: Vec<Checked>,
-    /// Where the design has a symmetry and names none: what became of it.
+    /// The result for the symmetry, if the design has one and names none.
     pub symmetry: Option<StartSymmetry>,
 }
 
@@ -165,7 +164,7 @@ impl FoundFront {
         Ok(Self { problem, report, members, symmetry })
     }
 
-    /// The outcome in a word.
+    /// The status of the search.
     #[must_use]
     pub fn status(&self) -> OptimizeStatus {
         match self.report.failure.as_deref().map(|r| &r.outcome) {
@@ -182,10 +181,10 @@ impl FoundFront {
     }
 }
 
-/// The front of a design, with its symmetry where the search keeps it unasked.
+/// The Pareto front of a design, with its symmetry if the search keeps it unasked.
 ///
 /// # Errors
-/// As [`find_platform`].
+/// The errors of [`find_platform`].
 pub(crate) fn find_front(
     design: &Design,
     points: usize,

@@ -1,4 +1,4 @@
-//! What a design asks of a search: variables, objectives and limits with their reserves.
+//! The search problem of a design: variables, objectives, and limits with their safety margins.
 
 use super::super::SingularHome;
 use crate::Design;
@@ -9,25 +9,25 @@ use optimize::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Octahedral};
 
-/// How far a joint may stand beyond a corner, in lengths of its side, where nothing is said: room for the joint, and a
-/// body half as wide again at most.
+/// The default limit of a joint's distance beyond a corner, in lengths of its side. It leaves space for the joint, and
+/// a body at most half as wide again.
 pub const EXTENSION: f64 = 0.3;
-/// The reserve on every limit that `explore` keeps where the design states none, percent.
+/// The default safety margin on every limit in `explore`, percent.
 pub const RESERVE_PERCENT: f64 = 5.0;
 
-/// Which search answers a design.
+/// The kind of search for a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SearchKind {
-    /// For the offsets with the best worst-case conditioning.
+    /// A search for the offsets with the best worst-case conditioning.
     Offsets,
-    /// For a platform under requirements.
+    /// A search for a platform under requirements.
     Platform,
-    /// For so many platforms of which none is better in every objective.
+    /// A search for a Pareto front with this number of platforms.
     Front(usize),
 }
 
 impl SearchKind {
-    /// That of a design; `with_drives`: a table of drives is given, whose lengths are requirements.
+    /// The kind of search for a design; `with_drives`: a table of drives is given, with lengths as requirements.
     pub fn of(design: &Design, with_drives: bool) -> Self {
         match design.search.mode {
             _ if !with_drives && !asks_for_more(design) => Self::Offsets,
@@ -37,17 +37,16 @@ impl SearchKind {
     }
 }
 
-/// A singular home pose that the search cannot leave: neither the triangles nor the height of home are chosen, and
-/// `det J` of an equivalent platform is that of the
-/// design times a constant.
+/// A singular home pose that the search cannot leave, because neither the triangles nor the height of home are
+/// variables. The value `det J` of an equivalent platform is then a constant multiple of `det J` of the design.
 pub fn hopeless_home(design: &Design, extension: f64) -> Option<SingularHome> {
     let variables = dimensional_problem(design, extension).variables;
     let stays = variables.triangles == Triangles::Fixed && !variables.home_height;
     design.home_that_no_equivalent_holds().filter(|_| stays)
 }
 
-/// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other
-/// variables or objectives, or legs moved on families because it has no offsets.
+/// Whether a design requires more than offsets with the best worst-case conditioning. It may have requirements, other
+/// variables or objectives, or legs moved in families because it has no offsets.
 fn asks_for_more(design: &Design) -> bool {
     let plain = Requirements {
         min_joint_distance: design.optimize.min_joint_distance,
@@ -59,15 +58,15 @@ fn asks_for_more(design: &Design) -> bool {
         || Octahedral::recognise(design.manipulator()).is_err()
 }
 
-/// The design with a reserve on every limit; `None` where it states one.
+/// The design with a safety margin on every limit; `None` if it states one.
 pub fn with_default_reserve(design: &Design) -> Option<Design> {
     let mut careful = design.clone();
     careful.reserves.all = Some(RESERVE_PERCENT);
     design.reserves.is_empty().then_some(careful)
 }
 
-/// The limits of a search for offsets without and with the reserves of the design: the least distance of joints and the
-/// least `|det A|`.
+/// The limits of a search for offsets without and with the safety margins of the design: the least distance of joints
+/// and the least `|det A|`.
 fn offset_limits(design: &Design, octahedral: &Octahedral) -> [[f64; 2]; 2] {
     let default = OffsetProblem::with_defaults(octahedral.clone(), Vec::new());
     let table = &design.optimize;
@@ -79,13 +78,13 @@ fn offset_limits(design: &Design, octahedral: &Octahedral) -> [[f64; 2]; 2] {
     [[distance, distance + reserve[0].max(reserve[1])], [det, det * (1.0 + share)]]
 }
 
-/// What the reserves add to the least distance of joints and to the least `|det A|` in a search for offsets.
+/// The safety margins on the least distance of joints and on the least `|det A|` in a search for offsets.
 pub fn offset_reserves(design: &Design, octahedral: &Octahedral) -> [f64; 2] {
     offset_limits(design, octahedral).map(|[stated, held]| held - stated)
 }
 
-/// The offsets of an octahedral design over these poses, within the limits of its `[optimize]` and with its reserves on
-/// them.
+/// The offset problem of an octahedral design over these poses, within the limits of its `[optimize]` and with its
+/// safety margins.
 pub(super) fn offset_problem(
     design: &Design,
     octahedral: Octahedral,
@@ -103,8 +102,8 @@ pub(super) fn offset_problem(
     }
 }
 
-/// The design with the sizes of its bodies and the height of home to choose, where it requires something, names no
-/// variables, and no leg of it can be replaced; else `None`.
+/// The design with the sizes of its bodies and the height of home as variables. `None` unless it has requirements,
+/// names no variables, and no leg of it can be replaced.
 pub(super) fn with_sizes_to_choose(design: &Design) -> Option<Design> {
     let usual = design.search.variables.is_empty() && Octahedral::recognise(design.manipulator()).is_err();
     if !usual || design.requirements() == Requirements::default() {
@@ -140,7 +139,7 @@ pub fn dimensional_problem(design: &Design, extension: f64) -> DimensionalProble
     let mut requirements = design.requirements();
     let octahedral = Octahedral::recognise(m).ok().map(|o| OffsetProblem::with_defaults(o, Vec::new()));
     if let (true, Some(default)) = (variables.offsets, &octahedral) {
-        // joints that offsets separate need room, also where the design says nothing
+        // joints that offsets separate need spacing, even if the design states none
         requirements.min_joint_distance.get_or_insert(default.min_joint_distance);
     }
     let objectives = if search.objectives.is_empty() {
@@ -164,14 +163,14 @@ pub fn dimensional_problem(design: &Design, extension: f64) -> DimensionalProble
     }
 }
 
-/// Legs whose ends are at joints that no search may move, base first.
+/// Leg ends at joints that no search may move, base first.
 fn fixed_ends(design: &Design) -> [[bool; 6]; 2] {
     let fixed = Body::BOTH.map(|body| design.fixed_joints(body));
     let pairs = design.manipulator().pairs();
     [pairs.map(|(base, _)| fixed[0][base]), pairs.map(|(_, platform)| fixed[1][platform])]
 }
 
-/// The question of a search for offsets as that of a search under requirements.
+/// The problem of a search for offsets as a problem under requirements.
 pub(super) fn as_dimensional(design: &Design, problem: &OffsetProblem) -> DimensionalProblem {
     let mut general = dimensional_problem(design, EXTENSION);
     general.variables.offset_bounds = problem.bounds;

@@ -1,4 +1,4 @@
-//! `equipod bench`: random problems of a class, solved, validated by independent code, counted and timed.
+//! `equipod bench`: solves random problems of a class, validates them independently, counts and times them.
 
 mod noise;
 
@@ -16,40 +16,40 @@ use records::{BenchAnswer, BenchClassRecord};
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BenchArgs {
-    /// 6-6, 6-5, 6P-6, 6P-6P, almost-planar, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine,
-    /// congruent, collinear, close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base,
-    /// -planar-platform, -both-planar), or topologies for the 34; several with commas between
+    /// Classes, with commas between: 6-6, 6-5, 6P-6, 6P-6P, almost-planar, tilted-planes, octahedral, griffis-duffy,
+    /// hexapod, similar, affine, congruent, collinear, close-pair, spread, double-root, hexapod-home; `all` for these.
+    /// T01 to T34 (also T04-planar-base, -planar-platform, -both-planar), or `topologies` for all 34
     #[arg(long, value_name = "CLASS", default_value = "6-6")]
     class: String,
     /// Number of problems of each class
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     count: u64,
-    /// Index of the first problem; with --count 1 it repeats one that failed
+    /// Index of the first problem; with --count 1 it repeats a failed problem
     #[arg(long, value_name = "K", default_value_t = 0)]
     first: u64,
     /// Worker threads; each problem is solved and timed on one of them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
-    /// Method of solution; auto takes the best one for the design. With sylvester and template the candidates before
-    /// refinement are measured, too
+    /// Method of solution; auto takes the best one for the design. sylvester and template also measure the candidates
+    /// before refinement
     #[arg(long, value_enum, default_value_t = BenchMethodArg::Auto)]
     method: BenchMethodArg,
-    /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when
-    /// absent
+    /// Source of the lengths: squared lengths uniform in [0.5, 3], or a random real pose; default: the former, if the
+    /// class allows it
     #[arg(long, value_enum, value_name = "SOURCE")]
     lengths_from: Option<Source>,
-    /// Look for missed roots from two other starts once in so many problems; 0 means never
+    /// Search for missed roots from two other starts in every N-th problem; 0 means never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
-    /// Count the poses modulo random primes where completeness is not proved, as fk does; this takes some milliseconds
-    /// per problem
+    /// Count the poses modulo random primes if completeness is not proved, as fk does; takes some milliseconds per
+    /// problem
     #[arg(long)]
     count_poses: bool,
-    /// Measure noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure
-    /// how far the poses move
+    /// Measure the effect of noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to
+    /// 1e-1
     #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every", "count_poses"])]
     noise: bool,
-    /// Write a picture of how noise moves the poses
+    /// Write a picture of the displacements of the poses caused by noise
     #[arg(long, value_name = "FILE", requires = "noise")]
     svg: Option<OutputPath>,
 }
@@ -72,7 +72,7 @@ enum Source {
     Uniform,
 }
 
-/// Runs the harness on one class or all.
+/// Runs one class or several.
 pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Failure> {
     let classes = classes(&args.class)?;
     let method = match args.method {

@@ -1,4 +1,4 @@
-//! `equipod bench --noise`: errors of poses over errors of leg lengths.
+//! `equipod bench --noise`: pose errors divided by errors of leg lengths.
 
 use std::num::NonZeroUsize;
 
@@ -12,10 +12,10 @@ use ask::bench::{Class, NOISE_LEVELS, NoiseLevel, NoisePlan, Spread, noise};
 use fk::{ForwardKinematics, Threads};
 use records::{BenchAnswer, NoiseAnswer, NoiseRowRecord};
 
-/// Levels the published figure shows, other than zero.
+/// The least and greatest nonzero level in the published figure.
 const PUBLISHED: (f64, f64) = (1e-4, 8e-4);
 
-/// Runs the classes, writes the picture.
+/// Runs the classes and writes the picture.
 pub(super) fn run(
     args: &BenchArgs,
     classes: &[Class],

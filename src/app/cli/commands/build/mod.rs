@@ -17,7 +17,7 @@ pub(crate) enum BuildCommand {
     Drives(drives::BuildDrivesArgs),
     /// Put the joints on a grid of holes, exactly equivalent or as near as the grid allows
     Round(round::BuildRoundArgs),
-    /// Compute how far joints may be off while the error of the pose stays within a bound
+    /// Compute the joint errors allowed for a given accuracy of the pose
     Tolerances(tolerances::BuildTolerancesArgs),
 }
 

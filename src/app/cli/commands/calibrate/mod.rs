@@ -26,52 +26,49 @@ use records::{
 /// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CalibrateArgs {
-    /// Design file (.toml or .json) of the machine as it was meant
+    /// Design file (.toml or .json) of the nominal machine
     design: PathBuf,
-    /// A table with a measured pose and six measured lengths a line (`-` for standard input); without it, poses to
+    /// Table with a measured pose and six measured lengths on each line (`-` for standard input); without it, poses to
     /// measure are planned
     measurements: Option<PathBuf>,
-    /// Standard deviation of a length, design units; without it lengths count as equally uncertain, poses as exact, and
-    /// the deviation is estimated
+    /// Standard deviation of a length, design units; default: estimated, with equally uncertain lengths and exact poses
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     sigma_length: Option<f64>,
-    /// Standard deviation of each coordinate of a measured position, design units; 0 when absent
+    /// Standard deviation of each coordinate of a measured position, design units; default 0
     #[arg(long, value_name = "LENGTH", requires = "sigma_length", allow_hyphen_values = true)]
     sigma_position: Option<f64>,
-    /// Standard deviation of each component of the rotation vector of a measured orientation, degrees; 0 when absent
+    /// Standard deviation of each component of the rotation vector of a measured orientation, degrees; default 0
     #[arg(long, value_name = "DEG", requires = "sigma_length", allow_hyphen_values = true)]
     sigma_rotation_deg: Option<f64>,
-    /// Loss of large distances: all but squares take gross errors for possible
+    /// Loss function for large residuals; all kinds except squares tolerate gross errors
     #[arg(long, value_enum, default_value_t = LossArg::Squares)]
     loss: LossArg,
-    /// What the loss doubts: whole poses, or the lengths of single legs
+    /// Unit rejected by the loss: whole poses, or the lengths of single legs
     #[arg(long, value_enum, default_value_t = UnitArg::Pose)]
     loss_of: UnitArg,
-    /// Frames of the joints: those of the measured poses, or those of the design, into which the joints are carried by
-    /// the rigid motions that fit best
+    /// Frames of the joints: of the measured poses, or of the design, carried by the best-fitting rigid motions
     #[arg(long, value_enum, default_value_t = FramesArg::Measured)]
     frames: FramesArg,
-    /// What is known and stays as it is, separated by commas
+    /// Known quantities to hold fixed, separated by commas
     #[arg(long, value_enum, value_delimiter = ',')]
     hold: Vec<HeldArg>,
-    /// Where to begin: at the design, at a solution that needs no design, or at both, and the better end is taken
+    /// Start of the fit: the design, a solution that needs no design, or the better result of both
     #[arg(long, value_enum, default_value_t = StartArg::Best)]
     start: StartArg,
-    /// Greatest standard deviation of a change of the machine that counts as identified, as a share of the size of the
-    /// design
+    /// Greatest standard deviation of an identified change of the machine, as a share of the size of the design
     #[arg(long, value_name = "SHARE", default_value_t = 0.01, allow_hyphen_values = true)]
     identified: f64,
-    /// Another table of measurements, for residuals that the fit has not seen
+    /// Second table of measurements, for residuals outside the fit
     #[arg(long, value_name = "FILE")]
     check: Option<PathBuf>,
     /// Number of poses to measure next
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(0..=200))]
     next: u16,
-    /// Number of poses of a Halton sequence in the workspace, and as many random ones, among which the next ones are
-    /// chosen and at which computed poses are judged
+    /// Number of Halton points in the workspace, with as many random ones: candidates for --next, and poses for the
+    /// uncertainty of computed poses
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(1..=5000))]
     candidates: u16,
-    /// Write the calibrated design, where all of it is identified and nothing refutes it
+    /// Write the calibrated design, if all of it is identified and no test refutes it
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }
@@ -162,8 +159,7 @@ impl CalibrateArgs {
     }
 }
 
-/// Exit 0 where the machine is calibrated, 1 where it is not identifiable or the model is refuted, 3 where that is
-/// open.
+/// Exit 0 if the machine is calibrated, 1 if it is not identifiable or the model is refuted, 3 if undecided.
 pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     args.refuse_without_effect(context)?;
@@ -215,7 +211,7 @@ fn exit_of(outcome: CalibrateOutcome) -> Exit {
     }
 }
 
-/// Why it ended as it did.
+/// The reason of the outcome.
 fn reason(found: &Calibration) -> String {
     let (rank, unknowns) = (found.observability.rank, found.unknowns.count());
     match found.status {
@@ -265,7 +261,7 @@ fn failure_of(error: &Error) -> Failure {
     }
 }
 
-/// Measurements with the lines they stand on.
+/// Measurements with their lines.
 fn measurements(path: &Path, context: &Context) -> Result<(Vec<Measurement>, Vec<usize>), Failure> {
     let form = "a pose and six lengths a line: x,y,z,roll_deg,pitch_deg,yaw_deg,l1,..,l6 or x,y,z,qw,qx,qy,qz,l1,..,l6";
     let table = TableName { path, code: BAD_MEASUREMENTS, form };
@@ -288,7 +284,7 @@ fn measurement(text: &str) -> Result<Measurement, String> {
     Ok(Measurement { pose, lengths })
 }
 
-/// The motions to the frames of the design, where they are asked for.
+/// The motions to the design frames, if requested.
 fn frames(
     args: &CalibrateArgs,
     design: &Design,
@@ -304,7 +300,7 @@ fn frames(
     })
 }
 
-/// Where to measure next: poses as the design and as the measurements have them.
+/// The poses to measure next, in the frames of the design and of the measurements.
 fn next(
     args: &CalibrateArgs,
     found: &Calibration,
@@ -331,7 +327,7 @@ fn next_record(pose: &Pose, next: &NextPose) -> NextPoseRecord {
     }
 }
 
-/// The poses to begin with.
+/// The first poses to measure.
 fn plan(
     args: &CalibrateArgs,
     design: &Design,

@@ -22,21 +22,21 @@ pub(crate) struct DesignConvertArgs {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
-    /// Write joints as constructions where they are at one place, turned by a third of a turn, mirrored or in a plane of
-    /// the axes but for rounding
+    /// Write joints as constructions if they coincide, are mirrored, rotated by 120 degrees, or lie in a coordinate
+    /// plane, up to rounding
     #[arg(long)]
     snap: bool,
-    /// Write the parameters of a motion-simulator program in place of a design: `motion4sim` (and `FlyPT Mover`), where
-    /// L4 is the long side of the base, or `dr-sim-manager`, where L3 is
+    /// Write the parameters of a motion-simulator program instead of a design. The long side of the base is L4 in
+    /// `motion4sim` (and `FlyPT Mover`), and L3 in `dr-sim-manager`
     #[arg(long, value_name = "DIALECT")]
     dialect: Option<SheetDialect>,
 }
 
-/// Reads, checks and writes the design. Comments of the input are not kept.
+/// Reads, checks and writes the design, without the comments of the input.
 pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Answer, Failure> {
     let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let format = match extension.as_deref() {
-        // a sheet is none of both, and its name is what its reader wants
+        // a sheet has neither notation, and its reader decides on the file name
         _ if args.dialect.is_some() => Format::Toml,
         _ if files::is_standard(&args.output) => Format::Toml,
         Some("toml") => Format::Toml,

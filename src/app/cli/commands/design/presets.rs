@@ -16,7 +16,7 @@ use records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 /// Arguments of `design presets`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct DesignPresetsArgs {
-    /// Name of a preset; all are listed when absent
+    /// Name of a preset; without it all are listed
     name: Option<String>,
     /// Write the design file in TOML, with the sources in its comments
     #[arg(short, long, value_name = "FILE", requires = "name")]

@@ -1,4 +1,4 @@
-//! `equipod equivalents family`: every platform equivalent to an octahedral design.
+//! `equipod equivalents family`: all platforms equivalent to an octahedral design.
 
 use std::path::PathBuf;
 
@@ -21,8 +21,7 @@ use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EquivalentsFamilyArgs {
-    /// Design (.toml or .json) that is octahedral, or made from an octahedral platform by offsets along the sides of
-    /// its triangles
+    /// Design (.toml or .json) that is octahedral, or made from an octahedral one by offsets along its triangle sides
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
     #[arg(long, value_name = "FILE")]
@@ -33,7 +32,8 @@ pub(crate) struct EquivalentsFamilyArgs {
     /// Report only this pattern, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID")]
     pattern: Option<String>,
-    /// Shares of the edges at which the moved joints sit, one for each inner point: decimals or expressions such as 1/5
+    /// Offsets of the moved joints as shares of the edges, one for each inner point: decimals or expressions such as
+    /// 1/5
     #[arg(
         long,
         value_name = "T1,..",
@@ -42,8 +42,7 @@ pub(crate) struct EquivalentsFamilyArgs {
         requires = "pattern"
     )]
     offsets: Option<Vec<Share>>,
-    /// Show how A, c and det A follow from coplanar joints, step by step, and what forward kinematics of both platforms
-    /// says
+    /// Show the derivation of A, c and det A from coplanar joints step by step, and the check by forward kinematics
     #[arg(long, requires = "offsets")]
     explain: bool,
     /// Write the platform of the pattern as a design
@@ -80,7 +79,7 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
         sheet.line(format_args!("{} is made from an octahedral platform {said}\n", design.name));
     }
     sheet.add(sheet::answers::family(&answer, wanted.is_some()));
-    // what is asked of a design that is made from the platform holds as far as the design does
+    // a result for a design made from the platform holds as far as the design is equivalent to it
     let of_design = original.map.as_ref().map_or(Relation::Equivalent, |map| map.relation);
     let exit = match (of_design, built.as_ref().map(|map| map.relation)) {
         (_, Some(Relation::Singular | Relation::Unrelated)) => Exit::No,
@@ -98,8 +97,7 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
     Ok(Answer::new(exit, answer, sheet))
 }
 
-/// The octahedral platform that a design is or is made of; a design that is proved to be equivalent to none is the
-/// answer no.
+/// The octahedral platform that a design is or is made from; for a design proved to have none the answer is no.
 fn original(design: &Design) -> Result<Original, Failure> {
     let no = |code, message: String| Failure::new(Exit::No, code, message);
     let original = match Original::behind(design) {
@@ -139,7 +137,7 @@ fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
     })
 }
 
-/// Builds the platform and writes it where asked, unless it is singular.
+/// Builds the platform and writes it if requested, unless it is singular.
 fn realise(
     args: &EquivalentsFamilyArgs,
     pattern: &Pattern,
@@ -159,7 +157,7 @@ fn realise(
     Ok((record, built, found))
 }
 
-/// The steps to the platform, and what forward kinematics says of it and of the octahedral one.
+/// The steps to the platform, and the forward kinematics of both platforms.
 fn explain(
     pattern: &Pattern,
     original: &Original,

@@ -16,11 +16,11 @@ use synthesis::{LegCorrespondence, LegMapOutcome, Relation};
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EquivalentsMapArgs {
-    /// Design file (.toml or .json) whose squared lengths are given
+    /// Design file (.toml or .json) FROM with the given lengths
     from: PathBuf,
-    /// Design file whose squared lengths are wanted, in the same units and, without --align, in the same two frames
+    /// Design file TO with the unknown lengths, in the same units and, without --align, in the same two frames
     to: PathBuf,
-    /// Six leg lengths of FROM, for which those of TO at the same poses are wanted
+    /// Six leg lengths of FROM, design units; prints the lengths of TO at the same poses
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
     Ok(Answer::new(exit, record, sheet))
 }
 
-/// The lengths that the legs of the second design show where those of the first show these.
+/// The shown lengths of the second design for these shown lengths of the first.
 fn mapped(text: &str, designs: [&Design; 2], map: &LegMapOutcome) -> Result<MappedLengthsRecord, Failure> {
     let [shown, offsets] = designs.map(|d| d.leg_offsets());
     let given = six(text, &shown)

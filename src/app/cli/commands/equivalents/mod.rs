@@ -1,4 +1,4 @@
-//! `equipod equivalents`: the platforms equivalent to a design, and what makes them so.
+//! `equipod equivalents`: the platforms equivalent to a design, with proofs.
 
 pub(in crate::app::cli::commands) mod components;
 mod family;
@@ -20,11 +20,11 @@ pub(crate) enum EquivalentsCommand {
     Family(family::EquivalentsFamilyArgs),
     /// List the families of legs that can be moved without changing the platform
     Components(components::EquivalentsComponentsArgs),
-    /// List the ways to share joints that can hold a platform, or name that of a design
+    /// List the 34 topologies, the ways to share joints that can hold a platform, or name the topology of a design
     Topologies(topologies::EquivalentsTopologiesArgs),
     /// Move legs along their families, or search for an equivalent platform with given properties
     Move(r#move::EquivalentsMoveArgs),
-    /// Find the octahedral platform nearest to a design, with the error it would make
+    /// Find the octahedral platform nearest to a design, and the error of using it
     Nearest(nearest::EquivalentsNearestArgs),
     /// Compute the affine map between the squared leg lengths of two designs
     Map(map::EquivalentsMapArgs),

@@ -17,18 +17,18 @@ use records::NearestAnswer;
 pub(crate) struct EquivalentsNearestArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// How far a joint may lie outside its side, on its extension, in lengths of the side
+    /// Greatest distance of a joint from its side along the extension, in lengths of the side
     #[arg(long, value_name = "X", default_value_t = NEAREST_EXTENSION)]
     extension: f64,
     /// Write the octahedral platform as a design
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Write the platform equivalent to it whose legs are next to those of the design
+    /// Write the platform equivalent to it with legs near those of the design
     #[arg(long, value_name = "FILE")]
     beside: Option<OutputPath>,
 }
 
-/// Finds it, and writes the designs asked for.
+/// Finds the platform, and writes the requested designs.
 pub(crate) fn run(args: &EquivalentsNearestArgs, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &EquivalentsNearestArgs, context: &mut Context) -> Resul
             }
         }
     }
-    // that no way was found is no proof that there is none
+    // a search without success proves nothing
     let exit = if answer.nearest.is_some() { Exit::Yes } else { Exit::Inconclusive };
     let sheet = sheet::answers::nearest(&design.units, &answer);
     Ok(Answer::new(exit, answer, sheet))

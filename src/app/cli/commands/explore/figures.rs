@@ -1,4 +1,4 @@
-//! What the pictures show.
+//! The pictures of `explore`.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use fk::Reality;
 use platform::manipulator::Octahedral;
 use synthesis::edge_lengths;
 
-/// Edges or offsets that agree this well are equal for a picture.
+/// Edges or offsets with a smaller relative difference count as equal in a picture.
 const SAME: f64 = 1e-9;
 /// Mirror images agree within this share of the size.
 const MIRROR: f64 = 1e-6;
@@ -19,13 +19,13 @@ fn short(x: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The common length of three edges, when they are equal.
+/// The common length of three edges, if they are equal.
 fn common(edges: [f64; 3]) -> Option<f64> {
     let longest = edges.into_iter().fold(0.0, f64::max);
     edges.iter().all(|d| longest - d <= SAME * longest).then_some(longest)
 }
 
-/// `det A` over the offsets, in the design's unit where all edges of a body are equal, else in fractions.
+/// `det A` over the offsets, in the design's unit if all edges of a body are equal, otherwise in fractions.
 ///
 /// `None` for a platform with other triangles, or with other variables than offsets.
 pub(super) fn determinant(
@@ -64,7 +64,7 @@ pub(super) fn determinant(
     }))
 }
 
-/// The chosen offsets, a base and a platform offset at a time; equal pairs are one mark.
+/// The chosen offsets, a base and a platform offset at a time; equal pairs share one mark.
 fn points(octahedral: &Octahedral, search: &OptimizeReport) -> (Vec<PlanePoint>, String) {
     let Some((t, det)) = search.offsets() else {
         return (Vec::new(), "no offsets were found that keep the limits".to_owned());

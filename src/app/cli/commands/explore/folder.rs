@@ -1,5 +1,5 @@
-//! The folder `explore` fills: each file appears whole or not at all, all of them at the end of the run, and none in
-//! the place of a file of the user.
+//! The folder of `explore`. Each file appears whole or not at all, and all appear at the end of the run. Files of the
+//! user are never replaced.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ const ALL: [&str; 22] = [
     PAGE,
 ];
 
-/// What stands first in a report of the folder.
+/// The files that come first in a report of the folder.
 pub(in crate::app::cli::commands) const FIRST: [&str; 19] = [
     ORIGINAL,
     ROUNDED,
@@ -90,7 +90,7 @@ pub(in crate::app::cli::commands) const FIRST: [&str; 19] = [
     MODES,
 ];
 
-/// The list of files that `explore` wrote, by which it knows them again.
+/// The list of files written by `explore`, for recognising them later.
 const MANIFEST: &str = ".explore.json";
 
 /// A file of an earlier run: its name in the folder and the hash of its bytes.
@@ -106,7 +106,7 @@ struct Manifest {
     files: Vec<KnownFile>,
 }
 
-/// A folder of results: they are kept here until the run has ended, and then replace those of an earlier run.
+/// A folder of results. They are kept in memory until the run has ended, and then replace those of an earlier run.
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
@@ -116,8 +116,8 @@ pub(super) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder, and refuses one in which results would stand in the place of files of the user: such as
-    /// `explore` didn't write, or as were changed since. Nothing else in the folder is looked at or touched.
+    /// Makes the folder, and refuses one in which a result would replace a file of the user. Such a file was not
+    /// written by `explore`, or was changed since. Other files in the folder are not read or changed.
     ///
     /// # Errors
     /// Exit 2: the folder cannot be made or written, `explore::not_ours`, or an input of the run is one of the files to
@@ -131,12 +131,12 @@ impl Folder {
         let mut names: Vec<String> = own.map(str::to_owned).collect();
         files_below(path, MACHINE, &mut names);
         names.iter().try_for_each(|name| folder.refuse_foreign(name))?;
-        // now, and not after minutes, it shows whether the folder can be written
+        // the folder must be writable now, not after minutes of computing
         folder.write_manifest(folder.earlier.clone())?;
         Ok(folder)
     }
 
-    /// The list that an earlier run left; a file of this name that is none is one of the user.
+    /// The list left by an earlier run; another file of this name belongs to the user.
     fn manifest_in(path: &Path) -> Result<Manifest, Failure> {
         let path = path.join(MANIFEST);
         let Ok(found) = path.symlink_metadata() else { return Ok(Manifest::default()) };
@@ -148,7 +148,7 @@ impl Folder {
         })
     }
 
-    /// Refuses a file that is there and is not as an earlier run wrote it.
+    /// Refuses an existing file that differs from what an earlier run wrote.
     fn refuse_foreign(&self, name: &str) -> Result<(), Failure> {
         let path = self.path.join(name);
         files::check_input(&path)?;
@@ -177,7 +177,7 @@ impl Folder {
             .map_err(|e| files::not_written(&path.display().to_string(), &e))
     }
 
-    /// Keeps a result, and gives the path that it will have.
+    /// Keeps a result, and returns its future path.
     pub(super) fn keep(&mut self, name: &str, text: String) -> String {
         self.results.push((name.to_owned(), text));
         self.path.join(name).display().to_string()
@@ -190,11 +190,11 @@ impl Folder {
         }
     }
 
-    /// Puts the results in the place of those of the earlier run. Each file is whole at any time, and the manifest
-    /// knows the old ones and the new ones until all are there.
+    /// Replaces the results of the earlier run. Each file is whole at any time, and the manifest lists old and new
+    /// files until all are written.
     ///
     /// # Errors
-    /// As [`files::write_into`]; `explore::not_ours` for a file that has come since the run began.
+    /// The errors of [`files::write_into`]; `explore::not_ours` for a file that appeared during the run.
     pub(super) fn finish(&self) -> Result<(), Failure> {
         let named = |(name, text): &(String, String)| KnownFile {
             name: name.clone(),
@@ -216,7 +216,7 @@ impl Folder {
                 _ => {}
             }
         }
-        // what runs that were killed have left
+        // leftovers of killed runs
         let parts = std::fs::read_dir(&self.path).into_iter().flatten().flatten();
         for part in parts.filter(|entry| part_of(&entry.file_name()).is_some_and(|of| ALL.contains(&of))) {
             let _ = std::fs::remove_file(part.path()); // it is in nobody's way
@@ -224,7 +224,7 @@ impl Folder {
         self.write_manifest(new)
     }
 
-    /// The results for the page: other files in the folder are none of its business.
+    /// The results for the page, without other files of the folder.
     pub(super) fn results(&self) -> Vec<ReportFile> {
         let picture = |name: &str| {
             Path::new(name).extension().is_some_and(|end| end == "svg") || name.ends_with("/parts.csv")
@@ -246,7 +246,7 @@ impl Folder {
     }
 }
 
-/// Adds what is below a folder, as names from `root`; links are names, and are not followed.
+/// Adds the files below a folder, as names from `root`; links are listed and not followed.
 fn files_below(root: &Path, folder: &str, names: &mut Vec<String>) {
     for entry in std::fs::read_dir(root.join(folder)).into_iter().flatten().flatten() {
         let Ok(name) = entry.file_name().into_string() else { continue };

@@ -1,4 +1,4 @@
-//! `equipod explore` for designs that are not octahedral: replaceable legs, an equivalent platform by moves of legs,
+//! `equipod explore` for designs that are not octahedral: replaceable legs, an equivalent platform made by moving legs,
 //! the nearest octahedral platform.
 
 use std::fmt::Write as _;
@@ -111,7 +111,7 @@ fn replaceable(run: &mut ExploreRun<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Equivalent platforms without shared joints; `None` where there was nothing to search.
+/// Equivalent platforms without shared joints; `None` if there was nothing to search.
 fn moves(run: &mut ExploreRun<'_>) -> Result<Option<MoveSearchAnswer>, Failure> {
     let Some(moves) = &run.found.moves else {
         let why = if run.found.is_singular() {

@@ -1,5 +1,5 @@
-//! `equipod explore`: everything about a design in one folder. This file is about octahedral designs, [`general`] about
-//! the others.
+//! `equipod explore`: all results about a design in one folder. This file handles octahedral designs, [`general`] the
+//! others.
 
 mod figures;
 pub(super) mod folder;
@@ -50,25 +50,24 @@ use verify::VerdictWord;
 pub(crate) struct ExploreArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Folder for the results; it is made where it does not exist, the results of an earlier run are replaced, and a
-    /// file of yours that a result would replace is refused
+    /// Folder for the results, made if missing. Results of an earlier run are replaced; a file of your
+    /// own in their place is refused
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Number of sets of leg lengths at which two designs are solved and compared: an octahedral design with the
-    /// optimised one, another with the equivalent found, or its nearest octahedral platform with that one's equivalent
+    /// Number of length sets for comparing two designs. An octahedral design is compared with the optimised one,
+    /// another design with its equivalent, or its nearest octahedral platform with that one's equivalent
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
-    /// How far a joint may stand beyond a corner, on the extension of its side, in lengths of the side; default: 0.3,
-    /// and 1 for the nearest octahedral platform of a design that is not octahedral
+    /// Greatest distance of a joint beyond a corner, along the extension of its side, in lengths of the side. Default:
+    /// 0.3; for another design's nearest octahedral platform 1
     #[arg(long, value_name = "X")]
     extension: Option<f64>,
-    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could
-    /// win, as `optimize --drives` does, in place of that of the design (`drives` in `[hardware]`). Of octahedral
-    /// designs
+    /// Table of drives (.csv) as for `equipod build drives`; default: the table of the design (`drives` in
+    /// `[hardware]`). Searches with each drive that could win, as `optimize --drives`. Only for octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// End the search after so many seconds, the judging of what it found included: the folder has the best platform
-    /// until then. Of octahedral designs
+    /// Time limit of search and assessment, seconds; the folder gets the best platform until then. Only for octahedral
+    /// designs
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }
@@ -80,9 +79,9 @@ struct Results {
     found: ExploredClass,
     /// The answer of `optimize`.
     answer: OptimizeAnswer,
-    /// What `assess` says of the platform found, on its holes where the design states them.
+    /// The result of `assess` for the platform found, on its holes if the design states them.
     assessment: Option<AssessAnswer>,
-    /// Parts and files for other programs, where the design states holes.
+    /// Parts and files for other programs, if the design states holes.
     machine: Option<MachineFiles>,
     /// The answer of `verify`.
     verified: Option<VerifyAnswer>,
@@ -92,7 +91,7 @@ struct Results {
 }
 
 impl Results {
-    /// What separate joints cost in the platform to build.
+    /// The cost of separate joints in the platform to build.
     fn price(&self) -> Option<PriceRecord> {
         let found = self.design.separation(self.found.built()?, self.options.seed);
         Some(PriceRecord::new(&found, &self.design.units))
@@ -105,7 +104,7 @@ impl Results {
         }
     }
 
-    /// The freedoms with which the requirements were met, as the end of a sentence; empty where there are none.
+    /// The freedoms with which the requirements were met, as the end of a sentence; empty if there are none.
     fn what_resolves_it(&self) -> String {
         let opened = self.answer.freedoms.iter().flatten();
         let resolved =
@@ -113,7 +112,7 @@ impl Results {
         resolved.collect()
     }
 
-    /// One sentence with what decided.
+    /// The explanation: one sentence with the deciding facts.
     fn explanation(&self) -> String {
         let judged = |design: &Design| {
             self.assessment.as_ref().map_or_else(
@@ -163,7 +162,7 @@ impl Results {
 #[derive(Debug)]
 struct MachineFiles {
     parts: Vec<PartLine>,
-    /// Formats that cannot hold it, and why.
+    /// Formats that cannot hold the machine, with the reason.
     refused: Vec<(&'static str, String)>,
 }
 
@@ -194,7 +193,7 @@ fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAn
     report.record()
 }
 
-/// What the verdict means for the exit code.
+/// The exit code of the verdict.
 fn exit_of(verdict: ExploreVerdict) -> Exit {
     match verdict {
         ExploreVerdict::OnHoles | ExploreVerdict::NewKinematics => Exit::Yes,
@@ -207,7 +206,7 @@ fn exit_of(verdict: ExploreVerdict) -> Exit {
     }
 }
 
-/// Why a design could not be explored.
+/// The failure for a design that could not be explored.
 fn failed(why: NoExploration) -> Failure {
     match why {
         NoExploration::Search(why) => optimize::failed(why),
@@ -225,7 +224,7 @@ fn no_poses(why: &NoOwnPoses) -> Failure {
     }
 }
 
-/// Goes through all stages and writes their files.
+/// Runs all stages and writes their files.
 pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, Failure> {
     args.extension.map_or(Ok(()), optimize::check_extension)?;
     let design = context.load(&args.design)?;
@@ -270,7 +269,7 @@ fn explored(
     let copy = with_table_beside(&design, args, &mut folder, context.seed())?;
     folder.keep(folder::ORIGINAL, copy.to_toml());
     let mut progress = ProgressLine::new(context.quiet());
-    // only the search of an octahedral design can be ended
+    // only the search for an octahedral design can be interrupted
     let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
     let interrupt = octahedral.then(|| Interrupt::watch_for(args.time_limit));
     let options = ExploreOptions::new()
@@ -377,9 +376,9 @@ fn platforms_of_freedoms(found: &ExploredClass, folder: &mut Folder) -> Optimize
     files
 }
 
-/// The lines below the verdict: the price of separate joints, what the platform rides on, and the reserve.
+/// The lines below the verdict: the cost of separate joints, the active bounds of the platform, and the safety margin.
 fn headline(a: &ExploreOctahedralAnswer) -> Vec<String> {
-    // of joints on holes the price is known, and not what the platform before the rounding rode on
+    // on holes the cost is known, but active bounds are known only before rounding
     let riding = a.optimize.as_ref().filter(|_| a.holes.is_none()).and_then(|o| o.riding.as_ref());
     let found = a.price.is_some();
     let lines = [
@@ -390,7 +389,7 @@ fn headline(a: &ExploreOctahedralAnswer) -> Vec<String> {
     lines.into_iter().flatten().collect()
 }
 
-/// What the answer says besides its verdict: symmetry, drives, freedoms.
+/// Further notes of the answer: symmetry, drives, freedoms.
 fn notes(a: &ExploreOctahedralAnswer) -> String {
     let mut out = String::new();
     if let Some(s) = &a.symmetry {
@@ -405,7 +404,7 @@ fn notes(a: &ExploreOctahedralAnswer) -> String {
     out
 }
 
-/// The design as it was read, with the table of drives that it names beside it in the folder.
+/// The design as read, with its table of drives beside it in the folder.
 fn with_table_beside(
     design: &Design,
     args: &ExploreArgs,
@@ -421,7 +420,7 @@ fn with_table_beside(
     Ok(copy)
 }
 
-/// The design as it was read, with a word on where the copy comes from.
+/// The design as read, with a note on the origin of the copy.
 fn original(design: &Design, seed: u64) -> Design {
     let mut copy = design.clone();
     let note = format!("Input of equipod {} explore (seed {seed})", env!("CARGO_PKG_VERSION"));
@@ -443,13 +442,13 @@ fn verification(
     Ok(answer)
 }
 
-/// The real poses of a design at its own lengths, or at those of its home pose.
+/// The real poses of a design at its own lengths, or at the lengths of its home pose.
 pub(super) fn modes_picture(design: &Design, options: &FkOptions) -> Result<String, Failure> {
     let poses = design.own_poses(options).map_err(|why| no_poses(&why))?;
     Ok(figures::modes(design, &poses))
 }
 
-/// What `--json` writes to standard output; no file is written yet.
+/// The record that `--json` writes to standard output; no file is written yet.
 fn record(r: &Results) -> ExploreOctahedralAnswer {
     let (c, found) = (r.found.family.counts(), &r.found);
     ExploreOctahedralAnswer {

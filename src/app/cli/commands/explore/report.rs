@@ -73,7 +73,7 @@ fn class(out: &mut String, r: &Results) {
     );
 }
 
-/// The table of `assess`, which says what the platform is worth.
+/// The table of `assess` for the platform.
 fn requirements(out: &mut String, found: &AssessAnswer) {
     let table = answers::requirements_without_assumptions(found).markdown();
     let _ = writeln!(out, "## Requirements\n\n{table}\n{}.\n", plain(&found.regular_explanation));
@@ -100,7 +100,7 @@ fn parts(out: &mut String, machine: &MachineFiles) {
     out.push('\n');
 }
 
-/// Where the joints went.
+/// The holes of the joints.
 fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
     let [base, platform] = on.choices.grids.map(|grid| grid_in_words(grid.as_ref()));
     let _ = writeln!(
@@ -144,7 +144,7 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
     );
 }
 
-/// The first letter large, as a sentence of its own.
+/// The text with a capital first letter, as a sentence.
 fn sentence(text: &str) -> String {
     let mut rest = text.chars();
     rest.next().map_or_else(String::new, |first| plain(&format!("{}{}", first.to_uppercase(), rest.as_str())))
@@ -167,7 +167,7 @@ fn verification(out: &mut String, r: &Results, v: &VerifyAnswer) {
     }
 }
 
-/// The steps to the platform without shared joints, where that is what was found.
+/// The steps to the platform without shared joints, if one was found.
 fn derivation(r: &Results, v: &VerifyAnswer) -> Option<DerivationRecord> {
     r.found.search.offsets()?;
     let original = Original::of(&r.design)?;
@@ -175,7 +175,7 @@ fn derivation(r: &Results, v: &VerifyAnswer) -> Option<DerivationRecord> {
     Some(DerivationRecord::new(&steps, &original, v.clone()))
 }
 
-/// What the search found.
+/// The result of the search.
 fn search(out: &mut String, r: &Results) {
     let found = answers::search(&r.design.name, &r.answer).markdown();
     let _ = writeln!(out, "## Search\n\n{found}\nDetails: [{0}]({0}).", folder::OPTIMIZE);

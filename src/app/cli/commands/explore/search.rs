@@ -1,4 +1,4 @@
-//! What `explore` refuses before its search, and the progress of the search.
+//! Refusals of `explore` before its search, and the progress of the search.
 
 use crate::app::cli::commands::optimize;
 use crate::app::cli::context::Context;
@@ -9,7 +9,7 @@ use ::optimize::offsets::OffsetProgress;
 use ask::optimizing::{EXTENSION, SearchKind, dimensional_problem};
 use ask::{Design, ExploreProgress, OptimizeProgress};
 
-/// A design whose answer is no single platform.
+/// Refuses a design whose answer is not a single platform.
 pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
     if matches!(SearchKind::of(design, true), SearchKind::Front(_)) {
         let message = "mode = \"pareto\" asks for many platforms, and the folder is about one";
@@ -20,7 +20,7 @@ pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Options that the search under requirements does not ask; `with_drives`: a table is given.
+/// Refuses options without effect on the search under requirements; `with_drives`: a table is given.
 pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Context) -> Result<(), Failure> {
     if SearchKind::of(design, with_drives || design.drive_table.is_some()) == SearchKind::Offsets {
         return Ok(());
@@ -34,7 +34,7 @@ pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Conte
     Ok(())
 }
 
-/// Shows the stage, and how far the search is.
+/// Shows the stage, and the progress of the search.
 pub(super) fn show(progress: &mut ProgressLine, p: &ExploreProgress) {
     match p {
         ExploreProgress::Stage(number, name) => progress.stage(*number, name),
@@ -57,7 +57,7 @@ fn stage(progress: &mut ProgressLine, p: &OptimizeProgress) {
         OptimizeProgress::Dimensions(p) | OptimizeProgress::Drive(_, p) | OptimizeProgress::Freedom(_, p) => {
             part(progress, p);
         }
-        // what is not counted has no line
+        // uncounted stages have no line
         _ => (),
     }
 }

@@ -1,7 +1,7 @@
 //! `equipod fk DESIGN --angles`: poses for given angles of cranks.
 //!
-//! With the cranks at these angles their tips are base joints and the rods legs of known lengths: what is solved and
-//! certified is the platform on the tips, rounded to doubles.
+//! At given angles the crank tips act as base joints, and the rods as legs of known lengths. The platform on the tips,
+//! rounded to doubles, is solved and certified.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ type AnglesDeg = [f64; 6];
 
 const BAD_ANGLES: &str = "fk::bad_angles";
 
-/// Angles of one line, or of a table.
+/// Angles from one argument, or from a table.
 fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg>, Failure> {
     let Some(text) = option else {
         return Err(Failure::refused(
@@ -62,7 +62,7 @@ pub(super) fn run(
     )?;
     let series = given(args.angles.as_deref(), context)?;
     let table = PoseTable { wanted: args.csv, all: args.all, time_name: series.time_name.clone() };
-    // a line of the command has no number, those of a table count from 1
+    // one line of the command has no number; lines of a table count from 1
     let one = series.rows.len() == 1 && series.rows[0].line == 0;
     let machine = CrankMachine { design, platform, home: poses::home(design), seed: context.seed() };
     let (exits, outcomes) = if let Some(start) = &args.near {
@@ -96,7 +96,7 @@ pub(super) fn run(
     Ok(answered(exit, answer, design, &table))
 }
 
-/// A machine with cranks, of which poses are asked for.
+/// A machine with cranks whose poses are requested.
 struct CrankMachine<'a> {
     design: &'a Design,
     platform: &'a RotaryPlatform,
@@ -123,8 +123,8 @@ impl CrankMachine<'_> {
         self.platform.at(angles).map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))
     }
 
-    /// Follows one pose from the angles that the cranks have there. A row that is not tracked leaves the next to start
-    /// from the last tracked pose.
+    /// Tracks one pose, starting from its crank angles. After a failed row, the next row starts from the last tracked
+    /// pose.
     fn follow(
         &self,
         rows: &[SeriesRow<AnglesDeg>],

@@ -1,25 +1,25 @@
-//! Poses as a table that other programs read without options: one pose a row, units in the names of the columns.
+//! Poses as a table that other programs read without options: one pose on each row, units in the names of the columns.
 
 use crate::app::cli::table::{column_unit, csv_line, number};
 use ask::Design;
 use records::{FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
 
-/// Cells of a pose between its number and the completeness.
+/// Number of cells of a pose between its number and the completeness.
 const BESIDE_COMPLETENESS: usize = 14;
 
-/// What `--csv` asks for.
+/// The options of `--csv`.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PoseTable {
-    /// Whether it was asked for.
+    /// Whether the table is requested.
     pub(super) wanted: bool,
-    /// Complex poses too.
+    /// Whether complex poses are included.
     pub(super) all: bool,
     /// The column of times of the lengths.
     pub(super) time_name: Option<String>,
 }
 
 impl PoseTable {
-    /// The table, where it was asked for.
+    /// The table, if requested.
     pub(super) fn text(&self, design: &Design, answer: &FkAnswer) -> Option<String> {
         if !self.wanted {
             return None;
@@ -64,8 +64,8 @@ impl PoseTable {
         names
     }
 
-    /// A row for each pose that is not known to be complex, the real ones from the nearest to home on; with `all` the
-    /// complex ones after them.
+    /// One row for each pose that may be real, from the nearest to home on; with `all` also the complex poses after
+    /// them.
     fn poses(&self, out: &mut String, before: &[String], one: &FkOneAnswer) {
         let far = |s: &SolutionRecord| s.real_pose.map_or(f64::INFINITY, |p| p.distance_from_home);
         let points = one.solved.solution_set.witness_points().iter().chain(&one.solved.solutions);
@@ -82,7 +82,7 @@ impl PoseTable {
         }
     }
 
-    /// The line of lengths without a pose: nothing but what is known of them.
+    /// The row of lengths without a pose: only their completeness.
     fn nothing(&self, out: &mut String, before: &[String], completeness: &str) {
         let blank = |n: usize| vec![String::new(); n];
         let mut cells = [before.to_vec(), blank(1 + BESIDE_COMPLETENESS), vec![completeness.into()]].concat();
@@ -90,7 +90,7 @@ impl PoseTable {
         out.push_str(&csv_line(&cells));
     }
 
-    /// The cells of a pose after its number; those that only real poses have are empty for the others.
+    /// The cells of a pose after its number; cells for real poses are empty for the others.
     fn pose(&self, solution: &SolutionRecord, completeness: &str) -> Vec<String> {
         let mut cells = Vec::new();
         if let Some(pose) = &solution.real_pose {

@@ -1,4 +1,4 @@
-//! `fk --near` where joints are not ideal: the pose for lengths of drives.
+//! `fk --near` for joints that are not ideal: the pose for drive lengths.
 
 use super::PoseTable;
 use super::lengths::{GivenLengths, ShownLengths};
@@ -13,7 +13,7 @@ use platform::geom::Pose;
 use platform::manipulator::LegLengths;
 use records::DriveSolutionRecord;
 
-/// Refuses what takes the lengths of drives for distances of joints.
+/// Refuses methods that would take drive lengths for distances of joints.
 pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
     if !design.hardware.is_coupled() {
         return Ok(());
@@ -24,7 +24,7 @@ pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
     Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help))
 }
 
-/// Follows one pose from `start`. A row without a pose leaves the next to start from the last one.
+/// Tracks one pose from `start`. After a row without a pose, the next starts from the last pose.
 pub(super) fn run(
     design: &Design,
     legs: CoupledLegs,
@@ -48,7 +48,7 @@ fn one(
     let drives = given.distances;
     let found = tracker.step(&drives.get());
     let distances = LegLengths::try_new(found.distances).unwrap_or(drives);
-    // certificates are about distances; what is proved of the lengths of drives stands in the record of the drives
+    // certificates concern distances; the proof for drive lengths is in the record of the drives
     let proof = match found.status {
         CoupledStatus::Proved(_) => Proof::Of(Some(Reality::Real)),
         CoupledStatus::Unproved => Proof::Of(Some(Reality::Undecided)),

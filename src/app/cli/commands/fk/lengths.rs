@@ -10,14 +10,14 @@ use ask::Design;
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use platform::manipulator::LegLengths;
 
-/// Lengths as the legs show them, and the distances of their joints: less the offsets of a calibration.
+/// Shown lengths, and distances of the joints: the shown lengths minus the offsets of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::app::cli::commands) struct ShownLengths {
     pub(in crate::app::cli::commands) shown: [f64; 6],
     pub(in crate::app::cli::commands) distances: LegLengths,
 }
 
-/// Lengths of one line of a table.
+/// Lengths from one line of a table.
 pub(in crate::app::cli::commands) type Row = SeriesRow<ShownLengths>;
 
 /// One problem or many.
@@ -27,7 +27,7 @@ pub(in crate::app::cli::commands) enum GivenLengths {
     Rows(TimeSeries<ShownLengths>),
 }
 
-/// `--lengths`, which the legs show, else the lengths of the design, which are distances of joints.
+/// The lengths of `--lengths` (shown lengths), or else the lengths of the design (distances of joints).
 pub(in crate::app::cli::commands) fn given(
     option: Option<&str>,
     design: &Design,
@@ -39,7 +39,7 @@ pub(in crate::app::cli::commands) fn given(
             Failure::refused("fk::no_lengths", "the design has no `lengths` and --lengths was not given")
                 .with_help("give --lengths l1,l2,l3,l4,l5,l6 or --lengths FILE.csv")
         })?;
-        // those of the file are distances of joints, for every command
+        // lengths in the file are distances of joints, for every command
         let shown = std::array::from_fn(|i| own.get()[i] + offsets[i]);
         return Ok(GivenLengths::One(ShownLengths { shown, distances: own }));
     };
@@ -70,7 +70,7 @@ pub(in crate::app::cli::commands) fn six(text: &str, offsets: &[f64; 6]) -> Resu
     ShownLengths::new(separated(text, "six")?, offsets)
 }
 
-/// So many comma-separated numbers; `word` is how many.
+/// Comma-separated numbers; `word` is their number in words.
 pub(in crate::app::cli::commands) fn separated<const N: usize>(
     text: &str,
     word: &str,
@@ -86,7 +86,7 @@ pub(in crate::app::cli::commands) fn separated<const N: usize>(
     Ok(values)
 }
 
-/// A table with six lengths a line.
+/// A table with six lengths on each line.
 fn rows(path: &Path, offsets: &[f64; 6], context: &Context) -> Result<TimeSeries<ShownLengths>, Failure> {
     let form = "six lengths a line: l1,l2,l3,l4,l5,l6";
     rows::read(SeriesKind::Lengths, TableName { path, code: "fk::bad_lengths", form }, context, |text| {
@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(given(None).unwrap(), GivenLengths::One(own));
         assert_eq!(given(Some("1,2,3")).unwrap_err().code, "fk::bad_lengths");
         assert_eq!(given(Some("no-such-file.csv")).unwrap_err().code, "file::not_readable");
-        // those of the file are distances, whatever the legs show
+        // lengths in the file are distances, independent of the offsets
         let table = "\n[calibration]\noffsets = [0.5, -0.5, 0.25, 0, 0, 2]\n";
         let text = format!("{}{table}", include_str!("../../../../../designs/rbt-octahedral.toml"));
         let mut shown: Design = text.parse().unwrap();

@@ -36,35 +36,34 @@ use self::lengths::GivenLengths;
 pub(crate) struct FkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them, or five lengths
-    /// for a design of five legs; those of the design when absent
+    /// Six lengths, design units, or a table with six columns and optional times (`-` for standard input). A design of
+    /// five legs takes five. Default: the lengths of the design
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
-    /// Six angles of cranks in degrees, or a table with six columns (`-` for standard input), where the legs are rods
-    /// on cranks
+    /// Six crank angles, degrees, or a table with six columns (`-` for standard input), if the legs are rods on cranks
     #[arg(long, value_name = "A1,..,A6|FILE", allow_hyphen_values = true, conflicts_with = "lengths")]
     angles: Option<String>,
     /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
-    /// Show the closure polynomial in the squared distance of these two joints, one of the base and one of the platform
+    /// Show the closure polynomial in the squared distance of these two joints, one on each body
     #[arg(long, value_name = "JOINT,JOINT", conflicts_with_all = ["near", "csv", "angles"])]
     between: Option<String>,
-    /// Show the polynomial in the Cayley parameter c3 = z / w of the rotation's quaternion (w, x, y, z), with a root for
-    /// each pose: of degree 40 for a general platform
+    /// Show the polynomial in the Cayley parameter c3 = z / w of the rotation's quaternion (w, x, y, z). It has one
+    /// root for each pose, 40 for a general platform
     #[arg(long, conflicts_with_all = ["near", "csv", "angles"])]
     polynomial: bool,
-    /// Worker threads for the rows of a CSV file, one for each processor when absent; the answer does not depend on it
+    /// Worker threads for the rows of a CSV file; default: one for each processor. The answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Follow one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or
+    /// Track one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or
     /// `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
-    /// Write a CSV table with one real pose a row, the one nearest to home first
+    /// Write a CSV table with one real pose on each row, the nearest to home first
     #[arg(long, conflicts_with = "json")]
     csv: bool,
-    /// With --csv, write the complex poses as well
+    /// Add the complex poses to --csv
     #[arg(long, requires = "csv")]
     all: bool,
 }
@@ -81,7 +80,7 @@ pub(super) enum MethodArg {
 }
 
 impl MethodArg {
-    /// The method of the library, `None` for its own choice.
+    /// The method of the library; `None`: automatic choice.
     pub(super) fn method(self) -> Option<Method> {
         match self {
             Self::Auto => None,
@@ -94,7 +93,7 @@ impl MethodArg {
     }
 }
 
-/// Solves one problem or one for each row.
+/// Solves one problem, or one for each row.
 pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let method = args.method.method();
     let design = match context.load_six_or_five(&args.design, parse_with_cranks)? {
@@ -181,7 +180,7 @@ pub(super) fn pair(text: &str, design: &Design, code: &'static str) -> Result<(u
     })
 }
 
-/// The answer with its table, or with its sheet where no table was asked for.
+/// The answer with its table if requested, or else with its sheet.
 fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) -> Answer {
     let sheet = || sheet::answers::fk(&design.name, &design.units, &answer).to_string();
     let text = table.text(design, &answer).unwrap_or_else(sheet);
@@ -192,7 +191,7 @@ fn threads(asked: Option<u16>) -> Threads {
     asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
 
-/// Every row for itself: one that cannot be solved carries an `"error"` and does not stop the others.
+/// Solves every row independently: a failed row carries an `"error"` and does not stop the others.
 fn many(
     method: Option<Method>,
     (m, home): (&Manipulator, &Pose),
@@ -203,7 +202,7 @@ fn many(
     let squares: Vec<_> = rows.iter().map(|row| row.value.distances.squared()).collect();
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
-    // forty poses with all their numbers take as long to put into records as to find
+    // writing forty poses with all their numbers takes as long as finding them
     let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, home)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
     let rows = solved.into_iter().map(|(_, record)| record).collect();
@@ -253,7 +252,7 @@ pub(super) fn failure_of(error: &FkError) -> Failure {
     }
 }
 
-/// 0 when the answer is whole, 3 when poses may be missing.
+/// Exit code 0 if the answer is complete, 3 if poses may be missing.
 fn exit_of(solutions: &FkSolutions) -> Exit {
     if solutions.is_complete() { Exit::Yes } else { Exit::Inconclusive }
 }

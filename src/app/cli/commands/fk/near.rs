@@ -1,4 +1,4 @@
-//! `equipod fk --near POSE`: one pose followed, or a trajectory row by row.
+//! `equipod fk --near POSE`: tracks one pose, or a trajectory row by row.
 
 use super::lengths::{GivenLengths, ShownLengths};
 use super::{PoseTable, answered};
@@ -15,8 +15,8 @@ use records::{
     SolvedRecord,
 };
 
-/// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into
-/// lengths.
+/// The tracked machine: joints and legs, the pose from which distances are measured, and the length that converts
+/// angles to lengths.
 pub(super) struct TrackedMachine<'a> {
     pub(super) m: &'a Manipulator,
     pub(super) home: Pose,
@@ -33,13 +33,13 @@ impl<'a> TrackedMachine<'a> {
     }
 }
 
-/// What came of one set of lengths.
+/// The result for one set of lengths.
 pub(super) struct TrackedRow {
     pub(super) exit: Exit,
     pub(super) record: FkOneAnswer,
 }
 
-/// The answer about one set of lengths, or about each row of a table in turn.
+/// The answer for one set of lengths, or for each row of a table in turn.
 pub(super) fn followed(
     design: &Design,
     given: &GivenLengths,
@@ -71,7 +71,7 @@ pub(super) fn followed(
     }
 }
 
-/// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
+/// Tracks one pose. After a failed row, the next row starts from the last tracked pose.
 pub(super) fn run(
     design: &Design,
     given: &GivenLengths,
@@ -110,16 +110,16 @@ pub(super) fn record(
     record_with(machine, lengths, (start, outcome), Proof::Certificate, seed)
 }
 
-/// What is known of a pose that was tracked.
+/// The proof for a tracked pose.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Proof {
-    /// What a certificate for these lengths says.
+    /// A certificate for these lengths.
     Certificate,
-    /// No certificate; `None` where the pose is not one for the lengths asked for.
+    /// No certificate; `None` if the pose does not belong to the given lengths.
     Of(Option<Reality>),
 }
 
-/// The record of a pose followed from `start`.
+/// The record of a pose tracked from `start`.
 pub(super) fn record_with(
     machine: &TrackedMachine<'_>,
     lengths: &LegLengths,
@@ -140,7 +140,7 @@ pub(super) fn record_with(
         let pose = ComplexPose::from(*pose);
         let condition = 1.0 / outcome.evidence().frobenius_ratio;
         let certificate = proved(&pose);
-        // only the certificate knows whether the root near the pose is real
+        // only the certificate tells whether the root near the pose is real
         let reality = match certificate.map(|c| c.reality()) {
             None if let Proof::Of(Some(known)) = proof => known,
             Some(ProvedReality::Real) => Reality::Real,

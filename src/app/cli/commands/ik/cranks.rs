@@ -1,4 +1,4 @@
-//! The angles of cranks at given poses, where the legs are rods on cranks.
+//! Crank angles at given poses, for rods on cranks.
 
 use crate::app::cli::exit::Exit;
 use crate::app::cli::output::Answer;
@@ -9,7 +9,7 @@ use machine::rotary::RotaryPlatform;
 use platform::geom::Pose;
 use records::{IkAnswer, RotaryIkRecord, RotaryIkRowsAnswer};
 
-/// Exit 1 where a rod does not reach at one of the poses.
+/// Exit 1 if a rod does not reach at one of the poses.
 pub(super) fn run(
     (design, platform): (&Design, &RotaryPlatform),
     series: &TimeSeries<Pose>,
@@ -34,7 +34,7 @@ pub(super) fn run(
     Answer::new(if reached { Exit::Yes } else { Exit::No }, answer, text)
 }
 
-/// What `--details` adds: names of columns and values, empty where a rod does not reach.
+/// The additional columns of `--details`: names and values, empty if a rod does not reach.
 fn details(design: &Design, record: &RotaryIkRecord) -> Vec<(String, Option<f64>)> {
     let mut out = Vec::new();
     for i in 0..6 {
@@ -55,7 +55,8 @@ fn details(design: &Design, record: &RotaryIkRecord) -> Vec<(String, Option<f64>
     out
 }
 
-/// Kept angles, the angles on the other sides, and whether all rods reach, a pose a line in the order given.
+/// Table with one pose on each line, in the order given: kept angles, angles on the other sides, and whether all rods
+/// reach.
 fn table(design: &Design, time_name: Option<&str>, records: &[RotaryIkRecord], with_details: bool) -> String {
     let mut header: Vec<String> = time_name.map(str::to_string).into_iter().collect();
     for name in ["crank", "other"] {

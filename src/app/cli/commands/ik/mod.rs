@@ -22,23 +22,22 @@ use records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
 pub(crate) struct IkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// A table with a pose a line (`-` for standard input), and times where it has them
+    /// Table with a pose on each line, and optional times (`-` for standard input)
     #[arg(conflicts_with = "pose")]
     poses: Option<PathBuf>,
-    /// A pose, as often as there are poses: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; home
-    /// when absent
+    /// Pose: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; repeat for several; default: home
     #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
     pose: Vec<String>,
-    /// Columns for swing and angles of the joints (of cranks: transmissions and torques), the inverse condition number
-    /// and the margins besides; --json has them anyway
+    /// Add columns for joint angles (for cranks: transmissions and torques), inverse condition number and margins;
+    /// --json always has them
     #[arg(long)]
     details: bool,
 }
 
 const BAD_POSE: &str = "ik::bad_pose";
 
-/// Every pose has lengths: the distances of the joints with the offsets of a calibration, or the lengths of the drives
-/// beside the distances where joints are not ideal.
+/// Gives every pose its lengths: joint distances plus the offsets of a calibration. For joints that are not ideal,
+/// drive lengths beside the distances.
 pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
@@ -81,7 +80,7 @@ pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failur
     Ok(Answer::new(Exit::Yes, answer, text))
 }
 
-/// The poses of the options, home when there are none.
+/// The poses of the options; home if there are none.
 fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure> {
     let pose = |text: &String| poses::parse(text, design, "--pose", BAD_POSE);
     let mut all = texts.iter().map(pose).collect::<Result<Vec<_>, _>>()?;
@@ -105,7 +104,7 @@ fn distances(design: &Design, row: &SeriesRow<Pose>) -> Result<LegLengths, Failu
     })
 }
 
-/// What `--details` adds to the lengths: names of columns and values, the same for every pose.
+/// The additional columns of `--details`: names and values, the same columns for every pose.
 fn details(record: &IkRecord, units: &str) -> Vec<(String, f64)> {
     let mut out = Vec::new();
     let joints = &record.joints;
@@ -140,12 +139,12 @@ fn details(record: &IkRecord, units: &str) -> Vec<(String, f64)> {
     out
 }
 
-/// The lengths, a pose a line, in the order given.
+/// The lengths, one pose on each line, in the order given.
 fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_details: bool) -> String {
     let unit = column_unit(&design.units);
     let limited = design.hardware.leg_length.is_some();
     let mut header: Vec<String> = time_name.map(str::to_string).into_iter().collect();
-    // what a controller commands comes first, and is what `fk --near` reads of the table
+    // the controller's lengths come first; `fk --near` reads these columns
     if records.first().is_some_and(|r| r.drives.is_some()) {
         header.extend((1..=6).map(|leg| format!("drive_length_{leg}_{unit}")));
     }

@@ -23,26 +23,25 @@ use records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 pub(crate) struct MotionArgs {
     /// Design file (.toml or .json) with the tables home, payload and hardware
     design: PathBuf,
-    /// A table with a time in seconds and a pose a line (`-` for standard input)
+    /// Table with a time in seconds and a pose on each line (`-` for standard input)
     trajectory: Option<PathBuf>,
-    /// A sine about a pose, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude
-    /// and frequency
+    /// Sine about a pose: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency; repeat for
+    /// several
     #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
     sine: Vec<String>,
-    /// An acceleration from rest at a pose, design units or degrees per second squared, as often as there are some
+    /// Acceleration from rest at a pose, design units or degrees per second squared; repeat for several
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// Stiffness matrix and natural frequencies at the pose of --about
+    /// Add stiffness matrix and natural frequencies at the pose of --about
     #[arg(long)]
     stiffness: bool,
-    /// The pose of sines, accelerations and the stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or
-    /// `x,y,z,qw,qx,qy,qz`
+    /// Pose of sines, accelerations and stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     about: String,
-    /// A load of the design that acts all the time besides the weight, by its name
+    /// Name of a load of the design that acts all the time, in addition to the weight
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
-    /// The platform rests at the first pose of the trajectory and at the last
+    /// Let the platform rest at the first and last pose of the trajectory
     #[arg(long)]
     at_rest: bool,
     /// Number of steps between two poses of the trajectory
@@ -51,29 +50,29 @@ pub(crate) struct MotionArgs {
     /// Number of instants in the period of a sine
     #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
     samples: u32,
-    /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
+    /// Length unit of the design, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
-    /// Write all instants as a table
+    /// Write a table of all instants
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
 }
 
-/// The motions that a command asks for.
+/// The motions requested by a command.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::app::cli::commands) struct ChosenMotions<'a> {
     trajectory: Option<&'a Path>,
     sine: &'a [String],
     accelerate: &'a [String],
     at_rest: bool,
-    /// The pose that manoeuvres are about, as it is written.
+    /// The pose of the manoeuvres, as written.
     about: &'a str,
     steps: u32,
     samples: u32,
 }
 
 impl<'a> ChosenMotions<'a> {
-    /// These, about home and with the usual numbers of instants.
+    /// The given motions about home, with the usual numbers of instants.
     pub(in crate::app::cli::commands) fn new(
         trajectory: Option<&'a Path>,
         sine: &'a [String],
@@ -88,7 +87,7 @@ impl<'a> ChosenMotions<'a> {
         Self { at_rest: *at_rest, about, steps: *steps, samples: *samples, ..chosen }
     }
 
-    /// Whether there is none.
+    /// Whether no motion is requested.
     pub(in crate::app::cli::commands) fn is_empty(&self) -> bool {
         self.trajectory.is_none() && self.sine.is_empty() && self.accelerate.is_empty()
     }
@@ -121,14 +120,14 @@ impl<'a> ChosenMotions<'a> {
     }
 }
 
-/// Steps between two poses of a trajectory.
+/// Number of steps between two poses of a trajectory.
 const STEPS: u32 = 10;
-/// Instants in the period of a sine.
+/// Number of instants in the period of a sine.
 const SAMPLES: u32 = 360;
 
 const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
 
-/// Exit 1 where a limit is exceeded at an instant looked at, or forces are not determined.
+/// Exit 1 if a sampled instant violates a limit, or forces are not determined.
 pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
     refuse_without_effect(args, &design, context)?;
@@ -192,7 +191,7 @@ fn about(text: &str, design: &Design) -> Result<Pose, Failure> {
     poses::parse(text, design, "--about", "motion::bad_pose")
 }
 
-/// The stiffness at the pose asked for.
+/// The stiffness at the requested pose.
 fn stiffness(
     args: &MotionArgs,
     design: &Design,
@@ -245,7 +244,7 @@ fn trajectory(path: &Path, ends: PathEnds, home: &Pose, context: &Context) -> Re
     })
 }
 
-/// What forces are computed from; none without a payload.
+/// The masses for forces; none without a payload.
 fn masses(args: &MotionArgs, design: &Design) -> Result<Option<MotionMasses>, Failure> {
     if design.moving_payload().is_none() {
         return Ok(None);
@@ -255,7 +254,7 @@ fn masses(args: &MotionArgs, design: &Design) -> Result<Option<MotionMasses>, Fa
     Ok(design.motion_masses(metres, load))
 }
 
-/// Metres in a unit of the design, or in the one of `--unit`.
+/// The length of one unit of the design or of `--unit`, metres.
 pub(in crate::app::cli::commands) fn metres(label: Option<&str>, design: &Design) -> Result<f64, Failure> {
     let unit = match label {
         Some(label) => LengthUnit::of(label)

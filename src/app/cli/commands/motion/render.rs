@@ -37,7 +37,7 @@ pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String
         for at in &found.instants {
             let mut cells = vec![name.clone(), number(at.time)];
             cells.extend(poses::csv_fields(&at.state.pose).split(',').map(str::to_string));
-            // of a crank whose rod does not reach nothing is known
+            // nothing is known of a crank whose rod does not reach
             let cell = |x: f64| if x.is_nan() { String::new() } else { number(x) };
             cells.extend(at.legs.iter().map(|leg| cell(leg.length)));
             cells.extend(at.legs.iter().map(|leg| cell(leg.speed)));

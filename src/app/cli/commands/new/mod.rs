@@ -30,23 +30,23 @@ use self::prompts::PromptedHexapod;
 /// Arguments of `new`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct NewArgs {
-    /// Radius of the circle of the base joints
+    /// Radius of the circle of the base joints, design units
     #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     base_radius: Option<f64>,
-    /// Radius of the circle of the platform joints
+    /// Radius of the circle of the platform joints, design units
     #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     platform_radius: Option<f64>,
-    /// Angle between the two joints of a pair on the base, seen from the centre, in degrees; 0 for one joint of two
-    /// legs
+    /// Angle between the two joints of a pair on the base, seen from the centre, degrees; 0 for one joint of two legs
     #[arg(long, value_name = "DEG", value_parser = number, allow_negative_numbers = true)]
     base_spread: Option<f64>,
-    /// The same angle on the platform
+    /// Angle between the two joints of a pair on the platform, seen from the centre, degrees; 0 for one joint of two
+    /// legs
     #[arg(long, value_name = "DEG", value_parser = number, allow_negative_numbers = true)]
     platform_spread: Option<f64>,
-    /// Height of the platform frame above the base frame at home
+    /// Height of the platform frame above the base frame at home, design units
     #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     height: Option<f64>,
-    /// Three corners of the base and three of the platform, each as x,y/x,y/x,y or with z: an octahedral platform
+    /// Three corners of an octahedral platform's base and three of its platform, each as x,y/x,y/x,y or with z
     #[arg(
         long,
         num_args = 2,
@@ -55,43 +55,42 @@ pub(crate) struct NewArgs {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
     )]
     corners: Option<Vec<String>>,
-    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any
-    /// usual notation, the pins of `genhexkins`, a spreadsheet, or a model of `MuJoCo`, Gazebo (SDF) or ROS (URDF)
+    /// Table of the leg ends (`-` for standard input): six rows of two points or twelve rows of one, in any usual
+    /// notation. Also pins of `genhexkins`, a spreadsheet, or a model of `MuJoCo`, Gazebo (SDF) or ROS (URDF)
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
-    /// Write joints of --points as constructions where they are at one place, turned by a third of a turn, mirrored or
-    /// in a plane of the axes but for rounding
+    /// Write joints of --points as constructions if they coincide, are mirrored, rotated by 120 degrees, or lie in a
+    /// coordinate plane, up to rounding
     #[arg(long, requires = "points")]
     snap: bool,
-    /// The parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, and `middle`
-    /// and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`; --dialect says
-    /// whose
+    /// Parameters of a motion-simulator program named by --dialect (`-` for standard input). Lines `L1 = 900` to `L4`,
+    /// then `middle` and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "height", "corners", "points"]
     )]
     sheet: Option<PathBuf>,
-    /// Whose parameters --sheet has: `motion4sim` (and `FlyPT Mover`), where L4 is the long side of the base, or
-    /// `dr-sim-manager`, where L3 is
+    /// Program of the parameters in --sheet; the long side of the base is L4 in `motion4sim` (and `FlyPT Mover`), and
+    /// L3 in `dr-sim-manager`
     #[arg(long, value_name = "DIALECT", requires = "sheet")]
     dialect: Option<SheetDialect>,
-    /// Label of the length unit; that of the table, else mm, when absent
+    /// Label of the length unit; default: from the table, or mm
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
     /// Name of the design
     #[arg(long, value_name = "NAME", default_value = "hexapod")]
     name: String,
-    /// File to write, .toml or .json; standard output when absent
+    /// File to write, .toml or .json; default: standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }
 
-/// A design with the file that says how it is meant.
+/// A design with the file that shows how it is meant.
 struct Made {
     design: Design,
     toml: String,
@@ -100,7 +99,7 @@ struct Made {
 
 const UNIT: &str = "mm";
 
-/// Makes the design, tells its home and its lengths there, and writes it.
+/// Makes the design, shows its home and the lengths there, and writes it.
 pub(crate) fn run(args: &NewArgs, context: &Context) -> Result<Answer, Failure> {
     let units = args.units.as_deref();
     let (made, asked_output) = match (&args.points, &args.corners) {
@@ -122,7 +121,7 @@ fn nothing_given(args: &NewArgs) -> bool {
     sizes.iter().all(Option::is_none)
 }
 
-/// The ways to say what is wanted, for those who said nothing or too little.
+/// The ways to describe a design, for a command without enough arguments.
 const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height; or --corners BASE PLATFORM and --height; or --points FILE; or --sheet FILE and --dialect";
 
 /// Questions on a terminal.
@@ -184,10 +183,10 @@ fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str, context: &Context) 
     Ok(made)
 }
 
-/// Below this inverse condition number at home a new hexapod is said to be nearly singular.
+/// Below this inverse condition number at home, a new hexapod is reported as nearly singular.
 const NEARLY_SINGULAR: f64 = 0.05;
 
-/// The design that a text of this command says.
+/// The design read from a text that this command made.
 fn read_back(toml: String) -> Result<Made, Failure> {
     match parse_with_cranks(&toml, Format::Toml) {
         Ok((design, _)) => Ok(Made { design, toml, guesses: Vec::new() }),
@@ -308,7 +307,7 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
     let mut toml = toml;
     let mut singular = false;
     if let Some(platform) = Context::cranks_of(&design)? {
-        // rods have their length everywhere, and their lines begin at the tips of the cranks
+        // rods have the same length everywhere, and their lines begin at the crank tips
         lengths = platform.legs().map(|leg| leg.rod);
     } else {
         design.lengths = home.lengths(design.manipulator());

@@ -5,7 +5,7 @@ use std::io::{BufRead, Write};
 use crate::app::cli::files::OutputPath;
 use ::files::design::HexapodSizes;
 
-/// What was answered.
+/// The answers of the user.
 #[derive(Debug, PartialEq)]
 pub(super) struct PromptedHexapod {
     pub(super) sizes: HexapodSizes,
@@ -13,7 +13,7 @@ pub(super) struct PromptedHexapod {
     pub(super) output: OutputPath,
 }
 
-/// Asks for sizes until they can be those of a hexapod; `None`: the answers ended.
+/// Asks for sizes until they make a hexapod; `None`: the input ended.
 pub(super) fn ask(input: &mut impl BufRead, output: &mut impl Write) -> Option<PromptedHexapod> {
     let mut session = Questions { input, output };
     session.say("A hexapod with threefold symmetry; an empty answer takes the value in brackets.")?;
@@ -53,7 +53,7 @@ impl<I: BufRead, O: Write> Questions<'_, I, O> {
         write!(self.output, "{question} [{default}]: ").ok()?;
         self.output.flush().ok()?;
         let mut answer = String::new();
-        // at the end of the input nothing is read, not even the end of a line
+        // at the end of the input nothing is read, not even a line end
         let read = self.input.read_line(&mut answer).ok()?;
         let answer = answer.trim();
         match (read, answer) {

@@ -11,7 +11,7 @@ use optimize::dimensional::HistoryStep;
 /// A step with its trust radius.
 type Row = (SearchStep, f64);
 
-/// Writes the steps, where there is a run: `.svg` a picture, anything else CSV.
+/// Writes the steps of the run, if there is one: `.svg` a picture, anything else CSV.
 pub(super) fn write(path: &Path, found: &OptimizeReport) -> Result<(), Failure> {
     let Some((quantity, rows)) = steps(found) else { return Ok(()) };
     let is_picture = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));

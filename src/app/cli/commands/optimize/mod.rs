@@ -25,45 +25,44 @@ use sheet::Sheet;
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct OptimizeArgs {
-    /// Design (.toml or .json); its tables home, workspace, hardware and optimize set poses and limits. Of an
-    /// octahedral design the shared joints are spread along the sides, of others the legs are moved along their
-    /// families of replaceable legs, unless the design names other variables
+    /// Design (.toml or .json); its tables home, workspace, hardware and optimize give poses and limits. Octahedral:
+    /// shared joints are spread along the sides. Others: legs are moved in their families of replaceable legs, unless
+    /// the design names other variables
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// How far a joint may lie outside its edge, on its extension, in edge lengths
+    /// Greatest distance of a joint from its edge along the extension, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
-    /// Search every branch for its own best platform, which takes ten times as long
+    /// Search every branch for its own best platform; takes ten times as long
     #[arg(long)]
     survey: bool,
-    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer is
-    /// called optimal
+    /// Greatest relative gap between the answer and the proved upper bound over all offsets for the status optimal
     #[arg(long, value_name = "X", default_value_t = 1e-2)]
     gap: f64,
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
     history: Option<OutputPath>,
-    /// Write the answer and the other local optima that meet the requirements, which look different, into this folder:
-    /// `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
+    /// Write the answer and the other local optima into this folder, for `equipod compare`; without an answer, the
+    /// platforms found with other freedoms
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
-    /// Table of drives (.csv), as `equipod build drives` reads it, in place of that of the design (`drives` in
-    /// `[hardware]`): the search is made with each drive that could win, and the answer is the best platform with its
-    /// drive, the cheapest with which the requirements are met where every drive has a price
+    /// Table of drives (.csv) as for `equipod build drives`; default: the table of the design (`drives` in
+    /// `[hardware]`). Searches with each drive that could win; if every drive has a price, the cheapest that meets the
+    /// requirements wins
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// Worker threads, one for each processor when absent; the answer does not depend on it
+    /// Worker threads; default: one for each processor. The answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// End after so many seconds: the search is interrupted as by Ctrl-C, the last quarter of the time, at most 10 s,
-    /// is for the judging of the best until then, and the status is `interrupted`
+    /// Time limit, seconds: interrupts the search like Ctrl-C, with status `interrupted`. The last quarter, at most 10
+    /// s, is for assessing the best platform
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }
 
-/// Optimises, and writes the design when asked to.
+/// Optimises, and writes the design if requested.
 pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
@@ -95,9 +94,9 @@ pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, 
     Ok(Answer::new(exit_of(record.status), record, text))
 }
 
-/// Refuses what was typed and has no effect on the search that answers the design.
+/// Refuses options without effect on the search for this design.
 fn refuse_options(args: &OptimizeArgs, design: &Design, context: &Context) -> Result<(), Failure> {
-    // lengths of drives are requirements
+    // drive lengths are requirements
     let kind = SearchKind::of(design, args.drives.is_some() || design.drive_table.is_some());
     if kind == SearchKind::Offsets {
         context.no_effect(
@@ -126,13 +125,13 @@ fn refuse_options(args: &OptimizeArgs, design: &Design, context: &Context) -> Re
     Ok(())
 }
 
-/// Why a search could not be asked or its answer not be judged.
+/// The failure for an invalid search or an answer that could not be assessed.
 pub(super) fn failed(why: Error) -> Failure {
     let invalid =
         |why: &dyn std::fmt::Display| Failure::refused("optimize::invalid_problem", why.to_string());
     match why {
         Error::DimensionalProblem(why) => refusal(&why),
-        // a design that is not octahedral asks for more than offsets
+        // a design that is not octahedral requires more than offsets
         Error::NotOctahedral(why) => refusal(&InvalidProblem::NotOctahedral(why)),
         Error::OffsetProblem(why) => invalid(&why),
         Error::Verify(why) => failure_of(&why),
@@ -140,7 +139,7 @@ pub(super) fn failed(why: Error) -> Failure {
     }
 }
 
-/// A problem that cannot be asked, with what could be asked instead.
+/// The refusal of an invalid problem, with valid alternatives.
 fn refusal(why: &InvalidProblem) -> Failure {
     let failed = |code| Failure::refused(code, why.to_string());
     match why {
@@ -156,12 +155,12 @@ fn refusal(why: &InvalidProblem) -> Failure {
     }
 }
 
-/// How many threads work where so many were asked for.
+/// The number of worker threads.
 fn workers(asked: Option<u16>) -> Threads {
     asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
 
-/// Writes the files that were asked for.
+/// Writes the requested files.
 fn write(args: &OptimizeArgs, found: &OptimizeReport) -> Result<OptimizeFiles, Failure> {
     let mut written = OptimizeFiles::default();
     let keep = |path: &Path, design: &Design| -> Result<String, Failure> {
@@ -198,12 +197,12 @@ fn write(args: &OptimizeArgs, found: &OptimizeReport) -> Result<OptimizeFiles, F
     Ok(written)
 }
 
-/// The file of the platform that a freedom led to.
+/// The name of the file for the platform of a freedom.
 pub(super) fn opened_file(freedom: ConflictFreedom) -> String {
     format!("with-{}.toml", freedom.name())
 }
 
-/// `out.toml` as `out-1.toml`, `out-2.toml`, ...
+/// The path with a number: `out.toml` becomes `out-1.toml`, `out-2.toml`, ...
 fn numbered(path: &Path, k: usize) -> PathBuf {
     let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let name = match path.extension() {
@@ -213,7 +212,7 @@ fn numbered(path: &Path, k: usize) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Ends a search at once whose home pose is singular for every platform that it could find: exit 1.
+/// Refuses a search at a home pose that is singular for every platform it could find: exit 1.
 pub(super) fn refuse_singular_home(design: &Design, extension: f64, code: &str) -> Result<(), Failure> {
     let Some(home) = hopeless_home(design, extension) else { return Ok(()) };
     let message = format!("{home}, and no equivalent platform holds it");
@@ -222,7 +221,7 @@ pub(super) fn refuse_singular_home(design: &Design, extension: f64, code: &str) 
     ))
 }
 
-/// Refuses `--extension` in a search under requirements that does not ask it.
+/// Refuses `--extension` if the search under requirements does not use it.
 pub(super) fn refuse_extension(design: &Design, context: &Context) -> Result<(), Failure> {
     if design.search.offset_bounds.is_some() {
         context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
@@ -233,7 +232,7 @@ pub(super) fn refuse_extension(design: &Design, context: &Context) -> Result<(),
     Ok(())
 }
 
-/// Refuses a design that names a table of drives where none is chosen.
+/// Refuses a design that names a table of drives if none is chosen.
 pub(super) fn refuse_drives(design: &Design, why: &str) -> Result<(), Failure> {
     let Some(file) = &design.drive_table else { return Ok(()) };
     let message = format!("the design names a table of drives ({file}), and {why}");
@@ -241,7 +240,7 @@ pub(super) fn refuse_drives(design: &Design, why: &str) -> Result<(), Failure> {
     Err(Failure::refused("drives::not_chosen", message).with_help(help))
 }
 
-/// Refuses an `--extension` that is not a length.
+/// Refuses an `--extension` that is no length.
 pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
     if extension >= 0.0 && extension.is_finite() {
         return Ok(());
@@ -250,7 +249,7 @@ pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
     Err(Failure::refused("optimize::bad_extension", message))
 }
 
-/// What the status means for the exit code.
+/// The exit code of the status.
 pub(super) fn exit_of(status: OptimizeStatus) -> Exit {
     match status {
         OptimizeStatus::Optimal | OptimizeStatus::BestFound | OptimizeStatus::Front => Exit::Yes,

@@ -9,7 +9,7 @@ use files::plot::{SliceAxis, SliceFigure, singular_slice};
 use platform::manipulator::Octahedral;
 use synthesis::offset_determinant;
 
-/// Grid points a side.
+/// Number of grid points along each side.
 const SIDE: usize = 201;
 
 /// Arguments of `plot det`.
@@ -17,11 +17,11 @@ const SIDE: usize = 201;
 pub(super) struct PlotDeterminantArgs {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
-    /// Two offsets on the axes, 1 to 6 in the order of the legs around the octahedron, or `equal` for the three of the
-    /// base and the three of the platform
+    /// Two offsets for the axes, 1 to 6 in the order of the legs around the octahedron; `equal`: base offsets and
+    /// platform offsets
     #[arg(long, value_name = "I,J", default_value = "equal", value_parser = ChangedOffsets::parse)]
     slice: ChangedOffsets,
-    /// Six offsets of the marked design, in edges of the triangles; those that are not on the axes keep these values
+    /// Six offsets of the marked design, as fractions of the edges; offsets off the axes keep these values
     #[arg(long, value_name = "T1,..,T6", allow_hyphen_values = true, default_value = "0,0,0,0,0,0", value_parser = six)]
     offsets: Offsets,
     /// Least and greatest offset in the picture
@@ -33,10 +33,10 @@ pub(super) struct PlotDeterminantArgs {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Offsets([f64; 6]);
 
-/// Which offsets the axes change.
+/// The offsets on the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ChangedOffsets {
-    /// Those of the base to the right, those of the platform upwards.
+    /// All base offsets to the right, all platform offsets upwards.
     Equal,
     Two(usize, usize),
 }
@@ -60,7 +60,7 @@ impl ChangedOffsets {
         }
     }
 
-    /// Where the offsets lie, if they lie in the plane.
+    /// The place of the offsets in the plane of the picture, if they lie in it.
     fn place(self, t: &[f64; 6]) -> Option<(f64, f64)> {
         let same = |k: usize| (t[k] - t[k + 2]).abs() <= 1e-12 && (t[k] - t[k + 4]).abs() <= 1e-12;
         match self {

@@ -27,12 +27,12 @@ use records::{FigureWord, PictureRecord, PlotAnswer};
 pub(crate) struct PlotArgs {
     #[command(subcommand)]
     figure: Figure,
-    /// Write the picture to this file; it goes to standard output when absent
+    /// Write the picture to this file; default: standard output
     #[arg(short, long, value_name = "FILE", global = true)]
     output: Option<OutputPath>,
 }
 
-/// What is drawn.
+/// The kinds of pictures.
 #[derive(Debug, clap::Subcommand)]
 enum Figure {
     /// Draw all assembly modes at given leg lengths, mirror images side by side
@@ -41,42 +41,41 @@ enum Figure {
     Components {
         /// Design file (.toml or .json)
         design: PathBuf,
-        /// Draw only this pair of planes: its number in the answer of `equivalents components`, counted from 1
+        /// Draw only this pair of planes: its number in the answer of `equivalents components`, from 1
         #[arg(long, value_name = "K")]
         pair: Option<usize>,
-        /// What counts as zero, relative to the size of the body
+        /// Threshold for zero, relative to the size of the body
         #[arg(long, value_name = "X", default_value_t = 1e-9)]
         tolerance: f64,
     },
     /// Draw the sign of det A over two of the six offsets
     Det(determinant::PlotDeterminantArgs),
-    /// Draw how the squared length of a virtual leg moves at all poses while one leg length varies
+    /// Draw the squared length of a virtual leg at all poses while one leg length varies
     Locus(locus::PlotLocusArgs),
     /// Draw two designs at the same pose side by side, with their leg map
     Pair(pair::PlotPairArgs),
-    /// Draw a front that `optimize` found with `mode = "pareto"`
+    /// Draw a Pareto front of `optimize` with `mode = "pareto"`
     Pareto(front::PlotFrontArgs),
     /// Draw the longest self-motion, animated
     SelfMotion(motion::CurveQuestion),
-    /// Draw where det J vanishes over two freedoms of the platform
+    /// Draw the singular poses, det J = 0, over two freedoms of the platform
     SingularPoses {
         /// Design file (.toml or .json)
         design: PathBuf,
-        /// Pose in the middle of the picture
+        /// Pose in the centre of the picture
         #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
         pose: String,
         /// Two freedoms on the axes: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
         #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
         slice: Freedoms,
     },
-    /// Draw columns of the table of a sweep: colours or lines over two, the distribution of one, parallel axes, points,
-    /// a front
+    /// Draw columns of a sweep's table: colours or lines over two, a distribution, parallel axes, points, a front
     Sweep(swept::PlotSweptArgs),
-    /// Draw the ways to share joints: that of a design, or all of them
+    /// Draw the topology of a design, or all topologies
     Topologies {
-        /// Design file (.toml or .json): name its topology only
+        /// Design file (.toml or .json): name only its topology
         design: Option<PathBuf>,
-        /// Number of random members of each topology that are solved to count its poses
+        /// Number of random members of each topology, solved to count its poses
         #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
         members: u64,
     },
@@ -84,7 +83,7 @@ enum Figure {
     Workspace(workspace::PlotWorkspaceArgs),
 }
 
-/// What drawing gives: most figures are the picture alone, some come with their values.
+/// The result of drawing: the picture alone, or the picture with its values.
 enum Picture {
     Picture(FigureWord, String),
     Answer(Answer),
@@ -107,7 +106,7 @@ impl Figure {
             Self::SingularPoses { design, pose, slice } => {
                 let design = context.load(design)?;
                 let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
-                // the picture needs the shape of the box only
+                // the picture needs only the shape of the box
                 let options = design.box_options(0, seed);
                 let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);
                 (FigureWord::SingularPoses, singular_slice(&figure))
@@ -123,7 +122,7 @@ impl Figure {
     }
 }
 
-/// Draws, and writes the file or the picture itself.
+/// Draws, and writes the file or the picture to standard output.
 pub(crate) fn run(args: &PlotArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (figure, svg) = match args.figure.draw(args.output.as_deref(), context)? {
         Picture::Answer(answer) => return Ok(answer),

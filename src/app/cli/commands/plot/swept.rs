@@ -11,20 +11,19 @@ use files::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_hist
 /// Arguments of `plot sweep`.
 #[derive(Debug, clap::Args)]
 pub(super) struct PlotSweptArgs {
-    /// Folder of a sweep, or the file that `equipod sweep merge` wrote
+    /// Folder of a sweep, or the file written by `equipod sweep merge`
     table: PathBuf,
-    /// What is drawn: colours or lines over two columns, the distribution of one, parallel axes, points over two, the
-    /// front of two
+    /// Kind of picture: colours or lines over two columns, distribution of one, parallel axes, points over two, front
+    /// of two
     #[arg(long, value_enum, default_value_t = SweptKind::Scatter)]
     kind: SweptKind,
-    /// Columns with commas between: across, up and, as colour, a third; parallel axes take from two to eight
+    /// Columns with commas between: horizontal, vertical and optionally colour; two to eight for parallel axes
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', required = true)]
     columns: Vec<String>,
-    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are
-    /// conditions
+    /// Keep only rows with this condition, as in a plan: "conditioning > 0.1"; repeat for several
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
-    /// Which values are the better ones of the first and the second column, for the front
+    /// Better direction of the first and of the second column, for the front
     #[arg(long, value_enum, num_args = 2, value_delimiter = ',', value_name = "HIGH|LOW", default_values_t = [Better::High, Better::High])]
     better: Vec<Better>,
 }

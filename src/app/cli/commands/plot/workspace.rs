@@ -12,7 +12,7 @@ use files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLim
 use machine::requirements::{Limit, Limits, Region};
 use platform::geom::{Pose, turn_between};
 
-/// Rotations shown each way where neither option nor design says more, degrees.
+/// Default half width for rotations, degrees.
 const DEGREES: f64 = 90.0;
 
 /// Arguments of `plot workspace`.
@@ -20,15 +20,14 @@ const DEGREES: f64 = 90.0;
 pub(super) struct PlotWorkspaceArgs {
     /// Design file (.toml or .json) with its limits in the table hardware
     design: PathBuf,
-    /// Two freedoms on the axes: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable
-    /// orientations at a position; rotation vector in the base frame)
+    /// Two freedoms on the axes: x, y, z (reachable positions, fixed orientation), rx, ry, rz (reachable orientations,
+    /// fixed position; rotation vector, base frame)
     #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = Freedoms::parse)]
     slice: Freedoms,
-    /// Pose in the middle of the picture, which fixes the other four freedoms; the legs are mounted for the home pose
-    /// of the design
+    /// Pose in the centre of the picture, which fixes the other four freedoms; the legs are mounted for the home pose
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Half widths of the picture, design units or degrees; the size of the design and 90 degrees when absent
+    /// Half widths of the picture, design units or degrees; default: the size of the design, and 90 degrees
     #[arg(long, value_name = "A,B", value_parser = half_widths)]
     half_widths: Option<[f64; 2]>,
     /// Number of poses along each side of the picture
@@ -55,7 +54,7 @@ pub(super) fn draw(args: &PlotWorkspaceArgs, context: &mut Context) -> Result<St
     let required = design.requirements();
     let limits = Limits::new(m, &required, &poses::home(&design));
     let found: Vec<_> = grid.poses().map(|pose| limits.at(&pose)).collect();
-    // what ends the workspace somewhere in the picture, in the order of the kinds
+    // the limits that end the workspace in the picture, in the order of the kinds
     let missed = found.iter().filter(|p| p.share.is_nan() || p.share <= 0.0).filter_map(|p| p.limit);
     let mut names: Vec<LimitKind> = missed.map(LimitKind::of).collect();
     names.sort_unstable();
@@ -78,7 +77,7 @@ pub(super) fn draw(args: &PlotWorkspaceArgs, context: &mut Context) -> Result<St
     }))
 }
 
-/// A kind of limit, whichever leg it is about.
+/// A kind of limit, for any leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum LimitKind {
     Requirement(machine::requirements::TermKind),
@@ -108,9 +107,9 @@ impl LimitKind {
     }
 }
 
-/// Freedoms of a pose that differ by less, in shares of the half widths of the picture, are the same.
+/// Freedoms of two poses with a smaller difference count as equal, in shares of the picture's half widths.
 const SAME: f64 = 1e-6;
-/// Corners of the line that stands for an ellipse.
+/// Number of corners of the polygon for an ellipse.
 const ELLIPSE: usize = 96;
 
 /// Translation and rotation vector (radians) from home to a pose, base frame.
@@ -120,7 +119,7 @@ fn from_home(home: &Pose, pose: &Pose) -> [f64; 6] {
     [d.x, d.y, d.z, w.x, w.y, w.z]
 }
 
-/// What of the workspace of the design lies in the slice; `None` where it asks for none.
+/// The section of the design's required workspace with the slice; `None` if it requires none.
 fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection> {
     if design.workspace.is_empty() {
         return None;
@@ -136,7 +135,7 @@ fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection>
     let outline = match () {
         () if !design.workspace.has_box() => None,
         () if at_home => Some(SectionOutline::Through(section_at_home(space.region, &widths, grid))),
-        // a rotation vector and a rotation about another pose do not add: the section is the zero line of a function
+        // rotation vectors about different poses do not add, so the section is the zero line of a function
         () => Some(SectionOutline::Zero(
             grid.poses().map(|pose| inside(space.region, &widths, &from_home(&home, &pose))).collect(),
         )),
@@ -155,7 +154,7 @@ fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection>
     Some(RequiredSection { outline, poses })
 }
 
-/// The section of the region through home: a rectangle, or an ellipse where both freedoms belong to one ellipsoid.
+/// The section of the region through home: a rectangle, or an ellipse if both freedoms belong to one ellipsoid.
 fn section_at_home(region: Region, widths: &[f64; 6], grid: &PoseGrid) -> Vec<(f64, f64)> {
     let [across, up] = grid.freedoms.places();
     let shown = |k: usize| if k < 3 { widths[k] } else { widths[k].to_degrees() };
@@ -169,7 +168,7 @@ fn section_at_home(region: Region, widths: &[f64; 6], grid: &PoseGrid) -> Vec<(f
     corners.into_iter().map(|(s, t)| (centre.0 + a * s, centre.1 + b * t)).collect()
 }
 
-/// Positive inside the region; a freedom without a width is inside at home only.
+/// Positive inside the region; a freedom of width zero is inside only at home.
 fn inside(region: Region, widths: &[f64; 6], x: &[f64; 6]) -> f64 {
     let share = |k: usize| match widths[k] {
         w if w > 0.0 => (x[k] / w).abs(),
@@ -242,7 +241,7 @@ mod tests {
                 }
             }
         }
-        // a freedom without a width is not left
+        // no pose leaves a freedom of width zero
         assert!(inside(Region::Box, &widths, &[0.0, 0.0, 0.1, 0.0, 0.0, 0.0]) < 0.0);
     }
 }

@@ -14,12 +14,12 @@ use records::ManAnswer;
 /// Arguments of `shell man`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ShellManArgs {
-    /// Folder to write into; it is made where it does not exist
+    /// Folder for the pages; made if missing
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
 }
 
-/// File names and texts: `equipod.1` and one page a command, `equipod-plot-modes.1` for the figures of `plot`.
+/// File names and texts: `equipod.1` and one page for each command, `equipod-plot-modes.1` for the figures of `plot`.
 fn pages() -> std::io::Result<Vec<(String, String)>> {
     let mut program = guide::program().disable_help_subcommand(true);
     program.build();

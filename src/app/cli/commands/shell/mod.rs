@@ -1,4 +1,4 @@
-//! `equipod shell`: what a shell or a package of the program needs.
+//! `equipod shell`: completion scripts and manual pages, for shells and packagers.
 
 mod completions;
 mod man;

@@ -17,15 +17,15 @@ use synthesis::singularity::{PoseFamily, locus_polynomial};
 pub(crate) struct SingularLocusArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Pose with the orientation: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz` with a quaternion of
-    /// any norm; numbers may be expressions such as 1/3
+    /// Pose with the orientation: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`, with a quaternion
+    /// of any norm; numbers may be expressions such as 1/3
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Only the positions on the line through the pose in this direction, in the unknown u
+    /// Direction of a line: only the positions on this line through the pose, in the unknown u
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, conflicts_with = "about")]
     along: Option<String>,
-    /// Rotations about this axis through the platform origin instead of positions; u is the tangent of half the angle
-    /// over the length of the axis
+    /// Axis through the platform origin, for rotations about it instead of positions. The unknown u is the tangent of
+    /// half the angle divided by the axis length
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     about: Option<String>,
 }

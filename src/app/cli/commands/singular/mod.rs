@@ -17,7 +17,7 @@ pub(crate) enum SingularCommand {
     Poses(poses::SingularPosesArgs),
     /// Write det J as an exact polynomial in the position, along a line or over rotations about an axis
     Locus(locus::SingularLocusArgs),
-    /// Follow self-motions, which are curves of poses with constant leg lengths
+    /// Trace self-motions, which are curves of poses with constant leg lengths
     Motion(motion::SingularMotionArgs),
 }
 

@@ -16,9 +16,9 @@ use sweep::SweepCell;
 
 /// The page in the folder.
 const PAGE: &str = "report.html";
-/// Designs written, at most: the page compares all of them.
+/// Greatest number of designs written: the page compares all of them.
 const MOST: u64 = 50;
-/// Candidates looked at for each design that is asked for: several may be one design.
+/// Number of candidates tried for each requested design: several may be one design.
 const SPARE: usize = 20;
 
 /// Arguments of `sweep best`.
@@ -26,14 +26,13 @@ const SPARE: usize = 20;
 pub(crate) struct SweepBestArgs {
     /// Folder of the sweep
     folder: PathBuf,
-    /// Column of numbers by which candidates are ranked
+    /// Column of numbers for the ranking
     #[arg(long, value_name = "COLUMN")]
     by: String,
-    /// Which of its values are the better ones
+    /// Better direction of its values
     #[arg(long, value_enum, default_value_t = Better::High)]
     better: Better,
-    /// Leave out rows for which this does not hold, as in a plan: "conditioning > 0.1"; as often as there are
-    /// conditions
+    /// Keep only rows with this condition, as in a plan: "conditioning > 0.1"; repeat for several
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
     /// Number of candidates
@@ -57,7 +56,7 @@ pub(crate) fn run(args: &SweepBestArgs) -> Result<Answer, Failure> {
             Better::High => b.0.total_cmp(&a.0),
             Better::Low => a.0.total_cmp(&b.0),
         };
-        // of equal ones the first
+        // among equal values the first
         order.then(a.1.cmp(&b.1))
     };
     table.each_row(|row| {
@@ -67,7 +66,7 @@ pub(crate) fn run(args: &SweepBestArgs) -> Result<Answer, Failure> {
             return;
         }
         ranked.push((value, k.cast_unsigned()));
-        // what is kept does not grow with the table
+        // the memory does not grow with the table
         if ranked.len() >= 2 * SPARE * count {
             ranked.sort_by(better);
             ranked.truncate(SPARE * count);
@@ -88,12 +87,12 @@ pub(crate) fn run(args: &SweepBestArgs) -> Result<Answer, Failure> {
         let text = sweep.design_text(k).map_err(|why| {
             Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
         })?;
-        // candidates may differ in lengths and poses alone, which are not those of the design
+        // candidates may differ only in lengths and poses, which are not part of the design
         if texts.contains(&text) {
             continue;
         }
         let place = texts.len() + 1;
-        // the page has files in the order of their names
+        // the page has files in alphabetical order
         let path = args.output.join(format!("{place:02}-candidate-{k}.toml"));
         files::write_text(&path, &text)?;
         texts.push(text);

@@ -14,10 +14,10 @@ use records::{SweepDesignAnswer, SweepDesignFile};
 pub(crate) struct SweepDesignArgs {
     /// Folder of the sweep
     folder: PathBuf,
-    /// Number of the candidate, as in the column of that name
+    /// Number of the candidate, from the column `candidate`
     #[arg(long, value_name = "K")]
     candidate: u64,
-    /// Write the design, as TOML; it goes to standard output when absent
+    /// Write the design, as TOML; default: standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }

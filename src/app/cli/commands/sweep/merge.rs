@@ -21,12 +21,12 @@ pub(crate) struct SweepMergeArgs {
     /// Parquet file to write
     #[arg(short, long, value_name = "FILE")]
     output: OutputPath,
-    /// Take the parts that are done although others are missing
+    /// Merge the finished parts even if others are missing
     #[arg(long)]
     partial: bool,
 }
 
-/// Reads all parts, one group of rows after the other, and writes them in their order.
+/// Reads all parts, group of rows by group of rows, and writes them in order.
 pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     outside(&args.output)?;

@@ -17,20 +17,19 @@ use crate::app::cli::output::Answer;
 /// Commands about sweeps.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepCommand {
-    /// Compute the candidates of a plan, or one shard of them; what is done already stays. `equipod sweep PLAN` is the
-    /// same
+    /// Compute the candidates of a plan, or one shard of them; finished shards stay. Short form: `equipod sweep PLAN`
     Run(run::SweepRunArgs),
-    /// Say which shards are done, missing or damaged
+    /// List the finished, missing and damaged shards
     Status(status::SweepStatusArgs),
     /// Put the parts of a sweep into one Parquet file
     Merge(merge::SweepMergeArgs),
-    /// Check the digests of all parts, and compute a random sample again, bit for bit
+    /// Check the digests of all parts, and recompute a random sample bit for bit
     Verify(verify::SweepVerifyArgs),
     /// Write the best candidates as design files, with a page that compares them
     Best(best::SweepBestArgs),
     /// Write a candidate as a design file
     Design(design::SweepDesignArgs),
-    /// Write a script that hands the shards to a cluster with Slurm
+    /// Write a script that submits the shards to a Slurm cluster
     Script(script::SweepScriptArgs),
 }
 

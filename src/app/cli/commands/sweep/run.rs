@@ -26,24 +26,24 @@ use sweep::{Sweep, shard_range};
 /// Arguments of `sweep run`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SweepRunArgs {
-    /// Plan (.toml or .json): base design, what varies, what is computed, what is kept
+    /// Plan (.toml or .json): base design, variables, computed quantities, conditions
     plan: PathBuf,
-    /// Folder of the parts; a sweep of the same plan in it is continued
+    /// Folder of the parts; continues a sweep of the same plan in it
     #[arg(short, long, value_name = "DIR", required_unless_present = "estimate")]
     output: Option<OutputPath>,
-    /// Compute one shard only: number I of N, counted from 0 (N/N is the same as 0/N)
+    /// Compute only shard I of N, counted from 0 (N/N is the same as 0/N)
     #[arg(long, value_name = "I/N", conflicts_with = "shards")]
     shard: Option<ShardNumber>,
-    /// Add this to the number of the shard, where the numbers of an array of jobs are limited
+    /// Offset added to the number of the shard, if array numbers of the cluster are limited
     #[arg(long, value_name = "K", requires = "shard", default_value_t = 0)]
     shard_offset: u64,
-    /// Number of shards; without a word 16, or more for more than 1.6 million candidates
+    /// Number of shards; default 16, or more for more than 1.6 million candidates
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_SHARDS))]
     shards: Option<u64>,
-    /// Worker threads, one for each processor when absent; parts do not depend on it
+    /// Worker threads; default: one for each processor. The parts do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Compute a sample only, and say how long the sweep would take and which columns it would have
+    /// Compute only a sample, and estimate the time and the columns of the sweep
     #[arg(long)]
     estimate: bool,
 }
@@ -69,10 +69,10 @@ impl std::str::FromStr for ShardNumber {
     }
 }
 
-/// Candidates that are computed to tell how long all take, at most, and the time for them.
+/// Greatest number of candidates in the sample for the estimate, and the time for them.
 const SAMPLE: (u64, Duration) = (24, Duration::from_secs(2));
 
-/// Fewer candidates than this are computed without telling before how long they take.
+/// A sweep of fewer candidates starts without an estimate.
 const FEW: u64 = 200;
 
 /// Runs the sweep.
@@ -87,7 +87,7 @@ pub(crate) fn run(args: &SweepRunArgs, context: &mut Context) -> Result<Answer, 
     if args.estimate {
         return Ok(estimate(&sweep, threads, args.shards));
     }
-    // clap has made sure of it
+    // clap ensures this
     let Some(output) = &args.output else { return Err(Failure::internal("there is no folder")) };
     let wanted = match args.shard {
         None => None,
@@ -152,7 +152,7 @@ fn compute(
                 known.remove(&shard);
                 break;
             }
-            // another process may have done the same shard meanwhile, and tidied up
+            // another process may have finished and removed the same shard meanwhile
             Err(error) => match folder.state(shard, PartLook::Whole) {
                 ShardState::Done(manifest) => {
                     known.insert(shard, ShardState::Done(manifest));
@@ -195,7 +195,7 @@ impl CandidateSample {
         let mut sample = Self { computed: 0, kept: 0, failed: 0, time: Duration::ZERO };
         let count = sweep.count();
         for n in 0..SAMPLE.0.min(count) {
-            // one candidate of each of equal parts, whose place in it is random
+            // one candidate from each of equal parts, at a random place
             let k = ((n as f64 + rng.unit()) / SAMPLE.0.min(count) as f64 * count as f64) as u64;
             let row = sweep.row(k.min(count - 1));
             sample.computed += 1;
@@ -215,7 +215,7 @@ impl CandidateSample {
     }
 }
 
-/// A time for people.
+/// A duration in words.
 fn spoken(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".into(),

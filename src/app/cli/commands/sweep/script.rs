@@ -1,4 +1,4 @@
-//! `equipod sweep script`: a script that hands the shards of a plan to a cluster.
+//! `equipod sweep script`: a script that submits the shards of a plan to a cluster.
 
 #![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
 
@@ -20,25 +20,25 @@ use super::run::CandidateSample;
 pub(crate) struct SweepScriptArgs {
     /// Plan (.toml or .json)
     plan: PathBuf,
-    /// Write arrays of jobs for Slurm; it is what is written without a word too
+    /// Write job arrays for Slurm (the default)
     #[arg(long)]
     slurm: bool,
-    /// Folder of the parts, which all nodes see
+    /// Folder of the parts, visible to all nodes
     #[arg(long, value_name = "DIR")]
     folder: OutputPath,
-    /// Write the script; it goes to standard output when absent
+    /// Write the script; default: standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Number of shards; without a word as many as take about --minutes each, from a sample
+    /// Number of shards; default: enough for about --minutes each, from a sample
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_SHARDS))]
     shards: Option<u64>,
-    /// Minutes that a shard is to take; clusters advise ten to thirty
+    /// Target time of a shard, minutes; clusters advise ten to thirty
     #[arg(long, value_name = "M", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     minutes: u64,
-    /// Processors of a job
+    /// Number of processors for each job
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
-    /// Jobs of one array, at most: the limit `MaxArraySize` of the cluster
+    /// Greatest number of jobs in one array: the cluster's `MaxArraySize`
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     array: u64,
 }
@@ -79,7 +79,7 @@ struct Script<'a> {
     args: &'a SweepScriptArgs,
     seed: u64,
     shards: u64,
-    /// What a shard takes.
+    /// The time of a shard, minutes.
     minutes: f64,
     name: &'a str,
 }
@@ -90,7 +90,7 @@ impl Script<'_> {
         let (plan, folder) = (quoted(&absolute(&args.plan)?), quoted(&absolute(&args.folder)?));
         let word: String =
             name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).take(40).collect();
-        // three times what the sample lets expect, and five minutes for a slow start
+        // three times the time expected from the sample, and five minutes for a slow start
         let limit = (3.0 * minutes).ceil() + 5.0;
         let mut out = String::from("#!/usr/bin/env bash\n");
         let _ = write!(
@@ -145,13 +145,13 @@ esac
     }
 }
 
-/// Nodes begin in folders of their own.
+/// Makes a path absolute, since nodes start in their own folders.
 fn absolute(path: &Path) -> Result<PathBuf, Failure> {
     std::path::absolute(path)
         .map_err(|e| Failure::refused("file::not_readable", format!("{}: {e}", path.display())))
 }
 
-/// A text as one word of a shell.
+/// Quotes a path as one word of a shell.
 fn quoted(path: &Path) -> String {
     format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
 }

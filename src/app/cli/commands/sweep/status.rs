@@ -1,4 +1,4 @@
-//! `equipod sweep status`: what is done, what is missing.
+//! `equipod sweep status`: the finished and the missing shards.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! `equipod sweep verify`: the digests of all parts, and a random sample computed again.
+//! `equipod sweep verify`: checks the digests of all parts, and recomputes a random sample.
 
 #![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
 
@@ -20,7 +20,7 @@ use sweep::{Sweep, SweepCell, SweepRow, shard_range};
 pub(crate) struct SweepVerifyArgs {
     /// Folder of the sweep
     folder: PathBuf,
-    /// Number of candidates that are computed again; --seed draws others
+    /// Number of candidates to recompute, drawn by --seed
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(0..=1_000_000_000))]
     sample: u64,
 }

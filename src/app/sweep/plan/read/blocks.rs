@@ -1,4 +1,4 @@
-//! Blocks of quantities that vary, and how many candidates they have.
+//! Blocks of free quantities, with the numbers of their candidates.
 
 use super::{PlanReader, missing};
 use crate::plan::{AxisValues, MOST_CANDIDATES, PlanAxis, PlanBlock, Spreading};
@@ -21,7 +21,7 @@ impl PlanReader<'_, '_> {
             return None;
         };
         let nodes = match &entry.node.value {
-            // one block may be written as a table
+            // a single block may be written as a table
             Value::Table(_) => std::slice::from_ref(&entry.node),
             _ => self.list(&entry.node, "`vary`", FORM)?,
         };
@@ -88,7 +88,7 @@ impl PlanReader<'_, '_> {
             );
             return None;
         }
-        // where nobody knows how the quantities vary, ranges are taken as they are written
+        // without a known kind of spreading, ranges are taken as written
         let counted =
             |e: &Entry| matches!(&e.node.value, Value::Table(keys) if find(keys, "count").is_some());
         let grid = by.map_or_else(|| leaves.iter().any(|(_, e)| counted(e)), |by| by == Spreading::Grid);
@@ -196,7 +196,7 @@ impl PlanReader<'_, '_> {
     }
 }
 
-/// The values with their whole names: a table without `from` and `to` holds further ones (`offsets.1 = ...` without
+/// The values with their full names: a table without `from` and `to` holds further ones (`offsets.1 = ...` without
 /// quotes).
 fn flatten<'a>(entries: &'a [Entry], before: &str, out: &mut Vec<(String, &'a Entry)>) {
     for entry in entries {

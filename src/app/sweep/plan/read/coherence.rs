@@ -1,4 +1,4 @@
-//! What the parts of a plan need of each other and of the base design.
+//! Checks that the parts of a plan fit each other and the base design.
 
 use super::PlanReader;
 use crate::column::SweepColumn;
@@ -13,7 +13,7 @@ impl PlanReader<'_, '_> {
         self.product(&counts, place);
     }
 
-    /// What free quantities need of each other and of the base design.
+    /// Checks that free quantities fit each other and the base design.
     pub(super) fn quantities(&mut self, plan: &SweepPlan, place: &Span) {
         let has = |wanted: &dyn Fn(&FreeQuantity) -> bool| plan.quantities().filter(|q| wanted(q)).count();
         let offsets = has(&|q| matches!(q, FreeQuantity::Offset(_)));
@@ -53,7 +53,7 @@ impl PlanReader<'_, '_> {
                 );
             }
         }
-        // a table that the base design names is for its searches
+        // the table in the base design is for its searches
         let named_by_plan = self.base.drives.is_some() && self.base.design.drive_table.is_none();
         if named_by_plan && has(&|q| *q == FreeQuantity::Drive) == 0 {
             self.refuse(
@@ -91,7 +91,7 @@ impl PlanReader<'_, '_> {
         }
     }
 
-    /// What is computed has to make sense for the base design and for what varies.
+    /// Checks that the computed results make sense for the base design and for the free quantities.
     pub(super) fn computable(&mut self, plan: &SweepPlan, place: &Span) {
         let equivalent =
             plan.quantities().any(|q| matches!(q, FreeQuantity::Pattern | FreeQuantity::Offset(_)));
@@ -144,7 +144,7 @@ impl PlanReader<'_, '_> {
         }
     }
 
-    /// All columns, each name once.
+    /// All columns, with unique names.
     pub(super) fn columns(&mut self, plan: &SweepPlan, place: &Span) -> Vec<SweepColumn> {
         let columns = plan.columns(self.base);
         for (k, column) in columns.iter().enumerate() {

@@ -30,10 +30,10 @@ const TOP_LEVEL: [&str; 12] = [
     "vary",
 ];
 
-/// Steps of a search where nothing is said.
+/// Default number of steps of a search.
 const STEPS: u64 = 200;
 
-/// Elements of a list in a plan, at most.
+/// Greatest number of elements of a list in a plan.
 const MOST_LISTED: usize = 1_000_000;
 
 fn entries<'a>(root: &'a Node, report: &mut Findings<'_>) -> Option<&'a [Entry]> {
@@ -65,7 +65,7 @@ fn tree(plan: PlanText<'_>, report: &mut Findings<'_>) -> Option<Node> {
 /// The base design that a plan names, and its table of drives.
 ///
 /// # Errors
-/// The violations of the plan, where it names no design.
+/// The violations of a plan that names no design.
 pub fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
     let mut report = Findings::new(plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text));
     let root = tree(plan, &mut report);
@@ -79,7 +79,7 @@ pub fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
         };
         Some(PlanFiles { base, drives })
     });
-    // everything else is said once the design is known
+    // all other violations are reported once the design is known
     found.ok_or_else(|| report.into_violations())
 }
 
@@ -176,7 +176,7 @@ impl PlanReader<'_, '_> {
             }
             return None;
         };
-        // where one of these is missing the plan is refused, and the rest is looked at all the same
+        // if one of these is missing, the plan is refused, but the rest is checked too
         let mut plan = SweepPlan {
             name: name.unwrap_or_default(),
             description,

@@ -1,4 +1,4 @@
-//! Quantities that vary: their names, their values.
+//! Free quantities: their names, their values.
 
 use super::PlanReader;
 use crate::column::{ColumnKind, SweepColumn};
@@ -9,7 +9,7 @@ use files::design::Code;
 use files::design::spanned::{Entry, Node, Value, check_keys, find, nearest_help, number, shown, text};
 use synthesis::{Family, Pattern};
 impl PlanReader<'_, '_> {
-    /// The axes of a quantity: `offsets` and `lengths` stand for six.
+    /// The axes of a quantity; `offsets` and `lengths` stand for six each.
     pub(super) fn axes(&mut self, path: &str, entry: &Entry, grid: bool) -> Option<Vec<PlanAxis>> {
         let units = self.base.design.units.clone();
         let each = |name: &str, of: fn(usize) -> FreeQuantity| {
@@ -182,7 +182,7 @@ impl PlanReader<'_, '_> {
                 let list = self.list(&entry.node, &what, form)?;
                 let has_texts = list.iter().any(|n| matches!(n.value, Value::Text(_)));
                 if has_texts && matches!(quantity, FreeQuantity::Number(_)) {
-                    // a column has one type: among texts such as "1/3" numbers are texts as well
+                    // a column has one type: beside texts such as "1/3" numbers become texts
                     let mut word = |n: &Node| match &n.value {
                         Value::Text(word) => Some(word.clone()),
                         _ => {

@@ -1,4 +1,4 @@
-//! What is computed, and what is kept.
+//! The computed results and the conditions on rows.
 
 use super::{PlanReader, missing};
 use crate::column::{ColumnKind, SweepColumn};
@@ -88,7 +88,7 @@ impl PlanReader<'_, '_> {
         Some(AnswerField { column, answer, path: path.collect(), kind, unit })
     }
 
-    /// The conditions; where the columns are not known, because the plan is refused, only their form is looked at.
+    /// The conditions. If the columns are unknown, because the plan is refused, only their form is checked.
     pub(super) fn keep(
         &mut self,
         entry: &Entry,

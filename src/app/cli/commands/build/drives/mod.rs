@@ -1,4 +1,4 @@
-//! `equipod build drives`: which drives of a table fit the design.
+//! `equipod build drives`: the fit of the drives of a table to the design.
 
 use std::path::{Path, PathBuf};
 
@@ -17,28 +17,28 @@ use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 pub(crate) struct BuildDrivesArgs {
     /// Design file (.toml or .json) with its home pose, workspace, limits and loads
     design: PathBuf,
-    /// Table of drives (.csv), that of the design (`drives` in `[hardware]`) when absent; its first line names the
+    /// Table of drives (.csv); default: the table of the design (`drives` in `[hardware]`). Its first line names the
     /// columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
     table: Option<PathBuf>,
-    /// A table with a time in seconds and a pose a line, along which the drives have to be fast and strong enough too
+    /// Table with a time in seconds and a pose on each line; the drives must be fast and strong enough along it
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
-    /// A sine about home, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude
-    /// and frequency
+    /// Sine about home: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency; repeat for
+    /// several
     #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
     sine: Vec<String>,
-    /// An acceleration from rest at home, design units or degrees per second squared, as often as there are some
+    /// Acceleration from rest at home, design units or degrees per second squared; repeat for several
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// Unit of length of the design for forces along motions, where its label is not one: um, mm, cm, m, in, ft
+    /// Length unit of the design for forces along motions, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
-    /// Write the design with the drive chosen; .json gives JSON, anything else TOML
+    /// Write the design with the chosen drive; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }
 
-/// Exit 0 where a drive is proved to fit, 1 where all are proved not to, 3 otherwise.
+/// Exit 0 if a drive is proved to fit, 1 if all are proved not to, otherwise 3.
 pub(crate) fn run(args: &BuildDrivesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let Some(table) = asked(args.table.as_deref(), &args.design, &design, context)? else {
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &BuildDrivesArgs, context: &mut Context) -> Result<Answe
     }
     let (names, motions): (Vec<String>, Vec<PlatformMotion>) =
         choice.motions(&design, context)?.into_iter().unzip();
-    // without a payload no forces are computed along motions
+    // without a payload there are no forces along motions
     let metres = if choice.is_empty() || design.moving_payload().is_none() {
         None
     } else {
@@ -89,7 +89,7 @@ pub(crate) fn run(args: &BuildDrivesArgs, context: &mut Context) -> Result<Answe
     Ok(Answer::new(met.into(), answer, text))
 }
 
-/// The table of drives that an option names, or the design beside its file.
+/// The table of drives named by an option, or by the design relative to its file.
 pub(in crate::app::cli::commands) fn asked(
     option: Option<&Path>,
     file: &Path,
@@ -100,7 +100,7 @@ pub(in crate::app::cli::commands) fn asked(
     option.map(Path::to_path_buf).or(beside).map(|path| table(&path, design, context)).transpose()
 }
 
-/// What the table that a design names says of its lightest drive; `None` where it names none.
+/// The lightest drive of the table that a design names; `None` if it names none.
 pub(in crate::app::cli::commands) fn lightest(
     file: &Path,
     design: &Design,
@@ -128,7 +128,7 @@ pub(in crate::app::cli::commands) fn table(
     Ok(table)
 }
 
-/// What neither the design nor a drive says.
+/// Values assumed because neither the design nor a drive states them.
 fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<String> {
     let mut out = Vec::new();
     let h = &design.hardware;

@@ -24,46 +24,47 @@ use verify::{Verdict, Verification};
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BuildRoundArgs {
-    /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
+    /// Design file (.toml or .json) with planar bodies; roundings are assessed by its home pose, workspace and
+    /// requirements
     design: PathBuf,
-    /// Distance between neighbouring holes, instead of the grids that the design states in its table holes
+    /// Distance of neighbouring holes of the base, design units; replaces the grids in the design's table holes
     #[arg(long, value_name = "PITCH", value_parser = number)]
     grid: Option<f64>,
-    /// Distance between neighbouring holes of the platform; that of the base when absent
+    /// Distance of neighbouring holes of the platform, design units; default: as on the base
     #[arg(long, value_name = "PITCH", value_parser = number)]
     grid_platform: Option<f64>,
-    /// How the holes lie; square where neither this nor the design says it
+    /// Pattern of the holes; default: from the design, or square
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern: Option<PatternWord>,
-    /// How the holes of the platform lie; as those of --pattern when absent
+    /// Pattern of the holes of the platform; default: as --pattern
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern_platform: Option<PatternWord>,
-    /// Position of one hole of the base grid, in the plane of the base joints; 0,0 where neither this nor the design
-    /// says it
+    /// Position of one hole of the base grid, design units, in the plane of the base joints; default: from the design,
+    /// or 0,0
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin: Option<String>,
-    /// Position of one hole of the platform grid
+    /// Position of one hole of the platform grid, design units
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin_platform: Option<String>,
-    /// Angle by which the base grid is turned, degrees; 0 where neither this nor the design says it
+    /// Angle of the base grid, degrees; default: from the design, or 0
     #[arg(long, value_name = "DEG", value_parser = number, allow_hyphen_values = true)]
     angle: Option<f64>,
-    /// Angle by which the platform grid is turned, degrees
+    /// Angle of the platform grid, degrees
     #[arg(long, value_name = "DEG", value_parser = number, allow_hyphen_values = true)]
     angle_platform: Option<f64>,
     /// Choose the origins and angles of the grids too; the given ones are candidates
     #[arg(long)]
     free_grid: bool,
-    /// Rounding that is written
+    /// Rounding to write
     #[arg(long, value_enum, default_value_t = Variant::Rule)]
     variant: Variant,
-    /// Share of the inverse condition number that the exact rounding has to keep to be chosen
+    /// Share of the inverse condition number that the exact rounding must keep to be chosen
     #[arg(long, value_name = "SHARE", default_value_t = KEEP)]
     keep: f64,
-    /// Number of triangles of each body that are combined in the first search
+    /// Number of triangles of each body combined in the first search
     #[arg(long, value_name = "N", default_value_t = CANDIDATES, value_parser = clap::value_parser!(u32).range(1..=1000))]
     candidates: u32,
-    /// Tool point at which errors of the pose are measured, platform frame
+    /// Tool point for errors of the pose, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
     /// Number of random poses for the error of the nearest rounding
@@ -74,12 +75,12 @@ pub(crate) struct BuildRoundArgs {
     output: Option<OutputPath>,
 }
 
-/// How holes lie.
+/// The patterns of holes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum PatternWord {
-    /// On squares
+    /// Square grid
     Square,
-    /// On equilateral triangles
+    /// Grid of equilateral triangles
     Triangular,
 }
 
@@ -92,19 +93,19 @@ impl From<PatternWord> for HolePattern {
     }
 }
 
-/// Which rounding is meant.
+/// The rounding to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Variant {
-    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the
-    /// exact one; where neither meets them the one that misses them least
+    /// Exact if it meets the requirements and keeps the share of --keep, else nearest if that meets them, else exact.
+    /// If neither meets them, the one with the least violation
     Rule,
     /// All joints lie exactly on the sides of two triangles
     Exact,
-    /// All joints lie on grid points next to where they are wanted
+    /// All joints lie on grid points near their given positions
     Nearest,
 }
 
-/// A rounding that may be written.
+/// A rounding that can be written.
 #[derive(Debug, Clone, Copy)]
 struct RoundingChoice<'a> {
     way: RoundingWay,
@@ -112,7 +113,7 @@ struct RoundingChoice<'a> {
     grids: &'a [Option<Grid>; 2],
 }
 
-/// The two roundings, the exact one first, where there are.
+/// The roundings found, the exact one first.
 fn choices(found: &Rounding) -> [Option<RoundingChoice<'_>>; 2] {
     let exact = found.exact.as_ref().ok();
     let exact = exact.map(|e| RoundingChoice {
@@ -143,7 +144,7 @@ fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<RoundingChoice<'a>> 
     choices(found).into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, m))
 }
 
-/// The grids of the design, or of `--grid`, with what other options say of them.
+/// The grids of the design or of `--grid`, changed by further options.
 fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
     let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
     let mut grids = match (design.holes, pitches) {
@@ -155,7 +156,7 @@ fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Fa
         }
     };
     if let (Some(pitch), None) = (args.grid_platform, args.grid) {
-        // what stands on circles has other lengths than a pitch
+        // circles have dimensions other than a pitch
         let lattice = grids[1].filter(|grid| grid.pattern.skew().is_some());
         grids[1] = Some(Grid { pitch, ..lattice.unwrap_or(Grid::square(pitch)) });
     }
@@ -194,7 +195,7 @@ fn no_grid_to_change(body: Body) -> Failure {
     .with_help("name the distance of neighbouring holes, --grid 25, or state the grid in [holes]")
 }
 
-/// Rounds, judges both roundings and writes the chosen one.
+/// Rounds, assesses both roundings and writes the chosen one.
 pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let grids = grids(args, &design)?;
@@ -239,7 +240,7 @@ pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer
         .and_then(|(_, d)| Some(AssessAnswer::of(d, context.seed())?.with_role(DesignRoleWord::OnHoles)));
     let met = assessment.as_ref().map_or(Some(true), |a| a.met);
     let rounded = rounded.as_ref().map(|(variant, d)| (*variant, d));
-    // an exact rounding that is not equivalent would be a fault of the search
+    // an exact rounding that is not equivalent is an error of the search
     let contradicted = found.exact.as_ref().is_ok_and(|e| {
         let refuted = |v: &Verification| matches!(v.verdict, Verdict::NotEquivalent(_) | Verdict::Singular);
         !e.proved || e.verification.as_ref().is_ok_and(refuted)

@@ -1,19 +1,19 @@
-//! What `build round` writes.
+//! The output of `build round`.
 
 use ask::Design;
 use ask::rounding::{RoundingChoices, RoundingWay};
 use machine::manufacture::Rounding;
 use records::{AssessAnswer, ExactRoundingOutcome, NearestRoundingOutcome, RoundAnswer};
 
-/// Everything there is to tell.
+/// The complete result.
 #[derive(Debug)]
 pub(in crate::app::cli::commands) struct RoundReport<'a> {
     pub(in crate::app::cli::commands) design: &'a Design,
     pub(in crate::app::cli::commands) choices: &'a RoundingChoices,
     pub(in crate::app::cli::commands) found: &'a Rounding,
     pub(in crate::app::cli::commands) rounded: Option<(RoundingWay, &'a Design)>,
-    /// The rounded design is that of the rule or of the variant asked for, not the one that misses the requirements
-    /// least.
+    /// Whether the rounded design is the one of the rule or of the requested variant, rather than the one with the
+    /// least violation.
     pub(in crate::app::cli::commands) is_taken: bool,
     pub(in crate::app::cli::commands) assessment: Option<AssessAnswer>,
     pub(in crate::app::cli::commands) written: Option<&'a str>,

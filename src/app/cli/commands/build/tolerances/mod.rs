@@ -1,4 +1,4 @@
-//! `equipod build tolerances`: how far the joints may be off.
+//! `equipod build tolerances`: the joint errors allowed.
 
 mod render;
 
@@ -27,42 +27,42 @@ use records::PoseDeviations;
 pub(crate) struct BuildTolerancesArgs {
     /// Design file (.toml or .json); its home pose and workspace give the poses
     design: PathBuf,
-    /// Greatest allowed error of the tool point and of the orientation
+    /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees
     #[arg(long, value_name = "LENGTH,DEG")]
     bound: String,
-    /// Tool point whose position counts, platform frame
+    /// Tool point, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
+    /// Number of Halton points in the region of poses; as many random points are added
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     points: u32,
     /// Number of local searches for every worst pose
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Number of random joint errors and poses that are solved
+    /// Number of random joint errors and poses to solve
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     trials: u32,
-    /// Also say how uncertain computed poses are by the calibration table of the design, and draw errors of joints and
-    /// offsets with its standard deviations and correlations
+    /// Add the uncertainty of computed poses from the calibration table of the design, and random errors with its
+    /// standard deviations and correlations
     #[arg(long)]
     calibrated: bool,
-    /// Greatest error of each joint in any direction for the map of errors, design units; the radius that keeps the
-    /// bound when absent
+    /// Greatest error of each joint in any direction for the error map, design units; default: the radius that keeps
+    /// the bound
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     joint_error: Option<f64>,
-    /// Greatest difference between the length of a leg and the one it shows, design units: homing, backlash, pitch of
-    /// the screw
+    /// Greatest difference between the true and the shown length of a leg, design units: homing, backlash, pitch of the
+    /// screw
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     length_error: Option<f64>,
-    /// Growth of base, platform and legs by temperature, as shares: degrees times coefficient of expansion
+    /// Relative expansion of base, platform and legs by temperature: degrees times coefficient of expansion
     #[arg(long, value_name = "BASE,PLATFORM,LEGS", allow_hyphen_values = true)]
     growth: Option<String>,
-    /// Write the greatest errors by joints, lengths and temperature at all poses looked at as a table
+    /// Write a table of the greatest errors by joints, lengths and temperature at all poses evaluated
     #[arg(long, value_name = "FILE")]
     map: Option<OutputPath>,
 }
 
-/// Everything that was found.
+/// The complete result.
 #[derive(Debug)]
 pub(super) struct ToleranceReports {
     pub(super) bound: ErrorBound,
@@ -70,32 +70,32 @@ pub(super) struct ToleranceReports {
     pub(super) budget: Budget,
     /// Random errors within the radius that all joints may have.
     pub(super) trials: Trials,
-    /// Random errors with the deviations of a calibration, where they were asked for.
+    /// Random errors with the deviations of a calibration, if requested.
     pub(super) calibrated: Option<Trials>,
-    /// How uncertain computed poses are by the calibration, at each pose looked at.
+    /// The uncertainty of computed poses by the calibration, at each pose evaluated.
     pub(super) computed: Option<Vec<PoseDeviations>>,
-    /// The greatest errors by all causes, where they were asked for.
+    /// The greatest errors by all causes, if requested.
     pub(super) map: Option<(MachineErrors, Vec<ErrorAtPose>)>,
-    /// Solved errors (length, degrees) with the joints moved in the worst way by the radius, and by 1.5 times it.
+    /// Solved errors (length, degrees) for the worst joint errors of the radius, and of 1.5 times the radius.
     pub(super) worst: [Option<(f64, f64)>; 2],
-    /// What solving says about the radius, which is of first order.
+    /// The exact check of the first-order radius.
     pub(super) solved: Solved,
     pub(super) workspace_given: bool,
 }
 
-/// The first order against poses that are solved.
+/// The comparison of first order with solved poses.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solved {
-    /// The largest share of a bound that was used up: by the worst errors at their pose, either way, and by random
-    /// errors in the budget. `None` where a pose could not be followed.
+    /// The largest share of a bound that was reached: by worst errors of either sign at their pose, or by random errors
+    /// in the budget. It is `None` if a pose was lost.
     pub(super) share: Option<f64>,
-    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are
-    /// solved, either way.
+    /// A radius, at most that of the budget, for which the worst errors of either sign at their pose keep the bound
+    /// when solved.
     pub(super) radius: Option<f64>,
 }
 
 impl Solved {
-    /// No error looked at went beyond its bound: at all, not by more than a tolerance.
+    /// Whether no sampled error exceeded its bound by more than a tolerance.
     pub(super) fn within(&self) -> bool {
         self.share.is_some_and(|share| share <= 1.0)
     }
@@ -141,8 +141,8 @@ fn asked(bound: &str, tool: &str) -> Result<(ErrorBound, Point3<f64>), Failure> 
 /// The greatest error that every joint may have in any direction, design units, for a bound and a tool point.
 ///
 /// # Errors
-/// Exit 1: singular poses in the workspace, or no radius that keeps the bound when it is solved. Exit 2: numbers that
-/// cannot be read.
+/// Exit 1: singular poses in the workspace, or no radius that keeps the bound when solved. Exit 2: numbers that cannot
+/// be read.
 pub(in crate::app::cli::commands) fn joint_radius(
     design: &Design,
     (bound, tool): (&str, &str),
@@ -206,7 +206,7 @@ fn find(design: &Design, args: &BuildTolerancesArgs, seed: u64) -> Result<Tolera
     })
 }
 
-/// What the map of errors is about; `None` where it is not asked for.
+/// The errors of the machine for the error map; `None` if it is not requested.
 fn machine_errors(args: &BuildTolerancesArgs, budget: &Budget) -> Result<Option<MachineErrors>, Failure> {
     if args.joint_error.is_none()
         && args.length_error.is_none()
@@ -231,7 +231,7 @@ fn machine_errors(args: &BuildTolerancesArgs, budget: &Budget) -> Result<Option<
     }))
 }
 
-/// What the calibration of the design does not know.
+/// The uncertainty of the design's calibration.
 fn uncertainty(design: &Design) -> Result<MachineUncertainty, Failure> {
     design.machine_uncertainty().ok_or_else(|| {
         let message = "the design has no standard deviations in a table [calibration]";
@@ -240,8 +240,7 @@ fn uncertainty(design: &Design) -> Result<MachineUncertainty, Failure> {
     })
 }
 
-/// The covariances of the poses of the workspace: the corners and a sample of the region, and the poses that are
-/// listed.
+/// The covariances of the poses of the workspace: the corners and a sample of the region, and the listed poses.
 fn computed_poses(
     design: &Design,
     known: &MachineUncertainty,
@@ -258,7 +257,7 @@ fn computed_poses(
     search.poses(space).into_iter().filter_map(of).collect()
 }
 
-/// Computes the budget and tries it.
+/// Computes the budget and checks it.
 pub(crate) fn run(args: &BuildTolerancesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let found = find(&design, args, context.seed())?;

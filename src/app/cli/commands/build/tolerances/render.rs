@@ -1,4 +1,4 @@
-//! What `build tolerances` writes.
+//! The output of `build tolerances`.
 
 use super::ToleranceReports;
 use crate::app::cli::table::{column_unit, csv_line, number};
@@ -46,7 +46,7 @@ pub(super) fn record(
     }
 }
 
-/// The map of errors as a table, a pose a line.
+/// The error map as a table, one pose on each line.
 pub(super) fn map(design: &Design, map: &[ErrorAtPose]) -> String {
     let unit = column_unit(&design.units);
     let mut header: Vec<String> = ["x", "y", "z"].iter().map(|axis| format!("{axis}_{unit}")).collect();

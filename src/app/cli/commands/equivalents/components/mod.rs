@@ -26,10 +26,10 @@ pub(crate) struct EquivalentsComponentsArgs {
     /// Write a picture of the curves in two planes, for all pairs of planes
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Draw only this pair of planes: its number in the answer, counted from 1
+    /// Draw only this pair of planes: its number in the answer, from 1
     #[arg(long, value_name = "K", requires = "svg")]
     pair: Option<usize>,
-    /// What counts as zero, relative to the size of the body
+    /// Threshold for zero, relative to the size of the body
     #[arg(long, value_name = "X", default_value_t = 1e-9)]
     tolerance: f64,
 }

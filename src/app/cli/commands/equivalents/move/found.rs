@@ -43,7 +43,7 @@ pub(super) fn run(
     Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
 }
 
-/// A search that could not be asked or carried out.
+/// A search that was invalid or failed.
 pub(in crate::app::cli::commands) fn failed(why: &SearchError) -> Failure {
     match why {
         SearchError::NearlyDependent(_) => {

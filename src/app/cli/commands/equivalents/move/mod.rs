@@ -1,5 +1,4 @@
-//! `equipod equivalents move`: legs moved along families of replaceable legs, and the search for an equivalent
-//! platform.
+//! `equipod equivalents move`: moves legs along families of replaceable legs, or searches for an equivalent platform.
 
 pub(in crate::app::cli::commands) mod found;
 mod naming;
@@ -33,8 +32,8 @@ pub(crate) struct EquivalentsMoveArgs {
     /// Number of the leg to move, 1 to 6
     #[arg(long, value_name = "LEG", requires_all = ["along", "to"])]
     leg: Option<String>,
-    /// Family of the leg: its number in `equipod equivalents components`, or the joints that span it, for instance
-    /// P1:P4-P5 for the legs from P1 to the line P4 P5
+    /// Family of the leg: its number in `equipod equivalents components`, or its joints; P1:P4-P5 means the legs from
+    /// P1 to the line P4 P5
     #[arg(long, value_name = "FAMILY", requires = "leg")]
     along: Option<String>,
     /// Parameters of the new leg in the family
@@ -50,17 +49,17 @@ pub(crate) struct EquivalentsMoveArgs {
     /// Write the new design to this file; with --search, write the designs found into this folder
     #[arg(short, long, value_name = "PATH")]
     output: Option<OutputPath>,
-    /// What counts as zero when the families are found, relative to the size of the body
+    /// Threshold for zero in the search for families, relative to the size of the body
     #[arg(long, value_name = "X", default_value_t = 1e-9)]
     tolerance: f64,
-    /// Search for equivalent platforms that fulfil the wishes below
+    /// Search for equivalent platforms with the properties below
     #[arg(long, conflicts_with_all = ["leg", "moves", "together"])]
     search: bool,
     #[command(flatten)]
     wishes: wishes::WishArgs,
 }
 
-/// Moves legs, or searches.
+/// Moves legs, or searches for a platform.
 pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
@@ -122,7 +121,7 @@ pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<A
     Ok(Answer::new(exit, MoveAnswer::Moves(Box::new(answer)), text))
 }
 
-/// Refuses a design with joints that may not be moved.
+/// Refuses a design with fixed joints.
 pub(in crate::app::cli::commands) fn refuse_fixed(
     design: &Design,
     code: &'static str,
@@ -136,7 +135,7 @@ pub(in crate::app::cli::commands) fn refuse_fixed(
         .with_help("remove `fixed`, or move legs by name: --move LEG:FAMILY:T"))
 }
 
-/// A joint that may not be moved has to stay the end of a leg.
+/// Checks that every fixed joint is still the end of a leg.
 fn keeps_fixed(given: &Design, new: &Design) -> Result<(), Failure> {
     let size = given.manipulator().size();
     for body in Body::BOTH {
@@ -156,7 +155,7 @@ fn keeps_fixed(given: &Design, new: &Design) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The end of a leg is at a joint within this share of the size of the design.
+/// An end within this share of the size of the design is at the joint.
 const STAYS: f64 = 1e-9;
 
 /// The families of a design.
@@ -170,19 +169,19 @@ fn families(design: &Design, options: ComponentOptions) -> Result<Components, Fa
     })
 }
 
-/// Moves made at once, with the names of what they used.
+/// Moves made at once, with the names of the families used.
 #[derive(Debug)]
 struct MovedAtOnce {
     relocation: Relocation,
-    /// For each move the type of its family and the joints that span it.
+    /// For each move, the type of its family and the joints that span it.
     families: Vec<(String, Option<String>)>,
-    /// For each move its parameters as they are written.
+    /// For each move, its parameters as written.
     written: Vec<Vec<String>>,
-    /// The new design, when the legs make a platform.
+    /// The new design, if the legs make a platform.
     design: Option<Design>,
 }
 
-/// The moves one after another; the first singular one is the last.
+/// The moves one after another, up to the first singular one.
 fn sequence(
     design: &Design,
     wanted: &[MoveRequest],
@@ -201,7 +200,7 @@ fn sequence(
     Ok(done)
 }
 
-/// Moves of legs of `current` made at once; names mean joints of `given`, where they are.
+/// Moves of legs of `current` made at once; names of joints refer to `given` if it has them.
 fn one_step(
     given: &Design,
     current: &Design,
@@ -237,7 +236,7 @@ fn judged(from: &Design, to: &Design) -> Result<LegMapOutcome, Failure> {
     judge(from.manipulator(), to.manipulator()).map_err(|e| Failure::internal(e.to_string()))
 }
 
-/// What cannot be done, with what could be.
+/// The refusal of an impossible move, with the possible ones.
 fn refusal(e: &RelocateError, design: &Design, found: &Components) -> Failure {
     let code = match e {
         RelocateError::NoSuchFamily { .. } => "move::no_such_family",
@@ -253,7 +252,7 @@ fn refusal(e: &RelocateError, design: &Design, found: &Components) -> Failure {
     }
 }
 
-/// The last design with what the whole chain says about it.
+/// The last design with the results of the whole chain.
 fn finished(built: Design, given: &Design, chain: &Chain, regular: bool, together: bool) -> Design {
     let mut out = built;
     out.name = format!("{}, legs moved", given.name);
@@ -267,7 +266,7 @@ fn finished(built: Design, given: &Design, chain: &Chain, regular: bool, togethe
     if !regular {
         out.description = Some(format!("Singular: made from \"{}\" by moves with det A = 0", given.name));
     }
-    // the same pose, seen by the new legs
+    // the lengths of the new legs at the same pose
     let lengths = given.lengths.and_then(|l| chain.direct.closest.apply(&l.squared()).ok());
     out.lengths = lengths.map(|s| s.lengths());
     out

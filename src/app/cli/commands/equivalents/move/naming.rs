@@ -13,16 +13,16 @@ pub(super) fn internal(e: &LinalgError) -> Failure {
     Failure::internal(e.to_string())
 }
 
-/// A family with the parameters that are meant.
+/// A named family with its parameters.
 pub(super) struct Meant {
     /// Its index.
     pub(super) index: usize,
-    /// Formulas with parameters counted from the joints that were named; `None`: its own ones.
+    /// Formulas with parameters counted from the named joints; `None`: the family's own formulas.
     pub(super) formulas: Option<Parametrisation>,
 }
 
-/// The family that is meant. Joint names are those of `given`, at the places they have there, which families keep;
-/// joints that only `current` has can be named too.
+/// The named family. Joint names refer to `given`, at places that its families keep; joints that only `current` has can
+/// be named too.
 pub(super) fn resolve(
     along: &NamedFamily,
     given: &Design,
@@ -84,7 +84,7 @@ fn joints<'a>(given: &'a Design, current: &'a Design, platform: bool) -> Vec<(&'
     of(given).chain(of(current)).collect()
 }
 
-/// The places of joints joined by hyphens; names may contain hyphens themselves.
+/// The places of joints joined by hyphens; names may themselves contain hyphens.
 fn points(text: &str, joints: &[(&str, Point3<f64>)]) -> Option<Vec<Point3<f64>>> {
     for (name, place) in joints {
         let Some(rest) = text.strip_prefix(name) else { continue };
@@ -99,7 +99,7 @@ fn points(text: &str, joints: &[(&str, Point3<f64>)]) -> Option<Vec<Point3<f64>>
     None
 }
 
-/// What can be asked for, in one line.
+/// The names that are accepted, in one line.
 pub(super) fn list_families(design: &Design, found: &Components) -> Result<String, Failure> {
     if found.components.is_empty() {
         return Ok("no leg of this platform can be moved".to_string());

@@ -1,4 +1,4 @@
-//! What moves came to, as JSON and as text.
+//! The result of moves, as JSON and as text.
 
 use super::MovedAtOnce;
 use ask::Design;
@@ -18,8 +18,7 @@ impl Record<'_> {
     pub(super) fn record(&self, built: Option<&Design>, written: Option<&str>) -> MovesAnswer {
         MovesAnswer {
             name: self.design.name.clone(),
-            // that of the last step: the moves before it were regular, and those that a leg does not follow at all are
-            // refused earlier
+            // the outcome of the last step: all moves before it are regular, and impossible moves are refused earlier
             outcome: self.done.last().and_then(|s| s.relocation.map.relation.decided()),
             mode: if self.together { MoveMode::Together } else { MoveMode::Sequence },
             steps: self.done.iter().map(step).collect(),

@@ -1,4 +1,4 @@
-//! The moves asked for on the command line.
+//! The moves requested on the command line.
 
 use crate::app::cli::failure::Failure;
 use ::files::design::{InvalidShare, Share};
@@ -6,7 +6,7 @@ use platform::manipulator::LegIndex;
 
 const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1:P4-P5:1/4";
 
-/// A family as it is named.
+/// A family as named by the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum NamedFamily {
     /// Its number in `equipod equivalents components`, from 1.
@@ -23,7 +23,7 @@ pub(super) struct MoveRequest {
     pub(super) parameters: Vec<Share>,
 }
 
-/// All moves asked for, in order.
+/// All requested moves, in order.
 pub(super) fn requests(
     leg: Option<&str>,
     along: Option<&str>,

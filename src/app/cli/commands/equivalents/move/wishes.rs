@@ -1,4 +1,4 @@
-//! The wishes on the command line.
+//! The requested properties on the command line.
 
 use nalgebra::Point3;
 
@@ -8,16 +8,16 @@ use ask::{Design, MoveWishes};
 use platform::manipulator::{Body, LegIndex};
 use synthesis::relocate::search::{Hole, MoveSearchOptions};
 
-/// What an equivalent platform is to fulfil.
+/// The requested properties of an equivalent platform.
 #[derive(Debug, Default, clap::Args)]
 pub(in crate::app::cli::commands) struct WishArgs {
     /// Search: every joint holds one leg
     #[arg(long)]
     no_shared_joints: bool,
-    /// Search: no two legs meet, taken as straight segments at the home pose
+    /// Search: no two legs meet, as straight segments at the home pose
     #[arg(long)]
     no_crossing: bool,
-    /// Search: least distance between two legs; the leg diameter of the design when absent, else 0
+    /// Search: least clearance of two legs, design units; default: the leg diameter of the design, or 0
     #[arg(long, value_name = "D", value_parser = numbers::number, requires = "no_crossing")]
     clearance: Option<f64>,
     /// Search: a joint of the body lies here, base:X,Y,Z or platform:X,Y,Z; repeat the option for several
@@ -26,26 +26,26 @@ pub(in crate::app::cli::commands) struct WishArgs {
     /// Search: the joint of this name moves here, with one of its legs; repeat the option for several
     #[arg(long, value_name = "NAME=X,Y,Z")]
     joint: Vec<String>,
-    /// Search: least distance between two joints of one body; that of the design when absent, else a hundredth of its
-    /// size
+    /// Search: least distance of two joints of one body, design units; default: the least distance in the design, or a
+    /// hundredth of its size
     #[arg(long, value_name = "D", value_parser = numbers::number)]
     spacing: Option<f64>,
-    /// Search: least inverse condition number of the Jacobian; a tenth of the design's when absent
+    /// Search: least inverse condition number of the Jacobian; default: a tenth of the design's own
     #[arg(long, value_name = "X")]
     conditioning: Option<f64>,
-    /// Search: greatest distance of a joint from the centre of its body, in sizes of the design; 1.5 when absent
+    /// Search: greatest distance of a joint from the centre of its body, in sizes of the design; default 1.5
     #[arg(long, value_name = "X")]
     reach: Option<f64>,
-    /// Search: judge all poses of the workspace of the design, not only the home pose
+    /// Search: check all poses of the design's workspace instead of the home pose alone
     #[arg(long)]
     workspace: bool,
-    /// Search: number of platforms that are listed; 5 when absent
+    /// Search: number of platforms to list; default 5
     #[arg(long, value_name = "N")]
     count: Option<usize>,
 }
 
 impl WishArgs {
-    /// The first wish that is there.
+    /// The first requested property.
     pub(super) fn first_given(&self) -> Option<&'static str> {
         let given = [
             (self.no_shared_joints, "--no-shared-joints"),
@@ -61,7 +61,7 @@ impl WishArgs {
         given.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
     }
 
-    /// The wishes.
+    /// The requested properties.
     pub(in crate::app::cli::commands) fn wishes(&self, design: &Design) -> Result<MoveWishes, Failure> {
         let asked =
             self.no_shared_joints || self.no_crossing || !self.hole.is_empty() || !self.joint.is_empty();
@@ -115,7 +115,7 @@ fn hole(text: &str) -> Result<Hole, Failure> {
     Ok(Hole { body, point: point(place, text)?, legs: Vec::new() })
 }
 
-/// `NAME=X,Y,Z`: the legs at the joint NAME are those of which one has to go there.
+/// Parses `NAME=X,Y,Z`: one of the legs at joint NAME has to end there.
 fn joint(text: &str, design: &Design) -> Result<Hole, Failure> {
     let (name, place) = text.rsplit_once('=').unwrap_or((text, ""));
     let names = design.leg_names();

@@ -28,31 +28,31 @@ use records::{
 /// Arguments of `equivalents topologies`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EquivalentsTopologiesArgs {
-    /// Design file (.toml or .json): name its topology only
+    /// Design file (.toml or .json): name only its topology
     design: Option<PathBuf>,
-    /// Number of random members of each topology that are solved to count its poses
+    /// Number of random members of each topology, solved to count its poses
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
     members: u64,
-    /// Write a picture of all topologies that are listed
+    /// Write a picture of all listed topologies
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
+    /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each topology into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<OutputPath>,
-    /// Say also what equivalent rearrangement can do for each, with bodies in space or in a plane: the fewest shared
-    /// joints, octahedral or not; with -o, write the designs that show it
+    /// Add the best equivalent rearrangement of each topology, with bodies in space or in a plane: fewest shared
+    /// joints, octahedral or not. With -o, write its designs
     #[arg(long)]
     rearrangements: bool,
 }
 
-/// A topology with what was computed.
+/// A topology with its computed properties.
 struct TopologyEntry {
     named: NamedTopology,
     sequence: Sequence,
     decoupled: bool,
     poses: u32,
     proved: bool,
-    /// Of the closure polynomial of a random member, where at most one virtual leg is needed.
+    /// The closure degrees of a random member, for at most one virtual leg.
     closure: Option<ClosureDegrees>,
 }
 
@@ -109,7 +109,7 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry,
         vote.0 += 1;
         vote.1 |= matches!(found.completeness, Completeness::Proved { .. });
     }
-    // a proved count is that of all generic members; without one, what was found most often
+    // a proved count holds for all generic members; otherwise take the most frequent count
     let best = votes.into_iter().max_by_key(|(count, (times, proved))| (*proved, *times, *count));
     let (poses, (_, proved)) = best.unwrap_or_default();
     let sequence = t.trilateration();
@@ -144,7 +144,7 @@ fn sheet(entries: &[TopologyEntry]) -> String {
     topology_sheet("Joint-sharing topologies of six-legged platforms", &figures)
 }
 
-/// The picture alone: of the topology of a design, or of all.
+/// Only the picture: of the topology of a design, or of all.
 pub(in crate::app::cli::commands) fn drawing(
     design: Option<&Design>,
     members: u64,
@@ -180,11 +180,11 @@ fn write_files(args: &EquivalentsTopologiesArgs, entries: &[TopologyEntry]) -> R
     Ok(())
 }
 
-/// A member with its joints near two circles, thousandths of the base radius, at its default home pose.
+/// A member with its joints near two circles, at its default home pose; coordinates are thousandths of the base radius.
 fn representative(e: &TopologyEntry) -> Result<Design, Failure> {
     let t = e.named.topology();
     let layout = t.layout();
-    // the same for every seed: the file belongs to the topology
+    // independent of the seed, since the file belongs to the topology
     let mut rng = Purpose::REPRESENTATIVES.item(0x34, e.named.number() as u64);
     let mut ring = |angles: &[f64], radius: f64| -> Vec<Point3<f64>> {
         let mut off = || rng.uniform(-0.12, 0.12);

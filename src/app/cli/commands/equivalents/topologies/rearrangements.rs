@@ -1,4 +1,4 @@
-//! The fewest shared joints of the topologies that are listed, by equivalent rearrangement.
+//! The fewest shared joints of the listed topologies, by equivalent rearrangement.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub(super) fn cases(list: &[NamedTopology]) -> Result<Vec<Rearrangement>, Failur
     all.map(|(t, planar)| rearrangement(t, planar).map_err(|e| Failure::internal(e.to_string()))).collect()
 }
 
-/// Writes the member, the equivalent design with fewest shared joints, and the octahedral one where there is one.
+/// Writes the member, the equivalent design with fewest shared joints, and the octahedral one if it exists.
 pub(super) fn write(folder: &Path, list: &[Rearrangement]) -> Result<(), Failure> {
     for r in list {
         let [base, platform] = r.planar.names();

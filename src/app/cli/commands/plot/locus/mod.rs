@@ -19,23 +19,23 @@ use records::LocusAnswer;
 pub(crate) struct PlotLocusArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Six lengths, those of the design when absent; that of the leg that varies is not used
+    /// Six lengths, design units; default: the lengths of the design. The length of the variable leg is ignored
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// Number of the leg whose length varies, 1 to 6
+    /// Number of the leg with variable length, 1 to 6
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=6))]
     leg: u8,
-    /// First length of that leg
+    /// First length of this leg, design units
     #[arg(long, value_name = "L")]
     from: f64,
-    /// Last length of that leg
+    /// Last length of this leg, design units
     #[arg(long, value_name = "L")]
     to: f64,
     /// Number of lengths, both ends included
     #[arg(long, value_name = "N", default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     steps: u32,
-    /// Virtual leg, named by its joints; the first that trilateration needs when absent, else the first pair that no
-    /// leg joins
+    /// Virtual leg, named by its joints; default: the first that trilateration needs, or the first pair that no leg
+    /// joins
     #[arg(long, value_name = "BASE,PLATFORM")]
     between: Option<String>,
     /// Method of solution; auto takes the best one for the design
@@ -46,7 +46,7 @@ pub(crate) struct PlotLocusArgs {
     csv: Option<OutputPath>,
 }
 
-/// Solves at each length and evaluates the distance. Without `output` the text of the answer is the picture.
+/// Solves at each length and computes the distance. Without `output` the text of the answer is the picture.
 pub(super) fn run(
     args: &PlotLocusArgs,
     output: Option<&Path>,

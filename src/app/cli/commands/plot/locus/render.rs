@@ -26,7 +26,7 @@ pub(super) fn picture(name: &str, found: &LocusReport) -> String {
     })
 }
 
-/// One line a pose; lengths without isolated poses have one line with their status and no value.
+/// One line for each pose; lengths without isolated poses have one line with their status and no value.
 pub(super) fn csv(answer: &LocusAnswer) -> String {
     let mut out = String::from("step,length,status,re,im,real,certified\n");
     for row in &answer.rows {

@@ -28,7 +28,7 @@ pub(crate) struct SingularMotionArgs {
     svg: Option<OutputPath>,
 }
 
-/// Which curves.
+/// The curves to trace.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CurveQuestion {
     /// Design file (.toml or .json)
@@ -36,14 +36,14 @@ pub(crate) struct CurveQuestion {
     /// Pose to start from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Six lengths instead of a pose: find all real components of the poses with these lengths
+    /// Six lengths instead of a pose, design units: find all real components of the poses with these lengths
     #[arg(long, value_name = "L1,..,L6", conflicts_with = "pose")]
     lengths: Option<String>,
-    /// Number of random sections by which all curves over the complex numbers are cut; 0 follows only what hangs
-    /// together with the pose
+    /// Number of random sections that cut all curves over the complex numbers; 0 traces only the curves connected to
+    /// the pose
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=100))]
     sections: u64,
-    /// Largest turn of the tangent from point to point, radians
+    /// Largest rotation of the tangent from point to point, radians
     #[arg(long, value_name = "RAD", default_value_t = 0.05, value_parser = turn)]
     turn: f64,
 }
@@ -53,7 +53,7 @@ fn turn(text: &str) -> Result<f64, String> {
     if (1e-3..=0.2).contains(&value) { Ok(value) } else { Err("give 0.001 to 0.2".to_string()) }
 }
 
-/// Follows the motion.
+/// Traces the motion.
 pub(crate) fn run(args: &SingularMotionArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (design, found) = trace(&args.question, context)?;
     if let Some(path) = &args.csv {
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &SingularMotionArgs, context: &mut Context) -> Result<An
     Ok(render::answer(&design, &found, &found.degrees(&design, context.seed())))
 }
 
-/// The picture alone.
+/// Only the picture.
 pub(in crate::app::cli::commands) fn drawing(
     question: &CurveQuestion,
     context: &mut Context,

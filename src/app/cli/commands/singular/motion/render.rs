@@ -17,7 +17,7 @@ pub(super) fn answer(design: &Design, found: &SelfMotionReport, degrees: &[Optio
     let motion = &found.motion;
     let critical = found.critical.as_ref();
     let curves = motion.curves.iter().zip(degrees);
-    // with lengths alone the first pose is one of several found
+    // with lengths alone the first pose is one of several
     let at = motion.at_pose.as_ref().filter(|_| found.start.is_some());
     let record = SelfmotionAnswer {
         name: design.name.clone(),
@@ -45,12 +45,12 @@ pub(super) fn answer(design: &Design, found: &SelfMotionReport, degrees: &[Optio
     Answer::new(found.moves().into(), record, sheet)
 }
 
-/// Starting poses beside the one given.
+/// Number of starting poses beside the given one.
 fn further(found: &SelfMotionReport) -> usize {
     found.origins.iter().filter(|o| **o != MotionOrigin::Pose).count()
 }
 
-/// One line a pose.
+/// The table, one line for each pose.
 pub(super) fn csv(found: &SelfMotionReport) -> String {
     let mut out = String::from("curve,point,arc,px,py,pz,qw,qx,qy,qz,length_error,gap\n");
     for (k, curve) in found.motion.curves.iter().enumerate() {

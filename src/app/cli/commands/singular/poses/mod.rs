@@ -1,4 +1,4 @@
-//! `equipod singular poses`: det J at poses, over a slice, and the box of poses in which it is proved not to vanish.
+//! `equipod singular poses`: det J at poses and over a slice, and a box of poses proved regular.
 
 mod paths;
 mod render;
@@ -22,17 +22,17 @@ use synthesis::singularity::JoinOptions;
 pub(crate) struct SingularPosesArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Pose in the middle: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    /// Pose in the centre: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Six lengths at which all assembly modes are judged; those of the pose when absent
+    /// Six lengths for the assembly modes, design units; default: the lengths at the pose
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// Shape of the box: half widths of translations (design units) and components of the rotation vector (degrees);
-    /// without it the workspace of the design, box or ellipsoid, else half its size and 30 degrees
+    /// Shape of the box: half widths of translations (design units) and of the rotation vector (degrees). Default: the
+    /// workspace of the design, or half its size and 30 degrees
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
-    /// Greatest number of cells of the region of poses over which det J is bounded to prove the box
+    /// Greatest number of cells for bounding det J in the proof of the box
     #[arg(long, value_name = "N", default_value_t = BOX_CELLS)]
     cells: usize,
     /// Write a picture of the singular poses over two of the six freedoms
@@ -45,25 +45,25 @@ pub(crate) struct SingularPosesArgs {
     /// --pose
     #[arg(long, value_name = "I,J")]
     path: Option<String>,
-    /// A pose that the path passes through; repeat the option for several, in order
+    /// Pose that the path passes through; repeat for several, in order
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, requires = "path")]
     via: Vec<String>,
-    /// Write det J along that path as a table
+    /// Write a table of det J along this path
     #[arg(long, value_name = "FILE", requires = "path")]
     csv: Option<OutputPath>,
-    /// Write a picture of det J along that path
+    /// Write a picture of det J along this path
     #[arg(long, value_name = "FILE", requires = "path")]
     path_svg: Option<OutputPath>,
-    /// Compute det J along the straight paths between all assembly modes, and find which modes other paths join without
-    /// a singular pose
+    /// Compute det J along the straight paths between all assembly modes, and find the modes joined by other regular
+    /// paths
     #[arg(long)]
     between: bool,
-    /// Number of random poses drawn in the search for such paths, for each sign of det J
+    /// Number of random poses in the search for such paths, for each sign of det J
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
     samples: usize,
 }
 
-/// What was found, for [`render`].
+/// The results, for [`render`].
 struct SingularPoses {
     report: SingularPosesReport,
     /// Whether the region is the workspace of the design.
@@ -72,7 +72,7 @@ struct SingularPoses {
     between: Option<SignsBetween>,
 }
 
-/// Judges the poses, proves the box, draws the slice.
+/// Evaluates the poses, proves the box, draws the slice.
 pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let pose = poses::parse(&args.pose, &design, "--pose", "poses::bad_pose")?;
@@ -106,7 +106,7 @@ fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {
     })
 }
 
-/// Those of `--box`.
+/// The half widths of `--box`.
 fn half_widths(text: &str) -> Result<[[f64; 3]; 2], Failure> {
     let v = six(text, "--box")?;
     if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {

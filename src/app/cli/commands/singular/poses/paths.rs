@@ -1,4 +1,4 @@
-//! `--path` and `--between`: det J along paths of poses, and which assembly modes paths without singular pose join.
+//! `--path` and `--between`: det J along paths of poses, and the assembly modes joined by regular paths.
 
 use std::fmt::Write as _;
 

@@ -7,13 +7,13 @@ use platform::geom::Pose;
 use platform::manipulator::plucker_matrix;
 use synthesis::singularity::BoxOptions;
 
-/// Grid points a side.
+/// Number of grid points along each side.
 const SIDE: usize = 161;
-/// Rotations shown each way, degrees.
+/// Half width for rotations, degrees.
 const DEGREES: f64 = 90.0;
 
-/// `det J` about the pose: positions three times the box and at least 1.5 times the size, rotations 90 degrees each
-/// way.
+/// `det J` about the pose: positions over three times the box and at least 1.5 times the size, rotations over 90
+/// degrees in each direction.
 pub(crate) fn figure(design: &Design, freedoms: Freedoms, pose: &Pose, options: &BoxOptions) -> SliceFigure {
     let m = design.manipulator();
     let places = freedoms.places();
