@@ -7,7 +7,8 @@ use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
-const FORMATS: [&str; 10] = ["c", "csv", "dxf", "hal", "json", "matlab", "mjcf", "step", "stl", "svg"];
+const FORMATS: [&str; 12] =
+    ["c", "csv", "dxf", "hal", "json", "matlab", "mjcf", "sdf", "step", "stl", "svg", "urdf"];
 
 fn run(args: &[&str]) -> (Option<i32>, Value) {
     let mut all = vec!["export"];

@@ -131,7 +131,8 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
     let asked = |formats: &[ExportFormat]| {
         args.to.iter().any(|t| t == "all" || formats.iter().any(|format| t == format.name()))
     };
-    if !asked(&[ExportFormat::Mjcf, ExportFormat::Sdf, ExportFormat::Urdf]) {
+    let simulated = asked(&[ExportFormat::Mjcf, ExportFormat::Sdf, ExportFormat::Urdf]);
+    if !simulated {
         context.no_effect("mass", "only the formats of simulators (mjcf, sdf, urdf) hold masses")?;
     }
     if !asked(&[ExportFormat::Mjcf, ExportFormat::Sdf]) {
