@@ -92,7 +92,7 @@ impl SnappedDesign {
 }
 
 impl JointRelation {
-    /// 0: the place of a joint, 1: what follows from a joint, 2: planes.
+    /// 0: equal places; 1: joints rotated or mirrored from another; 2: joints in a plane.
     fn kind(&self) -> u8 {
         match self {
             Self::Same(_) => 0,

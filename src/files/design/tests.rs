@@ -1,4 +1,4 @@
-//! Every violation with its line and help; reading back what was written; nothing panics.
+//! Every violation has its line and help; written designs are read back; no input panics.
 #![allow(clippy::format_collect, clippy::float_cmp, reason = "short texts; exact values are read")]
 
 use super::fixtures::PLAIN as GOOD;

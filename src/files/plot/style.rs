@@ -144,7 +144,7 @@ impl Svg {
         }
     }
 
-    /// Text turned by `degrees` about its anchor, clockwise on the page.
+    /// Text rotated by `degrees` about its anchor, clockwise on the page.
     pub(super) fn turned_text(&mut self, class: &str, at: (f64, f64), degrees: f64, text: &str) {
         let turn = format!(" transform=\"rotate({} {} {})\"", px(degrees), px(at.0), px(at.1));
         self.placed_text(class, at, &turn, text);

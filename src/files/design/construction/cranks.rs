@@ -181,7 +181,7 @@ impl Constructions {
             };
         }
         cranks.values = stated.iter().map(|s| complete(s)).collect();
-        // faults of copied or shared data are reported once, where they are written
+        // faults of copied or shared data are reported once, at the table that states them
         let states =
             |j: usize| cranks.own[j].as_ref().is_some_and(|own| own.axis.is_some() || own.zero.is_some());
         let mut shared_blamed = false;

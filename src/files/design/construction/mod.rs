@@ -173,7 +173,7 @@ impl Construction {
         }
     }
 
-    /// The numbers in it, with their parts: the place among what is written.
+    /// The numbers in it, each with its index among the written parts of the construction.
     pub(super) fn quantities(&self) -> Vec<(usize, &WrittenNumber)> {
         match self {
             Self::Coordinates(list) => list.iter().enumerate().collect(),

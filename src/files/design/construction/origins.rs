@@ -95,7 +95,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// On the line of two joints at this share; given by its coordinates where it is not finite.
+    /// A joint on the line of two joints at this share; given by its coordinates if the share is not finite.
     #[must_use]
     pub fn between(ends: [usize; 2], t: f64) -> Self {
         Share::shortest(t).map_or(Self::New, |share| Self::Between(ends, Box::new(share)))

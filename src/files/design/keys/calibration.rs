@@ -284,6 +284,6 @@ fn deviations(found: &mut FoundKey<'_, '_>, names: Option<&[String]>) -> Vec<Opt
         refuse_negative(report, &joint.node);
         out[index] = three.map(Vector3::from);
     }
-    // a table without joints says nothing, as no table does
+    // a table without joints means the same as a missing table
     if out.iter().all(Option::is_none) { Vec::new() } else { out }
 }

@@ -33,11 +33,11 @@ pub(crate) enum Range {
     NotNegative,
     /// An angle above 0 and at most 180 degrees.
     HalfTurn,
-    /// An angle above 0 and below so many degrees.
+    /// An angle above 0 and below this number of degrees.
     Below(u8),
 }
 
-/// A list of so many numbers.
+/// A list of `count` numbers.
 #[derive(Debug)]
 pub(crate) struct Numbers {
     pub(super) count: usize,
