@@ -50,7 +50,7 @@ mod tests {
                 assert_eq!(exchanged(&design, &wired), Some([i, j]));
             }
         }
-        // a single measurement says nothing
+        // a single measurement cannot show an exchange
         let one = measured(&nominal(), &poses(1, &mut rng), None, &mut rng);
         assert_eq!(exchanged(&nominal(), &one), None);
     }

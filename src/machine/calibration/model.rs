@@ -1,4 +1,4 @@
-//! Joints and offsets of a machine, the lengths that follow from them, and which of their coordinates are unknown.
+//! Joints and offsets of a machine, the lengths that follow from them, and the choice of unknown coordinates.
 
 use nalgebra::{DMatrix, DVector, Matrix6, Point3, Vector3, Vector6};
 
@@ -50,8 +50,8 @@ impl LegModel {
         std::array::from_fn(|leg| self.line(leg, pose).norm() + self.offsets[leg])
     }
 
-    /// Rows `[u_i, (R b_i) x u_i]`: how the lengths change with a shift of the platform origin and a small turn about
-    /// it, base frame.
+    /// Rows `[u_i, (R b_i) x u_i]`: the derivatives of the lengths by a shift of the platform origin and a small
+    /// rotation about it, base frame.
     pub(super) fn pose_sensitivity(&self, pose: &Pose) -> Matrix6<f64> {
         let mut out = Matrix6::zeros();
         for leg in 0..6 {

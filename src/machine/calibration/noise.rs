@@ -4,7 +4,7 @@ use nalgebra::{Cholesky, Matrix6, Vector6};
 
 use super::robust::PoseWeight;
 
-/// Standard deviations of what was measured, independent of each other.
+/// Standard deviations of the measured quantities, whose errors are independent of each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasurementNoise {
     /// Standard deviation of each leg length, design units, positive.

@@ -94,7 +94,7 @@ impl Observability {
 pub struct UnobservableChange {
     /// Joints that move, with their shifts in the frame of their body, the farthest first.
     pub joints: Vec<(Body, usize, Vector3<f64>)>,
-    /// Legs whose offsets change, by how much.
+    /// Legs whose offsets change, each with its change.
     pub offsets: Vec<(usize, f64)>,
 }
 

@@ -84,7 +84,7 @@ fn a_start_without_the_design_needs_no_design() {
     }
 }
 
-/// Over many seeds, errors are as large as the covariance says, and residuals as the noise says.
+/// Over many seeds, the errors agree with the covariance, and the residuals with the noise.
 #[test]
 #[ignore = "evidence"]
 fn errors_agree_with_the_covariance() {
@@ -108,7 +108,7 @@ fn errors_agree_with_the_covariance() {
             }
         }
         let (errors, residuals) = (errors / seeds as f64, residuals / seeds as f64);
-        // the mean of so many chi-squares has the deviation sqrt(2 n / seeds)
+        // the mean of chi-squares over all seeds has the deviation sqrt(2 n / seeds)
         let wide = |n: f64| 4.0 * (2.0 * n / seeds as f64).sqrt();
         assert!((errors - 42.0).abs() < wide(42.0) + 1.0, "{noise:?} {given}: {errors}");
         assert!((residuals - 138.0).abs() < wide(138.0), "{noise:?} {given}: {residuals}");
@@ -116,7 +116,7 @@ fn errors_agree_with_the_covariance() {
     }
 }
 
-/// Poses computed with calibrated machines from exact lengths deviate from the truth as the covariance says,
+/// Poses computed with calibrated machines from exact lengths deviate from the truth in agreement with the covariance,
 /// correlations included.
 #[test]
 #[ignore = "evidence"]
@@ -266,7 +266,7 @@ fn a_leg_with_a_wrong_model_is_seen_in_the_chi_square() {
     let right = calibrate(&nominal(), &rows, &options(Some(ENCODERS))).unwrap();
     assert_eq!(right.status, CalibrationStatus::Calibrated);
     assert!(right.chi_square.probability.unwrap() > 1e-3);
-    // the screw of leg 4 has an error that comes back with every turn
+    // the screw of leg 4 has an error that repeats with every revolution
     for row in &mut rows {
         row.lengths[3] += 0.1 * (row.lengths[3] * std::f64::consts::TAU / 10.0).sin();
     }
@@ -307,7 +307,7 @@ fn the_answer_moves_with_frames_legs_and_units() {
     assert!(farthest(&moved.model, &expected) < 1e-5);
     assert!((moved.chi_square.value - found.chi_square.value).abs() < 1e-6 * found.chi_square.value);
 
-    // the platform frame turned about its origin, which is where positions are measured
+    // the platform frame rotated about its origin, whose position is measured
     let turn = random_rotation(&mut rng);
     let turned_rows: Vec<Measurement> = rows
         .iter()

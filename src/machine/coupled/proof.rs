@@ -33,7 +33,7 @@ fn met(a: Interval, b: Interval) -> Interval {
 struct Neighbourhood {
     rotation: Rotation,
     position: IntervalVector,
-    /// Bounds the entries of `J - I`, `J` the left Jacobian of the turn: `|w| / 2 + |w|^2 / 6`, rounded up.
+    /// Bounds the entries of `J - I`, `J` the left Jacobian of the rotation: `|w| / 2 + |w|^2 / 6`, rounded up.
     tilt: f64,
 }
 

@@ -17,8 +17,8 @@ struct SimulatedLeg {
     base: Vector3<f64>,
     frame: Rotation3<f64>,
     offsets: [f64; 2],
-    /// Turns about the first and the second axis, length, turn about the leg, turns about the second and the first axis
-    /// of the platform.
+    /// Angles about the first and the second axis of the base, length, angle about the leg, angles about the second and
+    /// the first axis of the platform.
     at: [f64; 6],
 }
 
@@ -39,11 +39,11 @@ impl SimulatedLeg {
         (place, turn * about(x, q4))
     }
 
-    /// The state that takes the end to a place and a turn, by Newton's method with differences.
+    /// The state that takes the end to a position and an orientation, by Newton's method with finite differences.
     fn solved(&self, place: &Vector3<f64>, turn: &Rotation3<f64>) -> [f64; 6] {
         let error = |at: &[f64; 6]| {
             let (p, r) = self.end(at);
-            // twice the sine of the turn that is left, along its axis: zero where there is none
+            // twice the sine of the remaining rotation, along its axis: zero if no rotation remains
             let w = (r * turn.inverse()).into_inner();
             let w = [w[(2, 1)] - w[(1, 2)], w[(0, 2)] - w[(2, 0)], w[(1, 0)] - w[(0, 1)]];
             Vector6::new(p.x - place.x, p.y - place.y, p.z - place.z, w[0], w[1], w[2])

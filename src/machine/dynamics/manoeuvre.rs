@@ -41,7 +41,7 @@ impl PlatformFreedom {
         ["x", "y", "z", "roll", "pitch", "yaw"][self as usize]
     }
 
-    /// `true` for the three turns, whose amounts are in degrees.
+    /// `true` for the three rotations, whose amounts are in degrees.
     #[must_use]
     pub fn is_turn(self) -> bool {
         self as usize >= 3

@@ -60,7 +60,7 @@ pub enum InvalidPath {
     TurnsTooFar {
         /// The row.
         row: usize,
-        /// The turn.
+        /// The angle of the rotation between the two poses, degrees.
         degrees: f64,
     },
 }

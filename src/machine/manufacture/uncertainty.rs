@@ -169,7 +169,7 @@ mod tests {
             })
             .sum();
         let found = (squares / f64::from(count)).sqrt();
-        // the mean of so many squares is within a few hundredths
+        // the mean of `count` squares is within a few hundredths
         assert!((found / wanted.position - 1.0).abs() < 0.03, "{found} {}", wanted.position);
     }
 

@@ -40,13 +40,13 @@ impl Reach<'_> {
         spread(count).map(|d| self.ray(from, &d, false)).collect()
     }
 
-    /// Turns at the place of a pose, about `count` axes spread evenly.
+    /// Rotations at the position of a pose, about `count` axes spread evenly.
     #[must_use]
     pub fn turns(&self, from: &Pose, count: usize) -> Vec<FreeRay> {
         spread(count).map(|d| self.ray(from, &d, true)).collect()
     }
 
-    /// The way from a pose along a unit vector, or the turn about it.
+    /// The straight path from a pose along a unit vector, or the rotation about it.
     #[must_use]
     pub fn ray(&self, from: &Pose, direction: &Vector3<f64>, is_turn: bool) -> FreeRay {
         let (velocity, turn) =

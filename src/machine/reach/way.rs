@@ -18,11 +18,11 @@ pub enum PoseAxis {
     Y,
     /// Position along z.
     Z,
-    /// Turn about the x axis of the platform.
+    /// Rotation about the x axis of the platform.
     Roll,
-    /// Turn about the y axis of the base, turned by the yaw.
+    /// Rotation about the y axis of the base after the rotation by the yaw.
     Pitch,
-    /// Turn about the z axis of the base.
+    /// Rotation about the z axis of the base.
     Yaw,
 }
 

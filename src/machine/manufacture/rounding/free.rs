@@ -103,7 +103,7 @@ const TURNS_OF_POOLS: u32 = 240;
 const FITTED: usize = 64;
 /// Triangles of every pool, at least, and how many of them are fitted.
 const TRIANGLES: (usize, usize) = (8, 40);
-/// Turns of the centre of the smallest circle on the torus of shifts.
+/// Number of refinements of the centre of the smallest circle on the torus of shifts.
 const WRAPS: usize = 3;
 /// Grids of a body that are kept.
 const KEPT: usize = 3;

@@ -1,4 +1,4 @@
-//! A grid of holes in the plane of a body, and triangles on it whose sides carry grid points where joints are wanted.
+//! A grid of holes in the plane of a body, and triangles on it whose sides carry grid points near wanted joints.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -143,7 +143,7 @@ pub(super) struct Wanted {
 /// A triangle on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct GridTriangle {
-    /// Largest distance of a joint from where it is wanted, pitches.
+    /// Largest distance of a joint from its wanted place, pitches.
     deviation: f64,
     pub(super) corners: [GridHole; 3],
     /// Side `k` has `parts[k]` equal parts between grid points; its joint ends part `inner[k]`, which is below 0 or
@@ -185,8 +185,8 @@ fn cells_within(centre: [f64; 2], reach: f64, skew: f64) -> Vec<GridHole> {
     all.filter(|c| distance(*c, centre, skew) <= reach).collect()
 }
 
-/// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from where it
-/// is wanted.
+/// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from its
+/// wanted place.
 #[derive(Debug, Clone, Copy)]
 struct GridSide {
     to: usize,
@@ -301,7 +301,7 @@ fn nearest_first(mut triangles: Vec<GridTriangle>, reach: f64) -> TrianglePool {
 /// Corners and joints within this many pitches of their rotated images count as symmetric.
 const TURNED: f64 = 1e-6;
 
-/// The displacement in pitches of a triangular grid, turned by 120 degrees: its axes `a`, `b` go to `b - a` and `-a`.
+/// The displacement in pitches of a triangular grid, rotated by 120 degrees: its axes `a`, `b` go to `b - a` and `-a`.
 fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j]: [T; 2]) -> [T; 2] {
     [-i - j, i]
 }
@@ -447,8 +447,8 @@ mod tests {
         assert_eq!(found.triangles[0].corners, [[0, 0], [24, 1], [11, 21]]);
     }
 
-    /// A triangle with joints on its sides that turns by 120 degrees take to itself about `middle`, in pitches of a
-    /// triangular grid.
+    /// A triangle with joints on its sides that is symmetric under rotations by 120 degrees about `middle`, in pitches
+    /// of a triangular grid.
     fn three_fold(middle: [f64; 2]) -> Wanted {
         let turns = |start: [f64; 2]| {
             let about = |p: [f64; 2]| [middle[0] + p[0], middle[1] + p[1]];
@@ -494,7 +494,7 @@ mod tests {
 
     #[test]
     fn what_does_not_turn_has_no_three_fold_triangles() {
-        // a middle about which the grid does not turn, joints that do not, a square grid
+        // no symmetry under rotations by 120 degrees: the grid about this middle, the joints, a square grid
         assert!(three_fold_pool(&three_fold([0.25, 0.0]), 4.0).is_none());
         let mut uneven = three_fold([0.0, 0.0]);
         uneven.inner.as_mut().unwrap()[1][0] += 0.01;

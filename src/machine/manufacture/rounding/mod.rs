@@ -33,12 +33,12 @@ const SAMPLES: usize = 3;
 pub struct RoundingProblem<'a> {
     /// The design as wanted.
     pub manipulator: &'a Manipulator,
-    /// Grids of base and platform; `None` for a plate whose joints stay where they are.
+    /// Grids of base and platform; `None` for a plate whose joints keep their places.
     pub grids: [Option<Grid>; 2],
     /// Whether origins and angles are chosen too; the given grids remain candidates, so the result is never worse than
     /// theirs.
     pub free: bool,
-    /// For each joint of base and platform whether it stays where it is; empty: none does.
+    /// For each joint of base and platform, `true` if rounding keeps its place; empty: none is kept.
     pub fixed: [&'a [bool]; 2],
     /// The requirements of the design.
     pub requirements: &'a Requirements,
@@ -63,7 +63,7 @@ pub struct RoundingProblem<'a> {
 }
 
 impl RoundingProblem<'_> {
-    /// Whether a joint stays where it is.
+    /// Whether rounding keeps the place of a joint.
     fn holds(&self, joint: Joint) -> bool {
         self.fixed[joint.body.index()].get(joint.index) == Some(&true)
     }
@@ -175,7 +175,7 @@ pub struct Rounding {
     pub wanted: Judgement,
     /// All joints on the grid and exactly on the lines of two triangles.
     pub exact: Result<ExactRounding, NoRounding>,
-    /// All joints on grid points next to where they are wanted.
+    /// All joints on grid points next to their wanted places.
     pub nearest: Result<NearestRounding, NoRounding>,
 }
 

@@ -18,7 +18,7 @@ pub(super) struct BodyCircles {
 }
 
 impl BodyCircles {
-    /// The place as radius and turn (radians) from the first hole of each circle.
+    /// The place as radius and angle (radians) from the first hole of each circle.
     fn polar(&self, p: &Point3<f64>) -> (f64, f64) {
         let [x, y] = self.plane.coordinates(p, self.grid.origin);
         let turn = if x == 0.0 && y == 0.0 { 0.0 } else { y.atan2(x) };
@@ -286,7 +286,7 @@ mod tests {
         };
         let circle = |holes| HoleCircle { radius: 4.0, holes };
         assert!(holds(bolts(&[circle(8), circle(9)])) && !holds(bolts(&[circle(8), circle(10)])));
-        // no grid, and joints that do not turn
+        // no grid; a grid whose holes are not symmetric about the middle
         assert!(holes_turn(&plane(), None, 5.0));
         assert!(!holes_turn(&plane(), Some(&pattern(HolePattern::Triangular, [0.0; 2])), 5.0));
     }

@@ -204,7 +204,7 @@ fn grids_may_be_turned_shifted_and_of_two_pitches() {
     assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     let back = Rotation3::from_axis_angle(&Vector3::z_axis(), -30f64.to_radians());
     for p in e.manipulator.base_joints() {
-        // the origin is given before the turn
+        // the origin is given before the rotation of the grid
         let x = back * (p.coords - Vector3::new(0.11, -0.07, 0.0)) / 0.3;
         assert!((x.x - x.x.round()).abs() < 1e-9 && (x.y - x.y.round()).abs() < 1e-9);
     }
@@ -335,7 +335,7 @@ fn three_fold_platforms_keep_their_symmetry_on_triangular_grids() {
     assert!(e.three_fold && e.proved && symmetric(&e.manipulator), "{:?}", e.joints);
     assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     assert!(e.joints.iter().all(|j| j.off_line.is_none_or(|off| off < 1e-12)));
-    // negative controls: squares, a grid that does not turn about the middle, a platform that does not turn
+    // negative controls: square grids, a grid without this symmetry about the middle, a platform without it
     let off = Grid { origin: [0.3 * pitch, 0.0], ..triangular };
     for (m, grids) in [(three_fold(), [GRID; 2]), (three_fold(), [off; 2]), (free(), [triangular; 2])] {
         let e = round(&m, grids).unwrap().exact.unwrap();
@@ -371,8 +371,8 @@ fn three_fold_platforms_keep_their_symmetry_on_circles_and_joints_stand_on_their
         // the circles of the platform are up to 0.9 apart
         assert!(joint.moved.norm() < 1.0, "{joint:?}");
     }
-    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform that does
-    // not turn
+    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform without the
+    // symmetry
     let uneven = Grid::polar(HoleCircle { radius: 1.0, holes: 47 }, 0.5);
     let off = Grid { origin: [0.1, 0.0], ..polar };
     for (m, grids) in [(three_fold(), [uneven, bolts]), (three_fold(), [off, bolts]), (free(), [polar; 2])] {

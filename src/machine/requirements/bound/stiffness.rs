@@ -33,9 +33,9 @@ use platform::manipulator::Manipulator;
 /// The matrix `B` that `K` is compared with.
 #[derive(Debug, Clone, Copy)]
 enum Compared<'a> {
-    /// Shifts: `diag(I, 0)`.
+    /// Translations: `diag(I, 0)`.
     Shifts,
-    /// Turns: `diag(0, I)`.
+    /// Rotations: `diag(0, I)`.
     Turns,
     /// The mass matrix.
     Masses(&'a VibratingMasses),
