@@ -17,7 +17,7 @@ use crate::climb::{Effort, PENALTY, Run, Task};
 use num::Purpose;
 use num::parallel::parallel;
 
-/// Options of the search; none of them changes what is feasible.
+/// Options of the search; none of them changes the requirements of a feasible design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ShapeSearchOptions {
     /// Seed of the populations. The same seed gives the same answer for any number of threads.

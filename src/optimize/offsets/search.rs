@@ -23,7 +23,7 @@ use num::parallel::parallel;
 use num::{Purpose, Rng};
 use synthesis::offset_determinant;
 
-/// Options of the search; none of them changes what is feasible.
+/// Options of the search; none of them changes the requirements of a feasible design.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OffsetSearchOptions {
     /// Seed of starting points. The same seed gives the same answer for any number of threads.

@@ -229,7 +229,7 @@ fn joints_known_between_bounds_leave_less_that_is_proved() {
     let plain = proved(&m);
     assert!(scales[0] > 0.9 * plain && scales[0] <= plain, "{scales:?} {plain}");
     assert!(scales[1] < scales[0] && scales[2] <= 0.0, "{scales:?}");
-    // what is proved holds for joints anywhere between the bounds
+    // the proof holds for all joints within the bounds
     let mut rng = Rng::new(77);
     for _ in 0..20 {
         let mut moved = |p: Point3<f64>| p.map(|x| x + rng.uniform(-5.0, 5.0));
