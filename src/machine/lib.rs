@@ -1,7 +1,6 @@
 //! Requirements of a machine with their margins and proofs, drives, limits, motion, tolerances and calibration.
 //!
-//! It depends on `num`, `platform`, `fk`, `synthesis` and `verify`; the last two serve the rounding of joints to holes. It
-//! reads no files.
+//! It depends on `num`, `platform`, `fk`, `synthesis` and `verify`, and reads no files.
 //!
 //! * [`Requirements`](requirements::Requirements): the requirements of a platform, with the poses for which they hold.
 //! * [`Terms`](requirements::Terms): the margins of all requirements at a pose.
