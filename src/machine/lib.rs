@@ -1,15 +1,13 @@
-//! Says what a built machine can do: requirements with their margins and proofs, drives, limits, motion, tolerances,
-//! calibration.
+//! Requirements of a machine with their margins and proofs, drives, limits, motion, tolerances and calibration.
 //!
-//! It knows `num`, `platform`, `fk` and, where tolerances ask whether two platforms are equivalent, `verify`; it reads
-//! no files.
+//! It depends on `num`, `platform`, `fk`, `synthesis` and `verify`, and reads no files.
 //!
-//! * [`Requirements`](requirements::Requirements): what is asked of a platform, with the poses for which it is asked.
+//! * [`Requirements`](requirements::Requirements): the requirements of a platform, with the poses for which they hold.
 //! * [`Terms`](requirements::Terms): the margins of all requirements at a pose.
-//! * [`MarginProof`](requirements::MarginProof): what is proved of them over a workspace.
+//! * [`MarginProof`](requirements::MarginProof): their proved bounds over a workspace.
 //!
-//! A manipulator with its requirements becomes margins at poses; a search looks for the worst pose and interval
-//! arithmetic proves that there is no worse one.
+//! Requirements of a manipulator become margins at poses. A search finds the worst pose, and interval arithmetic proves
+//! that no pose is worse.
 
 pub mod calibration;
 pub mod coupled;

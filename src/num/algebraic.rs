@@ -1,7 +1,7 @@
-//! Numbers of one field of square roots, of any length, for decisions that neither rounding nor length must take.
+//! Numbers of one field of square roots, of any length, for decisions that are independent of rounding and length.
 //!
-//! [`Surd`] refuses long results, because designs are written and printed with it. Here sums, products and quotients
-//! always exist: [`Algebraic::all`] admits only numbers of one field whose radicands stay below `2^63`.
+//! [`Surd`] refuses long results, because designs are written and printed with it. Sums, products and quotients always
+//! exist here: [`Algebraic::all`] admits only numbers of one field whose radicands stay below `2^63`.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -16,12 +16,12 @@ use super::surd::Surd;
 pub enum Algebraic {
     /// A fraction.
     Rational(Rational),
-    /// A sum of square roots that is no fraction.
+    /// A sum of square roots that is not a fraction.
     Irrational(Surd),
 }
 
 impl Algebraic {
-    /// The numbers, in their order; `None` when they have too many independent square roots.
+    /// The numbers, in their order; `None` if they have too many independent square roots.
     pub fn all(numbers: &[&Surd]) -> Option<Vec<Self>> {
         degree_of(numbers.iter().copied())?;
         Some(numbers.iter().map(|x| Self::of((*x).clone())).collect())
@@ -41,7 +41,7 @@ impl Algebraic {
         matches!(self, Self::Rational(x) if x.is_zero())
     }
 
-    /// The number when it is a fraction.
+    /// The number if it is a fraction.
     pub fn as_rational(&self) -> Option<&Rational> {
         match self {
             Self::Rational(x) => Some(x),
@@ -168,8 +168,8 @@ impl ExactNumber for Algebraic {
         self * other
     }
 
-    /// Fractions go the way of fractions; other rows are eliminated in the field, if they are not independent modulo a
-    /// prime, where they would be independent.
+    /// Rows of fractions are eliminated as such. Other rows are eliminated in the field, unless they are independent
+    /// modulo a prime, which proves independence.
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>> {
         let rational = rows.iter().map(|row| row.iter().map(|x| x.as_rational().cloned()).collect());
         if let Some(rows) = rational.collect::<Option<Vec<Vec<Rational>>>>() {
@@ -193,7 +193,7 @@ fn independent_modulo_a_prime(rows: &[Vec<Algebraic>]) -> bool {
     })
 }
 
-/// The relations by elimination in the field; that of a row has a one in its own place.
+/// The relations by elimination in the field; the relation of a row has a one at the row's own place.
 fn eliminated(rows: &[Vec<Algebraic>]) -> Vec<Vec<Algebraic>> {
     let (count, width) = (rows.len(), rows.first().map_or(0, Vec::len));
     let mut work = rows.to_vec();
@@ -259,7 +259,7 @@ mod tests {
         let trace = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(400));
         spoilt[2][1] = &spoilt[2][1] + &trace.into();
         assert!(Algebraic::relations(&spoilt).is_empty());
-        // elimination alone says the same, without the prime
+        // elimination alone gives the same, without the prime
         assert!(eliminated(&spoilt).is_empty());
     }
 

@@ -1,22 +1,22 @@
-//! Balls of real and complex numbers: a centre and a radius that takes up every rounding error.
+//! Balls of real and complex numbers: a centre and a radius that includes every rounding error.
 //!
 //! One type serves reals ([`Ball<f64>`], within the crate `Real`), complex numbers ([`Disc`]) and complex numbers about
-//! a centre in double-double (`WideDisc`); the centre says by [`BallCentre`] what its own operations cost. An
-//! [`Interval`] encloses reals too, by its two ends: it is the one to take where signs and ends matter (ranges,
-//! bisection, square roots near zero), a ball where many products and sums follow each other, at half of the price.
+//! a centre in double-double (`WideDisc`). The centre defines the rounding errors of its operations by [`BallCentre`].
+//! An [`Interval`] encloses reals too, by its two ends. It suits computations with signs and ends (ranges, bisection,
+//! square roots near zero). A ball suits long chains of products and sums, at half of the cost.
 //!
-//! Error analysis, with the unit `u = 2^-53` of double or [`DoubleDouble::UNIT`] in its place, and
-//! `|z|_1 = |re z| + |im z|`, which is computed without underflow and satisfies `|z| <= |z|_1 <= sqrt 2 |z|`. Rounding
-//! to nearest gives each part of a sum of doubles relative error `u`; each part of a product `ac - bd` error
-//! `2u(1+u)(|ac| + |bd|)`, so that the modulus of the product's error is at most `2u(1+u) (|z|_1 |w|_1)`. In
-//! double-double the two parts of a sum have relative error `u` each, together `2u`, and a product of two parts takes
-//! two products and a sum, below `4u |z|_1 |w|_1` for the modulus. The inverse, `conj z / |z|^2`, takes a product, a
-//! sum without cancellation and a quotient in each part: below `8u |1/z|_1`. The radii are computed in double from sums
-//! and products of non-negative numbers in fewer than 60 operations, hence with relative error below
-//! `61 * 2^-53 < 2^-40`; the factor `1 + 2^-40` makes them upper bounds again. Moduli of centres in double-double are
-//! those of their leading doubles, off by `2^-53` of themselves, which it takes up too. Underflow adds at most
-//! `2^-1074` an operation, which the `2^-900` added to radii covers as long as moduli stay below `2^100`. A radius that
-//! is infinite or NaN says nothing and makes every test that would prove something fail.
+//! The error analysis uses the unit `u = 2^-53` of double, or [`DoubleDouble::UNIT`], and `|z|_1 = |re z| + |im z|`.
+//! The latter is computed without underflow and satisfies `|z| <= |z|_1 <= sqrt 2 |z|`. Rounding to nearest gives each
+//! part of a sum of doubles relative error `u`. Each part of a product `ac - bd` has error `2u(1+u)(|ac| + |bd|)`, so
+//! the modulus of the product's error is at most `2u(1+u) (|z|_1 |w|_1)`. In double-double the two parts of a sum have
+//! relative error `u` each, together `2u`. A product of two parts takes two products and a sum, below `4u |z|_1 |w|_1`
+//! for the modulus. The inverse, `conj z / |z|^2`, takes a product, a sum without cancellation and a quotient in each
+//! part: below `8u |1/z|_1`. The radii are computed in double from sums and products of non-negative numbers in fewer
+//! than 60 operations. Their relative error is below `61 * 2^-53 < 2^-40`; the factor `1 + 2^-40` makes them upper
+//! bounds again. Moduli of centres in double-double are those of their leading doubles, with a relative error of
+//! `2^-53`, which the factor also covers. Underflow adds at most `2^-1074` an operation, which the `2^-900` added to
+//! radii covers as long as moduli stay below `2^100`. An infinite or NaN radius carries no information and makes every
+//! proving test fail.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -31,7 +31,7 @@ pub const UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 pub const TINY: f64 = f64::from_bits((1023 - 900) << 52);
 const U: f64 = f64::EPSILON / 2.0;
 
-/// A number that balls are about, and what rounding costs in its arithmetic.
+/// The centre of a ball, with the rounding errors of its arithmetic.
 pub trait BallCentre:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -42,11 +42,11 @@ pub trait BallCentre:
     /// Bound of the rounding error of [`inverse`](Self::inverse), as a multiple of its size.
     const INVERSE: f64;
 
-    /// The modulus or more, up to the rounding that `UP` takes up.
+    /// At least the modulus, up to the rounding covered by `UP`.
     fn size(self) -> f64;
-    /// Below the modulus although computed.
+    /// A lower bound of the modulus, rounding included.
     fn lower_modulus(self) -> f64;
-    /// `1 / z` with some rounding; `None` where its parts overflow or underflow.
+    /// `1 / z` with rounding; `None` if its parts overflow or underflow.
     fn inverse(self) -> Option<Self>;
     /// Product with a power of two, exact barring overflow and underflow.
     #[must_use]
@@ -85,7 +85,7 @@ impl BallCentre for Complex64 {
     fn size(self) -> f64 {
         self.re.abs() + self.im.abs()
     }
-    /// The larger part when the squares could underflow, else the norm, less `2^-40` of it.
+    /// The larger part if the squares could underflow, otherwise the norm, minus `2^-40` of it.
     #[inline]
     fn lower_modulus(self) -> f64 {
         let square = self.norm_sqr();
@@ -136,7 +136,7 @@ impl BallCentre for ComplexDoubleDouble {
 pub struct Ball<C> {
     /// Centre.
     pub centre: C,
-    /// Radius; infinite or NaN means that nothing is known.
+    /// Radius; infinite or NaN means no information.
     pub radius: f64,
 }
 
@@ -162,7 +162,7 @@ impl<C: BallCentre> Ball<C> {
         (self.centre.size() + self.radius) * UP
     }
 
-    /// Lower bound of the moduli, zero when the ball may hold zero.
+    /// Lower bound of the moduli, zero if the ball may contain zero.
     #[must_use]
     #[inline]
     pub fn mignitude(&self) -> f64 {
@@ -178,7 +178,7 @@ impl<C: BallCentre> Ball<C> {
         (self.centre - other.centre).lower_modulus() > (self.radius + other.radius) * UP
     }
 
-    /// Encloses `1 / z`, `None` when the ball may hold zero: `|1/z - 1/c| = |z - c| / (|z| |c|)`.
+    /// Encloses `1 / z`; `None` if the ball may contain zero. `|1/z - 1/c| = |z - c| / (|z| |c|)`.
     #[must_use]
     #[inline]
     pub fn reciprocal(&self) -> Option<Self> {
@@ -210,7 +210,7 @@ impl Real {
         (self.centre + self.radius).next_up()
     }
 
-    /// Encloses the positive roots, `None` unless all numbers are above zero: `|sqrt z - sqrt c| <= |z - c| / sqrt c`.
+    /// Encloses the positive roots; `None` unless all numbers are positive. `|sqrt z - sqrt c| <= |z - c| / sqrt c`.
     #[must_use]
     #[inline]
     pub fn sqrt(&self) -> Option<Self> {
@@ -307,7 +307,7 @@ mod tests {
     trait Lift: BallCentre {
         /// Digits of the sums and products of points.
         const WIDTH: f64;
-        /// How far below the centre's leading digits a radius that is not 0 is drawn.
+        /// Size of random nonzero radii, below the leading digits of the centre.
         const RADIUS: f64;
         fn draw(rng: &mut Rng, scale: f64) -> Self;
         fn lift(self) -> Pair;
@@ -379,7 +379,7 @@ mod tests {
             assert!(holds(&(a + b), &(&xr + &yr, &xi + &yi)) && holds(&(a - b), &(&xr - &yr, &xi - &yi)));
             let product = a * b;
             assert!(holds(&product, &(&xr * &yr - &xi * &yi, &xr * &yi + &xi * &yr)));
-            // the enclosures are of use: nearly all digits of the centre
+            // the enclosures are useful: nearly all digits of the centre
             let points = a.radius + b.radius <= 0.0;
             assert!(!points || product.radius < C::WIDTH * product.centre.size());
             let n = &xr * &xr + &xi * &xi;

@@ -1,7 +1,7 @@
 //! Complex numbers with parts of any type.
 //!
-//! Complex numbers in double are those of `num_complex`. Its generic type asks more of the parts than double-double and
-//! octuple numbers have (remainders, numbers read from texts), hence this one, which asks for sums and products alone.
+//! Complex numbers in double are those of `num_complex`. Its generic type requires remainders and parsing of its parts,
+//! which double-double and octuple numbers lack. This type requires only sums and products.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,8 +1,8 @@
-//! The one door to the conic solver clarabel (Goulart, Chen 2024); no other file names it.
+//! The only interface to the conic solver clarabel (Goulart, Chen 2024).
 //!
-//! A program is `minimise 1/2 x^T P x + q^T x` subject to `b - A x in K`, given row by row. Its status is translated,
-//! and never believed alone: every point is re-checked here by plain arithmetic on the rows, an infeasibility
-//! certificate in intervals by `num::farkas`.
+//! A program is `minimise 1/2 x^T P x + q^T x` subject to `b - A x in K`, given row by row. Its status is translated
+//! and always checked: points by plain arithmetic on the rows, infeasibility certificates in intervals by
+//! `num::farkas`.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -51,7 +51,7 @@ pub struct ConicProgram {
 pub struct ConicPoint {
     /// The variables.
     pub x: Vec<f64>,
-    /// One multiplier a row, in the dual cone.
+    /// One multiplier per row, in the dual cone.
     pub dual: Vec<f64>,
     /// Largest violation.
     pub residual: f64,
@@ -62,13 +62,13 @@ pub struct ConicPoint {
 pub enum ConicAnswer {
     /// A point; accept it by its residual.
     Point(ConicPoint),
-    /// Claimed infeasible, with a dual ray that is still to be checked.
+    /// Claimed infeasible, with an unchecked dual ray.
     Infeasible(Vec<f64>),
-    /// Neither.
+    /// The solver failed.
     Failed(SolverFailure),
 }
 
-/// Why the conic solver gave no answer.
+/// The reason why the conic solver gave no answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum SolverFailure {
@@ -101,7 +101,7 @@ impl std::fmt::Display for SolverFailure {
 pub struct ConicTally(Arc<AtomicU64>);
 
 impl ConicTally {
-    /// Programs that clarabel was given.
+    /// Number of programs given to clarabel.
     #[must_use]
     pub fn count(&self) -> u64 {
         self.0.load(Ordering::Relaxed)
@@ -180,7 +180,7 @@ impl ConicProgram {
                 ConicAnswer::Failed(SolverFailure::Unbounded)
             }
             SolverStatus::MaxIterations | SolverStatus::MaxTime => ConicAnswer::Failed(SolverFailure::Limit),
-            // a stalled solver often stands at a good point: its residual decides
+            // a stalled solver is often at a good point: its residual decides
             SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
                 let residual = self.violation(&found.x);
                 ConicAnswer::Point(ConicPoint { x: found.x.clone(), dual: found.z.clone(), residual })
@@ -244,7 +244,7 @@ mod tests {
         let ConicAnswer::Point(p) = disc().solve(&ConicTally::default()) else { panic!("no point") };
         let s = 0.5f64.sqrt();
         assert!((p.x[0] - s).abs() < 1e-6 && (p.x[1] - s).abs() < 1e-6 && p.residual < 1e-7);
-        // negative control: a point outside is told by plain arithmetic
+        // negative control: plain arithmetic detects a point outside
         assert!((disc().violation(&[1.0, 1.0]) - (2f64.sqrt() - 1.0)).abs() < 1e-12);
         assert!(disc().violation(&[f64::NAN, 0.0]).is_infinite());
     }

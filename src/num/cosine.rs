@@ -1,14 +1,12 @@
-//! Products of a square root and of cosines of shares of a turn: a basis, over the fractions, of a real field that is
-//! closed under products.
+//! Products of a square root and of cosines of fractions of a turn. They are a basis, over the fractions, of a real
+//! field closed under products.
 //!
-//! Three towers stand beside the square roots of integers: `2 cos(k 360/32)`, `2 cos(k 360/20)` and `2 cos(k 360/9)`
-//! degrees.
-//! Their fields have the degrees 8, 4 and 3; the first holds `sqrt(2)`, the second `sqrt(5)`, and no two of them
-//! share more than the fractions.
-//! Square roots of integers without the factors 2 and 5 are independent of all three, because 2, 3 and 5 are the only
-//! primes that ramify there and `sqrt(3)` is in none of them.
-//! So each number of the compositum is one sum of fractions times the [`FieldRoot`]s (Washington 1997, chapter 2, for
-//! the fields and their intersections).
+//! Besides the square roots of integers there are three towers: `2 cos(k 360/32)`, `2 cos(k 360/20)` and
+//! `2 cos(k 360/9)` degrees. Their fields have the degrees 8, 4 and 3. The first contains `sqrt(2)`, the second
+//! `sqrt(5)`, and any two of them share only the fractions. Square roots of integers without the factors 2 and 5 are
+//! independent of all three. The reason is that only the primes 2, 3 and 5 ramify there, and `sqrt(3)` is in none of
+//! them. So each number of the compositum is one sum of fractions times the [`FieldRoot`]s (Washington 1997, chapter 2,
+//! for the fields and their intersections).
 
 use num_bigint::BigInt;
 use num_integer::Integer as _;
@@ -16,21 +14,21 @@ use num_traits::{One, Zero};
 
 /// The towers: cosines of multiples of a turn divided by these numbers.
 const TOWERS: [u32; 3] = [32, 20, 9];
-/// Of the first tower, the index of `sqrt(2)`.
+/// Index of `sqrt(2)` in the first tower.
 const SQRT_2: u8 = 4;
-/// Bits beyond those asked for in the fixed-point values.
+/// Additional bits of the fixed-point values.
 const GUARD: u64 = 16;
 
-/// `sqrt(r) 2cos(i 360/32) 2cos(j 360/20) 2cos(k 360/9)` with `r` squarefree; an index 0 leaves its cosine out.
+/// `sqrt(r) 2cos(i 360/32) 2cos(j 360/20) 2cos(k 360/9)` with `r` squarefree; an index 0 omits its cosine.
 ///
-/// `i` is 1, 2, 3, 5, 6 or 7 and then `r` is odd; `j` is 1 or 3 and then 5 does not divide `r`; `k` is 1 or 2.
+/// For `i` 1, 2, 3, 5, 6 or 7, `r` is odd. For `j` 1 or 3, 5 does not divide `r`. `k` is 1 or 2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FieldRoot {
     radicand: u64,
     cosines: [u8; 3],
 }
 
-/// An automorphism of the field over the largest field without the generator that a [`FieldRoot`] has.
+/// An automorphism over the largest subfield without the given generator.
 ///
 /// The first in this order are eliminated first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,7 +53,7 @@ impl FieldRoot {
         Self { radicand, ..Self::ONE }
     }
 
-    /// What sums up to `4cos(k 360 / n)` for the tower `n = 32, 20, 9`.
+    /// The terms that sum up to `4cos(k 360 / n)` for the tower `n = 32, 20, 9`.
     pub(super) fn four_cosines(tower: usize, k: u32) -> Vec<(Self, i64)> {
         let n = TOWERS[tower];
         // from 0 to half a turn
@@ -102,10 +100,10 @@ impl FieldRoot {
         self.cosines[1] > 0
     }
 
-    /// The numbers that sum up to the product of two; twice these numbers where `doubled`, which it has to be for two
-    /// with [`Self::has_twentieth`].
+    /// The numbers that sum up to the product of two, or to twice the product if `doubled`; two numbers with
+    /// [`Self::has_twentieth`] require that.
     ///
-    /// `None` when a radicand does not fit.
+    /// `None` if a radicand is too large.
     pub(super) fn times(self, other: Self, doubled: bool) -> Option<Vec<(Self, i64)>> {
         let two = if doubled { 2 } else { 1 };
         let (r, s) = (self.coprime_part(), other.coprime_part());
@@ -185,7 +183,7 @@ impl FieldRoot {
         vec![(self, if negated { -1 } else { 1 })]
     }
 
-    /// It and all its conjugates are below two to this power.
+    /// The exponent of a power of two above it and all its conjugates.
     pub(super) fn magnitude_bits(self) -> u64 {
         // a square root has at most half the bits of its radicand, rounded up
         let root = u64::from(u64::BITS - self.radicand.leading_zeros()).div_ceil(2);
@@ -198,8 +196,8 @@ impl FieldRoot {
             let root = ((c * c * self.radicand) << (2 * k)).sqrt();
             return if c.sign() == num_bigint::Sign::Minus { -root } else { root };
         }
-        // errors of 2^-bits in factors whose product is below 2^magnitude: four of them are below 2^(magnitude + 3 -
-        // bits) together
+        // errors of 2^-bits in factors whose product is below 2^magnitude; four of them are together below
+        // 2^(magnitude + 3 - bits)
         let bits = k + c.bits() + self.magnitude_bits() + GUARD;
         let root = (BigInt::from(self.radicand) << (2 * bits)).sqrt();
         let product = self.cosines().fold(root, |x, (n, i)| (x * twice_cosine(n, i, bits)) >> bits);
@@ -207,7 +205,7 @@ impl FieldRoot {
     }
 }
 
-/// Of the second tower, with `sqrt(5) = 4 cos(36) - 1`.
+/// An element of the second tower, with `sqrt(5) = 4 cos(36) - 1`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Twentieth {
     One,
@@ -254,7 +252,7 @@ fn of_twentieths(x: Twentieth, y: Twentieth) -> (Vec<(Twentieth, i64)>, bool) {
     }
 }
 
-/// As for the first tower, with `2cos 160 = -2cos 40 - 2cos 80` and `2cos 120 = -1`.
+/// The same as for the first tower, with `2cos 160 = -2cos 40 - 2cos 80` and `2cos 120 = -1`.
 fn of_ninths(i: u8, j: u8) -> Vec<(u8, i64)> {
     match (i, j) {
         (0, k) | (k, 0) => vec![(k, 1)],

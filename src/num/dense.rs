@@ -1,9 +1,8 @@
-//! Eigenvalue problems and triangular factors of matrices of some size, by faer; no other file names it. They belong to
-//! the eliminations for comparison and to the units of time of `bench`: everything else has small matrices and
-//! [`super::linalg`].
+//! The only interface to faer: eigenvalue problems and triangular factors of larger matrices. The comparison
+//! eliminations and the timing units of `bench` use it; all other matrices are small ([`super::linalg`]).
 //!
-//! faer is built without its `rayon` feature, so every call is sequential: equal inputs give equal bytes,
-//! and parallelism is over problems, outside.
+//! faer is built without its `rayon` feature, so every call is sequential and deterministic; problems run in parallel
+//! outside.
 
 use faer::{Mat, MatRef};
 use num_complex::Complex64;

@@ -1,7 +1,7 @@
 //! Row echelon forms modulo a prime of 61 bits.
 //!
-//! A row is reduced in accumulators of 128 bits: products are added without division, and each column is reduced once,
-//! when the elimination comes to it (delayed reduction; Dumas, Giorgi, Pernet 2008).
+//! A row is reduced in accumulators of 128 bits. Products are added without division, and each column is reduced once,
+//! when the elimination reaches it (delayed reduction; Dumas, Giorgi, Pernet 2008).
 
 use super::modular::Field;
 
@@ -11,7 +11,7 @@ struct Wide {
     p: u64,
     /// `floor(2^124 / p)`, below `2^64`.
     reciprocal: u64,
-    /// `2^62 p`: accumulators are kept below it.
+    /// `2^62 p`, the upper limit of accumulators.
     ceiling: u128,
 }
 
@@ -31,7 +31,7 @@ impl Wide {
     #[inline]
     fn reduced(self, x: u128) -> u64 {
         let quotient = (((x >> 60) * u128::from(self.reciprocal)) >> 64) as u64;
-        // the quotient is too small by two at most
+        // the quotient is too small by at most two
         let mut rest = (x - u128::from(quotient) * u128::from(self.p)) as u64;
         while rest >= self.p {
             rest -= self.p;
@@ -69,8 +69,8 @@ impl Echelon {
         self.rows.len()
     }
 
-    /// Adds a row of residues; the column of its leading entry after elimination, `None` when it depends on the rows
-    /// before.
+    /// Adds a row of residues; returns the column of its leading entry after elimination, or `None` if it depends on
+    /// the earlier rows.
     pub fn insert(&mut self, row: &[u64]) -> Option<usize> {
         let Self { wide, work, .. } = self;
         for (w, x) in work.iter_mut().zip(row) {
@@ -114,7 +114,7 @@ impl Echelon {
             for &later in &leading[place + 1..] {
                 let x = self.rows[own][later];
                 let Some(other) = self.of_column[later].filter(|_| x != 0) else { continue };
-                // the other row has no entries left in leading columns but its own
+                // the other row has no entries left in leading columns except its own
                 for &k in &free {
                     work[k] = wide.add_product(work[k], wide.p - x, self.rows[other][k]);
                 }
@@ -126,7 +126,7 @@ impl Echelon {
         }
     }
 
-    /// The row that leads in a column.
+    /// The row with its leading entry in a column.
     pub fn leading_in(&self, column: usize) -> Option<&[u64]> {
         self.of_column[column].map(|r| self.rows[r].as_slice())
     }

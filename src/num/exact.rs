@@ -1,7 +1,7 @@
-//! Exact rational arithmetic on doubles, for decisions that rounding must not take.
+//! Exact rational arithmetic on doubles, for decisions independent of rounding.
 //!
-//! Every finite double is a rational number, so that linear relations between data given as doubles are
-//! true or false without any tolerance.
+//! Every finite double is a rational number, so linear relations between data given as doubles are true or false
+//! without any tolerance.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -13,12 +13,12 @@ use super::modular::Field;
 /// A rational number of any size.
 pub type Rational = BigRational;
 
-/// Numbers of a field that knows the linear relations between its rows.
+/// Numbers of a field with a method for linear relations between rows.
 pub trait ExactNumber: Clone {
     /// The product of two.
     fn product(&self, other: &Self) -> Self;
 
-    /// A basis of the linear relations between the rows, as [`relations`] gives it.
+    /// A basis of the linear relations between the rows, as in [`relations`].
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>>;
 }
 
@@ -56,7 +56,7 @@ pub fn rational(x: f64) -> Option<Rational> {
     })
 }
 
-/// The greatest common divisor. Powers of two are taken out first, since most denominators are some.
+/// The greatest common divisor. Powers of two are taken out first, since most denominators are powers of two.
 pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     let (Some(m), Some(n)) = (a.trailing_zeros(), b.trailing_zeros()) else { return a.gcd(b) };
     let is_power = |x: &BigInt, twos: u64| x.bits() == twos + 1;
@@ -74,19 +74,19 @@ pub fn relations<N: ExactNumber>(rows: &[Vec<N>]) -> Vec<Vec<N>> {
 
 /// [`relations`] between rows of fractions.
 ///
-/// Elimination without fractions (Bareiss 1968) of integer rows beside an identity; row `i` of the result has
-/// `rows.len()` entries, that of the row it was made of is 1. The rank is the number of rows less the number of
+/// It uses fraction-free elimination (Bareiss 1968) of integer rows next to an identity. Row `i` of the result has
+/// `rows.len()` entries; the entry of its original row is 1. The rank is the number of rows minus the number of
 /// relations.
 ///
-/// Relations between rows do not change when a column is multiplied, so that every column is brought to integers
-/// without a common power of two first; numbers of a thousand digits beside ones stay that long and no longer, because
-/// no fraction is ever reduced on the way.
+/// Relations between rows are invariant under multiplication of a column, so every column is first scaled to integers
+/// without a common power of two. Numbers of a thousand digits next to ones keep their length, since no fraction is
+/// reduced on the way.
 fn relations_of_fractions(rows: &[ExactVector]) -> Vec<ExactVector> {
     let count = rows.len();
     let width = rows.first().map_or(0, Vec::len);
     let mut work = integers(rows);
     if full_rank_modulo(Field::MERSENNE, &work) {
-        return Vec::new(); // a minor that is not zero modulo a prime is not zero
+        return Vec::new(); // a minor that is nonzero modulo a prime is nonzero
     }
     for (i, row) in work.iter_mut().enumerate() {
         row.extend((0..count).map(|j| BigInt::from(u8::from(i == j))));
@@ -129,7 +129,7 @@ pub fn product<N: ExactNumber>(a: &[N], b: &[N]) -> Vec<N> {
     a.iter().flat_map(|x| b.iter().map(move |y| x.product(y))).collect()
 }
 
-/// The rows with every column multiplied to integers, and common powers of two taken out of it.
+/// The rows with every column scaled to integers without a common power of two.
 fn integers(rows: &[Vec<Rational>]) -> Vec<Vec<BigInt>> {
     let width = rows.first().map_or(0, Vec::len);
     let mut out: Vec<Vec<BigInt>> = rows.iter().map(|_| Vec::with_capacity(width)).collect();
@@ -153,7 +153,7 @@ fn full_rank_modulo(field: Field, rows: &[Vec<BigInt>]) -> bool {
     field.rank(residues) == rows.len()
 }
 
-/// The multiple of a list that consists of integers without a common factor, the first that is not zero positive; zeros
+/// The multiple of a list that consists of integers without a common factor, with a positive first nonzero entry; zeros
 /// stay zeros.
 pub fn primitive(list: &[Rational]) -> Vec<Rational> {
     let Some(first) = list.iter().find(|x| **x != zero()) else { return list.to_vec() };
@@ -165,7 +165,7 @@ pub fn primitive(list: &[Rational]) -> Vec<Rational> {
     list.iter().map(|x| x * &factor).collect()
 }
 
-/// `digits * 10^exponent`; `None` for other texts than digits, and exponents of more than a thousand.
+/// `digits * 10^exponent`; `None` for texts other than digits, and exponents above a thousand.
 pub fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
     let digits: BigInt = digits.parse().ok()?;
     let power = u32::try_from(exponent.unsigned_abs()).ok().filter(|n| *n <= 1000)?;
@@ -173,11 +173,11 @@ pub fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
     Some(if exponent < 0 { Rational::new(digits, power) } else { Rational::from(digits * power) })
 }
 
-/// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be
+/// The nearest double, ties to even; overflow gives an infinity, and values below the smallest normal double may be
 /// rounded twice.
 pub fn nearest(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
-    // 64 or 65 leading bits of the quotient, and one that says whether anything is left
+    // 64 or 65 leading bits of the quotient, and one that indicates a remainder
     let shift = 64 + d.bits().cast_signed() - n.bits().cast_signed();
     let (n, d) = if shift >= 0 { (n << shift, d.clone()) } else { (n.clone(), d << -shift) };
     let (quotient, rest) = n.div_rem(&d);
@@ -190,16 +190,16 @@ pub fn nearest(x: &Rational) -> f64 {
     if *x < zero() { -scaled } else { scaled }
 }
 
-/// An upper bound of how far a double is from the numbers between `low` and `high`; zero where they are the double.
+/// An upper bound of the distance of a double from the numbers between `low` and `high`; zero if they are the double.
 pub fn farthest(double: f64, low: &Rational, high: &Rational) -> f64 {
     let Some(double) = rational(double) else { return f64::INFINITY };
-    // a difference in lowest terms would take longer than all else
+    // a difference in lowest terms would be the slowest step
     let off = |x: &Rational| {
         let difference = double.numer() * x.denom() - x.numer() * double.denom();
         if difference == BigInt::ZERO {
             return 0.0;
         }
-        // the approximation is off by one unit in the last place at most
+        // the approximation is off by at most one unit in the last place
         let far = approximate(&Rational::new_raw(difference, double.denom() * x.denom())).abs();
         far.next_up().next_up()
     };

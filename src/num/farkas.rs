@@ -1,14 +1,14 @@
 //! Farkas certificates judged in intervals.
 //!
-//! Rows `rhs - coefficients . x` that are to lie in a cone `K`, and a vector `y` of the dual cone: for every `x` that
-//! meets the rows, `0 <= y . (rhs - A x)`. Where the right-hand side is below 0 for all `x` of a box and all data
-//! within their intervals, no `x` of the box meets the rows (Farkas 1902; for cones Boyd, Vandenberghe 2004, sec. 5.8).
-//! `y` may come from anywhere: whatever it is, the proof is valid.
+//! Let the rows `rhs - coefficients . x` be in a cone `K`, and `y` a vector of the dual cone. Every `x` that meets the
+//! rows satisfies `0 <= y . (rhs - A x)`. If the right side is negative for all data in their intervals and all `x` of
+//! a box, no such `x` meets the rows. (Farkas 1902; for cones Boyd, Vandenberghe 2004, sec. 5.8.) The proof is valid
+//! for any `y`, whatever its origin.
 
 use super::conic::Cone;
 use super::interval::Interval;
 
-/// `rhs - sum coefficients x` with data that lie in intervals.
+/// `rhs - sum coefficients x` with data in intervals.
 #[derive(Debug, Clone)]
 pub struct EnclosedRow {
     /// Pairs of variable and coefficient.
@@ -17,8 +17,8 @@ pub struct EnclosedRow {
     pub rhs: Interval,
 }
 
-/// How far below 0 the combination of the rows stays on the box, for `|y|_1 = 1`; `None` when it does not: then nothing
-/// is proved.
+/// Distance of the combination of the rows below 0 on the box, for `|y|_1 = 1`; `None` if it is not below, so that
+/// nothing is proved.
 pub fn refuted(rows: &[EnclosedRow], cones: &[Cone], ray: &[f64], ranges: &[Interval]) -> Option<f64> {
     let weights = in_dual_cone(cones, ray)?;
     if rows.len() != weights.len() {
@@ -41,7 +41,7 @@ pub fn refuted(rows: &[EnclosedRow], cones: &[Cone], ray: &[f64], ranges: &[Inte
     (total.hi() < 0.0 && norm > 0.0).then(|| -total.hi() / norm)
 }
 
-/// A ray near the given one that is in the dual cone without any doubt; the cones are their own duals.
+/// A ray near the given one that is certainly in the dual cone; the cones are their own duals.
 fn in_dual_cone(cones: &[Cone], ray: &[f64]) -> Option<Vec<f64>> {
     let mut out = ray.to_vec();
     let mut rest = out.as_mut_slice();
@@ -82,11 +82,11 @@ mod tests {
         assert!(refuted(&rows(1.0 + 1e-12), &cones, &[1.0, 1.0], &ranges).is_none_or(|s| s < 1e-12));
         assert!(refuted(&rows(1.0), &cones, &[1.0, 1.0], &ranges).is_none());
         assert!(refuted(&rows(1.1), &cones, &[1.0, 1.0], &ranges).is_some_and(|s| s > 0.04));
-        // weights that do not cancel prove nothing over a wide box, and something over a narrow one
+        // weights that do not cancel prove nothing over a wide box, but do over a narrow one
         assert!(refuted(&rows(1.1), &cones, &[1.0, 1.1], &ranges).is_none());
         let narrow = [Interval::new(0.9, 1.2).unwrap()];
         assert!(refuted(&rows(1.1), &cones, &[1.0, 1.01], &narrow).is_some());
-        // a negative weight counts as none
+        // a negative weight counts as zero
         assert!(refuted(&rows(1.1), &cones, &[-1.0, 1.0], &ranges).is_none());
     }
 

@@ -1,6 +1,6 @@
 //! Values with first and second derivatives in up to six variables, enclosed over a box of them.
 //!
-//! Forward differentiation (Wengert 1964) in outward-rounded intervals: each component of a result holds that of the
+//! Forward differentiation (Wengert 1964) in outward-rounded intervals: each component of a result encloses that of the
 //! exact function at every point of the box.
 
 use std::ops::{Add, Mul, Neg, Sub};
@@ -8,7 +8,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::interval::Interval;
 pub use super::smooth::{cross, dot, norm_squared};
 
-/// Places of the second derivatives of six variables.
+/// Number of second derivatives in six variables.
 const PAIRS: usize = 21;
 
 /// A function over a box of variables.
@@ -24,7 +24,7 @@ pub struct Jet {
     second: bool,
 }
 
-/// The place of the derivative by variables `i <= j`.
+/// The index of the derivative by variables `i <= j`.
 fn place(i: usize, j: usize) -> usize {
     i * (11 - i) / 2 + j
 }
@@ -45,12 +45,12 @@ impl Jet {
         Self::constant(value, self.variables, self.second)
     }
 
-    /// A function of which nothing is known, in the same variables.
+    /// An unbounded function in the same variables.
     pub fn unknown(&self) -> Self {
         Self { value: Interval::WHOLE, slope: [Interval::WHOLE; 6], curve: [Interval::WHOLE; PAIRS], ..*self }
     }
 
-    /// Without its second derivatives: what is computed from it costs no more than its slopes.
+    /// The jet without its second derivatives, so that results from it cost only their slopes.
     pub fn first_order(mut self) -> Self {
         self.second = false;
         self.curve = [Interval::ZERO; PAIRS];
@@ -67,7 +67,7 @@ impl Jet {
         self.slope[k]
     }
 
-    /// Second derivatives; zero where they are not kept.
+    /// Second derivatives; zero if they are not kept.
     pub fn curve(&self, i: usize, j: usize) -> Interval {
         self.curve[place(i.min(j), i.max(j))]
     }
@@ -77,12 +77,12 @@ impl Jet {
         self.curve[place(i.min(j), i.max(j))] = curve;
     }
 
-    /// With other values and the same derivatives.
+    /// The jet with other values and the same derivatives.
     pub fn with_value(self, value: Interval) -> Self {
         Self { value, ..self }
     }
 
-    /// The lengths of the derivatives of a vector, of first or of second order, rounded up, at their places.
+    /// The norms of the derivatives of a vector, of first or of second order, rounded up, by index.
     pub fn sizes(v: &JetVector, order: usize) -> [Interval; PAIRS] {
         std::array::from_fn(|k| {
             let part = |x: &Self| match order {
@@ -94,8 +94,7 @@ impl Jet {
         })
     }
 
-    /// With derivatives of first or of second order that may differ by as much, at their places, and no others of that
-    /// order or above.
+    /// The jet with derivatives of the given order widened by `widths`, by index. Higher orders are dropped.
     pub fn widened(mut self, order: usize, widths: &[Interval; PAIRS]) -> Self {
         let wide = |x: Interval, width: Interval| x + Interval::about_zero(width.hi());
         if order == 1 {
@@ -113,7 +112,7 @@ impl Jet {
         self
     }
 
-    /// `f` of it, from values of `f`, `f'` and `f''` over its values.
+    /// `f` of the jet, from values of `f`, `f'` and `f''` over its values.
     pub fn composed(&self, f: [Interval; 3]) -> Self {
         let mut out = Self::constant(f[0], self.variables, self.second);
         for i in 0..self.variables {
@@ -196,7 +195,7 @@ impl Jet {
 
     fn product(&self, other: &Self) -> Self {
         let mut out = Self::constant(self.value * other.value, self.variables, self.second);
-        // most factors depend on few variables: products with zero are left out
+        // most factors depend on few variables, so products with zero are skipped
         let product = |x: Interval, y: Interval| {
             if x == Interval::ZERO || y == Interval::ZERO { Interval::ZERO } else { x * y }
         };
@@ -216,7 +215,7 @@ impl Jet {
     }
 }
 
-// the operators are inlined and what they do is not, so that operands, which are large, are not copied
+// the operators are inlined and their implementations are not, so that the large operands are not copied
 
 impl Add for Jet {
     type Output = Self;

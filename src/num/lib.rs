@@ -1,14 +1,14 @@
-//! Numbers with known errors: double-double, interval and exact arithmetic, polynomials in one unknown, decompositions
-//! of small matrices, seeded random numbers, and the doors to faer and clarabel.
+//! Numbers with known errors: double-double, interval and exact arithmetic, polynomials in one unknown, and
+//! decompositions of small matrices. Also seeded random numbers and the interfaces to faer and clarabel.
 //!
-//! It knows nothing of platforms and names no other room.
+//! The crate is independent of platforms and of the other crates of the project.
 //!
 //! * [`Interval`](interval::Interval): all real numbers between two doubles; every operation encloses the exact result.
 //! * [`Surd`](surd::Surd): a number of a field of square roots, exactly.
-//! * [`Rng`]: random numbers from a seed, a stream for each purpose.
+//! * [`Rng`]: random numbers from a seed, with a stream for each purpose.
 //!
-//! A number is made from a double or from a written expression, goes through the rooms above in the arithmetic that the
-//! question needs, and becomes a double with a bound of its error.
+//! A number comes from a double or from a written expression. It passes through the modules above in the suitable
+//! arithmetic, and becomes a double with an error bound.
 
 pub mod algebraic;
 pub mod ball;

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::small::{STEPS, complete, decompose};
 
-/// Entries below the diagonal that are smaller than this, relative to their neighbours, are zero, as `nalgebra` has it.
+/// Entries below the diagonal smaller than this, relative to their neighbours, count as zero, as in `nalgebra`.
 const SETTLED: f64 = 5.0 * f64::EPSILON;
 
 /// A decomposition that did not converge.
@@ -16,7 +16,7 @@ pub enum LinalgError {
     /// The iteration for singular values or eigenvalues did not converge.
     #[error("the {decomposition} of a {rows} x {columns} matrix did not converge")]
     NoConvergence {
-        /// Which decomposition.
+        /// The decomposition.
         decomposition: &'static str,
         /// Rows of the matrix.
         rows: usize,
@@ -28,7 +28,7 @@ pub enum LinalgError {
 /// Singular value decomposition `M = U diag(s) V^T` of a real matrix.
 #[derive(Debug, Clone)]
 pub struct Svd {
-    /// Left singular vectors, one a column: `u[i][k]` is entry `i` of vector `k` (rows x rank bound).
+    /// Left singular vectors, one per column: `u[i][k]` is entry `i` of vector `k` (rows x rank bound).
     pub u: Vec<Vec<f64>>,
     /// Singular values, largest first.
     pub s: Vec<f64>,
@@ -73,13 +73,13 @@ pub fn eigenvalues(rows: &[Vec<f64>]) -> Result<Vec<Complex64>, LinalgError> {
         return Err(failed);
     }
     let matrix = DMatrix::from_fn(n, n, |i, j| rows[i][j]);
-    // the shifts of `nalgebra` leave a cyclic permutation as it is; after a reflection it is no permutation any more
+    // the shifts of `nalgebra` leave a cyclic permutation unchanged; a reflection makes it no permutation
     let of = |m: DMatrix<f64>| Schur::try_new(m, SETTLED, STEPS).map(|d| d.complex_eigenvalues());
     let values = of(matrix.clone()).or_else(|| of(reflected(&matrix))).ok_or(failed)?;
     Ok(values.iter().copied().collect())
 }
 
-/// `H m H`, with `H` the reflection that turns `(1, 2, .., n)` round: the same eigenvalues.
+/// `H m H` with the reflection `H` that reverses `(1, 2, .., n)`: the same eigenvalues.
 fn reflected(m: &DMatrix<f64>) -> DMatrix<f64> {
     let n = m.nrows();
     let axis = DVector::from_fn(n, |i, _| (i + 1) as f64).normalize();

@@ -1,7 +1,7 @@
 //! Ranks modulo primes, for exact decisions about matrices with integer entries of many digits.
 //!
-//! Arithmetic modulo `p` is exact and of fixed size. A minor that is not zero modulo one prime is not zero; a minor
-//! that is zero modulo primes whose product exceeds its absolute value is zero.
+//! Arithmetic modulo `p` is exact and of fixed size. A minor that is nonzero modulo one prime is nonzero. A minor that
+//! is zero modulo primes whose product exceeds its absolute value is zero.
 
 use super::Rng;
 
@@ -9,10 +9,10 @@ use super::Rng;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Field(u64);
 
-/// Bits by which every prime of [`fields`] can be counted: all are above `2^60`.
+/// Guaranteed bits of every prime of [`fields`]: all are above `2^60`.
 pub const PRIME_BITS: u32 = 60;
 
-/// Prime fields below `2^61`, largest first, without end for all practical purposes; the first is [`Field::MERSENNE`].
+/// Prime fields below `2^61`, largest first, practically without end; the first is [`Field::MERSENNE`].
 pub(crate) fn all_fields() -> impl Iterator<Item = Field> {
     (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k).filter(|n| is_prime(*n)).map(Field)
 }
@@ -52,7 +52,7 @@ impl Field {
         if x < 0 { self.sub(0, r) } else { r }
     }
 
-    /// The residue of `x 2^shift` for a finite double; also where that is not an integer (2 has an inverse).
+    /// The residue of `x 2^shift` for a finite double, also for a fraction (2 has an inverse).
     pub fn scaled(self, x: f64, shift: i32) -> u64 {
         let (mantissa, exponent) = mantissa_and_exponent(x);
         self.mul(self.integer(mantissa), self.power_of_two(exponent + shift))
@@ -102,7 +102,7 @@ impl Field {
         result
     }
 
-    /// The inverse of a number that is not zero.
+    /// The inverse of a nonzero number.
     pub fn inverse(self, x: u64) -> u64 {
         self.pow(x, self.0 - 2)
     }
@@ -150,7 +150,7 @@ impl Field {
         (2..p).map(|x| self.pow(x, (p - 1) / n)).find(|z| primes.iter().all(|q| self.pow(*z, n / q) != 1))
     }
 
-    /// Determinant by expansion along the first row: for tests, nothing in common with [`rank`](Self::rank).
+    /// Determinant by expansion along the first row: for tests, independent of [`rank`](Self::rank).
     pub fn determinant<const N: usize>(self, rows: &[[u64; N]]) -> u64 {
         fn expand<const N: usize>(field: Field, rows: &[[u64; N]], columns: &[usize]) -> u64 {
             let Some((head, rest)) = rows.split_first() else { return 1 };
@@ -285,7 +285,7 @@ mod tests {
         }
         let f = fields(2)[1];
         assert_eq!(f.scaled(-0.75, 2), f.prime() - 3);
-        // 0.1 is m / 2^55: times 2^55 it is m, whichever way the power is split
+        // 0.1 is m / 2^55: times 2^55 it is m, for any split of the power
         let (m, e) = mantissa_and_exponent(0.1);
         assert_eq!(f.scaled(0.1, -e), m.cast_unsigned());
         assert_eq!(f.mul(f.scaled(0.1, 0), f.scaled(1.0, -e)), m.cast_unsigned());

@@ -1,30 +1,30 @@
-//! Names of choices: what a person writes for a method, a format, a body.
+//! Names of choices, as written by people: a method, a format, a body.
 
 use thiserror::Error;
 
-/// Whether a character changes the direction of the text after it: embeddings, overrides and isolates. A program then
-/// reads another text than the one shown (Boucher and Anderson 2021).
+/// Whether a character changes the direction of the text after it, by embedding, override or isolation. A program then
+/// reads a text other than the displayed one (Boucher and Anderson 2021).
 pub fn changes_direction(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A name that is none of those known.
+/// An unknown name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{given}` is not the name of a {what}; known are {}", .known.join(", "))]
 #[non_exhaustive]
 pub struct UnknownName {
-    /// What was to be named: `"method"`.
+    /// The kind of thing to name: `"method"`.
     pub what: &'static str,
     /// The name given.
     pub given: String,
-    /// The names there are.
+    /// The known names.
     pub known: Vec<&'static str>,
 }
 
-/// The choice of this name, upper and lower case and blanks around it apart.
+/// The choice of this name, ignoring case and surrounding blanks.
 ///
 /// # Errors
-/// A name that is none of the list, with the one that it is nearest to.
+/// A name outside the list, with the nearest known one.
 pub fn named<T: Copy>(
     what: &'static str,
     given: &str,

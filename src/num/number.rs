@@ -1,4 +1,4 @@
-//! Numbers that JSON may have no word for.
+//! Numbers that JSON may be unable to represent.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use schemars::transform::transform_subschemas;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A number that may be infinite or not a number, which JSON cannot say: `null` then, read back as NaN.
+/// A number that may be infinite or NaN, which JSON writes as `null` and reads back as NaN.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Number(pub f64);
 
@@ -42,9 +42,9 @@ impl JsonSchema for Number {
     }
 }
 
-/// Doubles in a schema may be null, as those of [`Number`]: the transform of answers whose fields are plain doubles.
+/// Allows null for doubles in a schema, like [`Number`]: the transform of answers whose fields are plain doubles.
 ///
-/// JSON itself needs nothing: `serde_json` writes `null` for a double that is infinite or not a number.
+/// JSON needs no change: `serde_json` writes `null` for an infinite or NaN double.
 pub fn nullable(schema: &mut Schema) {
     if schema.get("format").and_then(|format| format.as_str()) == Some("double") {
         schema.remove("format");
@@ -102,7 +102,7 @@ mod tests {
         #[derive(Serialize, JsonSchema)]
         #[schemars(rename = "Answer", transform = nullable)]
         struct Doubles {
-            /// What it is.
+            /// The field under test.
             one: f64,
             rows: Vec<[f64; 3]>,
             other: Option<f64>,
@@ -111,7 +111,7 @@ mod tests {
         #[derive(Serialize, JsonSchema)]
         #[schemars(rename = "Answer")]
         struct Numbers {
-            /// What it is.
+            /// The field under test.
             one: Number,
             rows: Vec<[Number; 3]>,
             other: Option<Number>,

@@ -1,8 +1,9 @@
-//! Floating point with 256 bits (octuple precision), for what double-double cannot resolve: the last part of homotopy
-//! paths whose ends differ by products of several small numbers.
+//! Floating point with 256 bits (octuple precision), for cases beyond double-double. An example is the last part of
+//! homotopy paths whose ends differ by products of several small numbers.
 //!
-//! Results are truncated: every operation has an error below `2^-253` of its result, a sum of the larger operand, a
-//! quotient four times that. Nothing here is a proof; the exponent has 32 bits and does not overflow in use.
+//! Results are truncated. The error of every operation is below `2^-253` of its result, of a sum of the larger operand,
+//! of a quotient four times that. The results prove nothing; the exponent has 32 bits and does not overflow in
+//! practice.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -33,7 +34,7 @@ impl Octuple {
         self.limbs[LIMBS - 1] == 0
     }
 
-    /// The nearest double but for truncation; numbers beyond the range of doubles become infinite or zero.
+    /// The nearest double up to truncation; numbers beyond the range of doubles become infinite or zero.
     pub fn rounded(self) -> f64 {
         if self.is_zero() {
             return 0.0;
@@ -45,7 +46,7 @@ impl Octuple {
         if self.negative { -value } else { value }
     }
 
-    /// The exponent `k` of `2^(k-1) <= |x| < 2^k`; that of zero is far below all others.
+    /// The exponent `k` of `2^(k-1) <= |x| < 2^k`; zero has one far below all others.
     pub fn exponent(&self) -> i32 {
         if self.is_zero() { i32::MIN / 4 } else { self.exponent }
     }
@@ -55,7 +56,7 @@ impl Octuple {
         if self.is_zero() { self } else { Self { exponent: self.exponent + k, ..self } }
     }
 
-    /// `limbs` with further bits below, brought to a leading one.
+    /// `limbs` with further bits below, shifted to a leading one.
     fn normalised(negative: bool, exponent: i32, limbs: [u64; LIMBS]) -> Self {
         let mut limbs = limbs;
         let mut exponent = exponent;
@@ -103,7 +104,7 @@ impl Octuple {
         Self { negative: self.negative, exponent: y.exponent - self.exponent, ..y }
     }
 
-    /// The square root of a number that is not negative: Newton's method for its reciprocal.
+    /// The square root of a non-negative number, by Newton's method for its reciprocal.
     pub fn sqrt(self) -> Self {
         if self.is_zero() || self.negative {
             return Self::ZERO;
@@ -125,7 +126,7 @@ impl From<f64> for Octuple {
         if !(x > 0.0 && x.is_finite()) {
             return Self::ZERO;
         }
-        // subnormal numbers are brought into the range first
+        // subnormal numbers are first scaled into the normal range
         let (x, shift) = if x < f64::MIN_POSITIVE { (x * 2f64.powi(64), 64) } else { (x, 0) };
         let exponent = ((x.to_bits() >> 52) & 0x7ff) as i32 - 1022 - shift;
         let mantissa = x.to_bits() & ((1 << 52) - 1) | 1 << 52;
@@ -269,17 +270,17 @@ impl ComplexOctuple {
     }
 }
 
-/// Factors of a square matrix with row exchanges.
+/// LU factors of a square matrix with row exchanges.
 #[derive(Debug, Clone)]
 pub struct OctupleLu<const N: usize> {
-    /// Below the diagonal the multipliers, on it the inverse pivots.
+    /// The multipliers below the diagonal, the inverse pivots on it.
     factors: [[ComplexOctuple; N]; N],
     order: [usize; N],
 }
 
 impl<const N: usize> OctupleLu<N> {
-    /// Factorises `a`; `None` when a column has no pivot. Pivots are the largest to a factor of two: digits there are
-    /// enough.
+    /// Factorises `a`; `None` if a column has no pivot. Pivots are the largest up to a factor of two, which suffices at
+    /// this precision.
     pub fn factorise(mut a: [[ComplexOctuple; N]; N]) -> Option<Self> {
         let mut order: [usize; N] = std::array::from_fn(|k| k);
         for k in 0..N {
@@ -348,7 +349,7 @@ mod tests {
         if x.negative { -(fraction * power) } else { fraction * power }
     }
 
-    /// Two doubles far apart added give all limbs something to hold.
+    /// The sum of two doubles far apart fills all limbs.
     fn draw(rng: &mut Rng) -> Octuple {
         let mut part = |k: i32| Octuple::from(rng.normal() * 2f64.powi(k));
         (part(0) + part(-70) + part(-140) + part(-200)).scaled((rng.next_u64() % 300) as i32 - 150)

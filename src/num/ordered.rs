@@ -1,4 +1,4 @@
-//! Numbers in which a margin is written once: plain ones, plain ones with a gradient, enclosures.
+//! Number types for formulas of margins: plain, with a gradient, and enclosures.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -39,7 +39,7 @@ impl OrderedNumber for f64 {
     }
 }
 
-/// The numbers between two ends, which are in order.
+/// The numbers between two ordered ends.
 fn between(lo: f64, hi: f64) -> Interval {
     Interval::new(lo, hi).unwrap_or(Interval::WHOLE)
 }
@@ -68,7 +68,7 @@ impl OrderedNumber for Interval {
 pub struct Sloped {
     /// The value.
     pub value: f64,
-    /// The gradient, one of the one-sided ones at a kink.
+    /// The gradient; a one-sided one at a kink.
     pub slope: Vector3<f64>,
 }
 

@@ -1,10 +1,10 @@
-//! Independent tasks on threads, with results that do not depend on how many there are.
+//! Independent tasks on threads, with results independent of the number of threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// `f` on every index below `total`, on `threads` threads; the results are in index order, so they do not
-/// depend on the number of threads. `tick` sees how many are done and the last of them.
+/// Applies `f` to every index below `total`, on `threads` threads; results are in index order, so they do not depend on
+/// the number of threads. `tick` gets the number of finished tasks and the last of them.
 pub fn parallel<T: Send>(
     total: usize,
     threads: usize,

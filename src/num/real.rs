@@ -1,4 +1,4 @@
-//! Real numbers that are known exactly where they are sums of square roots, and between two close fractions elsewhere.
+//! Real numbers, exact if they are sums of square roots, otherwise between two close fractions.
 
 use std::cmp::Ordering;
 
@@ -15,9 +15,9 @@ const BITS: u64 = 192;
 /// A real number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RealNumber {
-    /// It is this number.
+    /// An exactly known number.
     Exact(Surd),
-    /// It is one of these numbers.
+    /// A number within an enclosure.
     Within(Enclosure),
 }
 
@@ -28,7 +28,7 @@ pub struct Enclosure {
     high: Rational,
 }
 
-/// Why an operation has no result.
+/// The reason why an operation has no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum NoReal {
     /// The divisor is zero.
@@ -37,19 +37,19 @@ pub enum NoReal {
     /// The radicand is negative.
     #[error("square root of a negative number")]
     NegativeRoot,
-    /// The divisor is an enclosure that holds zero.
+    /// The divisor is an enclosure that contains zero.
     #[error("division by a number that cannot be told from zero")]
     DivisorNearZero,
-    /// The radicand is an enclosure that holds negative numbers.
+    /// The radicand is an enclosure that contains negative numbers.
     #[error("square root of a number that may be negative")]
     RootNearZero,
-    /// The exact result is too long to go on with.
+    /// The exact result is too long.
     #[error("the result has thousands of digits")]
     TooLong,
 }
 
 impl Enclosure {
-    /// The numbers between, with ends of few digits; `None` when they are of absurd magnitude.
+    /// The numbers between two fractions, with ends of few digits; an error for absurd magnitudes.
     fn outward(low: &Rational, high: &Rational) -> Result<Self, NoReal> {
         Ok(Self { low: rounded(low, false)?, high: rounded(high, true)? })
     }
@@ -68,7 +68,7 @@ impl Enclosure {
 fn rounded(x: &Rational, up: bool) -> Result<Rational, NoReal> {
     let (n, d) = (x.numer(), x.denom());
     let (length, divisor) = (n.bits().cast_signed(), d.bits().cast_signed());
-    // far beyond what a coordinate may be
+    // far beyond any coordinate
     if length - divisor > 4096 || divisor - length > 1 << 16 {
         return Err(NoReal::TooLong);
     }
@@ -88,23 +88,23 @@ impl RealNumber {
         Self::Exact(Surd::integer(x))
     }
 
-    /// A fraction; between two shorter ones when it is very long.
+    /// A fraction; an enclosure if it is very long.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn rational(x: &Rational) -> Result<Self, NoReal> {
         Surd::rational(x).map_or_else(|| Ok(Self::Within(Enclosure::outward(x, x)?)), |x| Ok(Self::Exact(x)))
     }
 
-    /// The number when it is known exactly.
+    /// The number if it is known exactly.
     pub fn exact(&self) -> Option<&Surd> {
         if let Self::Exact(x) = self { Some(x) } else { None }
     }
 
-    /// It lies between these.
+    /// An enclosure of the number.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn enclosure(&self) -> Result<Enclosure, NoReal> {
         match self {
             Self::Within(e) => Ok(e.clone()),
@@ -115,7 +115,7 @@ impl RealNumber {
         }
     }
 
-    /// The nearest double; that of the middle when only an enclosure is known.
+    /// The nearest double; for an enclosure that of the middle.
     pub fn nearest(&self) -> f64 {
         match self {
             Self::Exact(x) => x.nearest(),
@@ -123,7 +123,7 @@ impl RealNumber {
         }
     }
 
-    /// An upper bound of how far it is from a finite double; zero where it is the double.
+    /// An upper bound of its distance from a finite double; zero if it is the double.
     pub fn distance_from(&self, double: f64) -> f64 {
         match self {
             Self::Exact(x) => x.distance_from(double),
@@ -159,7 +159,7 @@ impl RealNumber {
     /// The sum.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn plus(&self, other: &Self) -> Result<Self, NoReal> {
         self.combined(other, Surd::plus, |x, y| x + y)
     }
@@ -167,7 +167,7 @@ impl RealNumber {
     /// The difference.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn minus(&self, other: &Self) -> Result<Self, NoReal> {
         self.combined(other, Surd::minus, |x, y| x - y)
     }
@@ -175,16 +175,16 @@ impl RealNumber {
     /// The product.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn times(&self, other: &Self) -> Result<Self, NoReal> {
-        // zero times anything is zero, however little is known of it
+        // zero times anything is zero, for any enclosure
         if [self, other].iter().any(|x| x.exact().is_some_and(Surd::is_zero)) {
             return Ok(Self::integer(0));
         }
         self.combined(other, Surd::times, |x, y| x * y)
     }
 
-    /// Whether it is zero, or cannot be told from zero.
+    /// Whether it is zero, or indistinguishable from zero.
     pub fn may_be_zero(&self) -> bool {
         match self {
             Self::Exact(x) => x.is_zero(),
@@ -195,7 +195,7 @@ impl RealNumber {
     /// The quotient.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn over(&self, divisor: &Self) -> Result<Self, NoReal> {
         if divisor.exact().is_some_and(Surd::is_zero) {
             return Err(NoReal::DivisionByZero);
@@ -217,7 +217,7 @@ impl RealNumber {
     /// `x^n`.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn power(&self, n: i32) -> Result<Self, NoReal> {
         let (mut result, mut square, mut left) = (Self::integer(1), self.clone(), n.unsigned_abs());
         while left > 0 {
@@ -235,7 +235,7 @@ impl RealNumber {
     /// The square root.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn sqrt(&self) -> Result<Self, NoReal> {
         if let Self::Exact(x) = self {
             if x.sign() == Ordering::Less {
@@ -255,10 +255,10 @@ impl RealNumber {
         Ok(Self::Within(Enclosure::outward(&root_bound(&e.low, false), &root_bound(&e.high, true))?))
     }
 
-    /// `cos` and `sin` of as many degrees, exactly where [`Surd::turn`] has them.
+    /// `cos` and `sin` of this number of degrees, exactly if [`Surd::turn`] has them.
     ///
     /// # Errors
-    /// [`NoReal`] says which.
+    /// [`NoReal`] names the reason.
     pub fn turn(&self) -> Result<(Self, Self), NoReal> {
         let (angle, slack) = if let Some(angle) = self.exact().and_then(Surd::as_rational) {
             if let Some((c, s)) = Surd::turn(&angle) {
@@ -287,7 +287,7 @@ impl RealNumber {
     }
 }
 
-/// A fraction next to the square root of a number that is not negative.
+/// A fraction near the square root of a non-negative number.
 fn root_bound(x: &Rational, up: bool) -> Rational {
     let (n, d) = (x.numer(), x.denom());
     let shift = 2 * BITS + d.bits();
@@ -296,7 +296,7 @@ fn root_bound(x: &Rational, up: bool) -> Rational {
     Rational::new(root, d << shift)
 }
 
-/// Cosine and sine of 0 to 90 degrees, give or take the slack.
+/// Cosine and sine of 0 to 90 degrees, for an angle within the slack.
 fn acute(angle: &Rational, slack: &Rational) -> Result<(RealNumber, RealNumber), NoReal> {
     let integer = |n: i64| Rational::from_integer(n.into());
     // x <= pi/2 in radians, between two fractions
@@ -307,7 +307,7 @@ fn acute(angle: &Rational, slack: &Rational) -> Result<(RealNumber, RealNumber),
     let (low, high) = (angle * pi_low / integer(180), angle * pi_high / integer(180));
     let series = |first: u32| -> Result<RealNumber, NoReal> {
         let (l, h) = (taylor(&low, first), taylor(&high, first));
-        // rounding in the series, and that of pi
+        // rounding in the series, and of pi
         let margin = Rational::new(BigInt::one(), BigInt::one() << 230) + slack;
         let (low, high) = if l < h { (l, h) } else { (h, l) };
         Ok(RealNumber::Within(Enclosure::outward(&(low - &margin), &(high + margin))?))
@@ -324,7 +324,7 @@ fn taylor(x: &Rational, first: u32) -> Rational {
     let (mut sum, mut n) = (BigInt::zero(), first);
     while !term.is_zero() {
         sum += &term;
-        // towards zero: a shift would leave -1 for ever
+        // towards zero: a shift would never pass -1
         term = -(term * &square / (BigInt::one() << FIXED)) / BigInt::from((n + 1) * (n + 2));
         n += 2;
     }

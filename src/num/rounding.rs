@@ -1,18 +1,17 @@
-//! Whether this thread computes as the proofs assume: doubles of 64 bits, rounded to the nearest, subnormal numbers
-//! kept.
+//! Check of this thread's arithmetic against the assumptions of proofs: doubles of 64 bits, rounded to nearest, with
+//! subnormal numbers.
 //!
-//! An interval is a result of the processor and its neighbours ([`f64::next_down`], [`f64::next_up`]). That encloses
-//! the true value because IEEE 754 rounds to the nearest by default. Three things end it without a trace in the
-//! results:
+//! An interval consists of neighbours ([`f64::next_down`], [`f64::next_up`]) of a result of the processor. It encloses
+//! the true value because IEEE 754 rounds to the nearest by default. Three conditions silently invalidate this:
 //!
 //! * a processor that holds results in wider registers (x87): refused when the library is compiled,
 //! * a rounding mode other than to the nearest, and
 //! * flushing of subnormal results or operands to zero. Code compiled with `-ffast-math` switches it on for a whole
 //!   process when its library is loaded.
 //!
-//! The last two are settings of a thread, which new threads inherit. [`check_arithmetic`] finds them by computing, on
-//! any processor, at the cost of seven operations. The program asks it at its start, and `fk::solve::certify` before
-//! every certified solve: no certificate comes from such a thread.
+//! The last two are settings of a thread, which new threads inherit. [`check_arithmetic`] detects them by seven
+//! operations on any processor. The program calls it at its start, and `fk::solve::certify` before every certified
+//! solve, so no certificate comes from such a thread.
 
 use std::hint::black_box;
 
@@ -23,33 +22,32 @@ compile_error!(
     "equipod proves by interval arithmetic, which x87 registers break: compile for a target with SSE2 (i686, not i586)"
 );
 
-/// How arithmetic departs from what interval proofs assume.
+/// A deviation of the arithmetic from the assumptions of interval proofs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum UnfitArithmetic {
     /// Sums are not rounded to the nearest double.
     #[error("this thread does not round to the nearest double, which interval proofs assume")]
     NotToNearest,
-    /// Subnormal numbers, below `2^-1022`, are taken for zero.
+    /// Subnormal numbers, below `2^-1022`, are treated as zero.
     #[error("this thread takes numbers below 2.2e-308 for zero, which interval proofs do not allow")]
     SubnormalsFlushed,
 }
 
-/// Finds out by computing whether this thread rounds to the nearest and keeps subnormal numbers.
+/// Tests by computing whether this thread rounds to the nearest and keeps subnormal numbers.
 ///
 /// # Errors
-/// [`UnfitArithmetic`] names the first departure.
+/// [`UnfitArithmetic`] names the first deviation.
 pub fn check_arithmetic() -> Result<(), UnfitArithmetic> {
     judge(|x, y| black_box(x) + black_box(y), |x, y| black_box(x) * black_box(y))
 }
 
-/// The same of any sum and product, so that the departures can be tried without switching the processor.
+/// The test for any sum and product, so that deviations can be tested without changing the processor mode.
 fn judge(sum: impl Fn(f64, f64) -> f64, product: impl Fn(f64, f64) -> f64) -> Result<(), UnfitArithmetic> {
     let quarter = f64::EPSILON / 4.0;
     // bits are compared: a comparison of doubles would flush its operands as well
     let gives = |x: f64, expected: f64| black_box(x).to_bits() == expected.to_bits();
-    // in the order of the lines: not upwards, nor in wide registers; not downwards; not towards zero; ties go to the
-    // even neighbour
+    // in the order of the lines: not upwards, nor in wide registers; not downwards; not towards zero; ties to even
     let to_nearest = gives(sum(1.0, quarter), 1.0)
         && gives(sum(-1.0, -quarter), -1.0)
         && gives(sum(1.0, 3.0 * quarter), 1.0 + f64::EPSILON)
@@ -69,7 +67,7 @@ fn judge(sum: impl Fn(f64, f64) -> f64, product: impl Fn(f64, f64) -> f64) -> Re
 mod tests {
     use super::*;
 
-    /// The error of `s = x + y` (Knuth 1969), exact where nothing overflows.
+    /// The error of `s = x + y` (Knuth 1969), exact without overflow.
     fn error(x: f64, y: f64, s: f64) -> f64 {
         let back = s - x;
         (x - (s - back)) + (y - back)
@@ -102,7 +100,7 @@ mod tests {
 
     #[test]
     fn ties_that_do_not_go_to_the_even_neighbour_are_found() {
-        // the even neighbour is the one above here: take that below
+        // here the even neighbour is above: take the one below
         let odd = |x: f64, y: f64| {
             let s = x + y;
             if error(x, y, s).to_bits() == (-f64::EPSILON / 2.0).to_bits() { s.next_down() } else { s }

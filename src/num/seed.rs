@@ -1,7 +1,7 @@
-//! Random numbers from a seed that is passed in: `SplitMix64` (Steele, Lea, Flood 2014).
+//! Random numbers from a given seed: `SplitMix64` (Steele, Lea, Flood 2014).
 //!
-//! Sixty-four bits of state are plenty for drawing test poses and generic constants, the stream is the
-//! same on every machine, and element `k` of a family of streams is had by [`Rng::stream`].
+//! Sixty-four bits of state suffice for test poses and generic constants, and the stream is the same on every machine.
+//! [`Rng::stream`] gives element `k` of a family of streams.
 
 /// A seeded generator. There is no other source of randomness in this crate.
 #[derive(Debug, Clone)]
@@ -14,7 +14,7 @@ impl Rng {
         Self(seed)
     }
 
-    /// Stream `k` of `seed`: what item `k` of a batch draws does not depend on the other items.
+    /// Stream `k` of `seed`: the numbers of item `k` of a batch are independent of the other items.
     #[must_use]
     pub fn stream(seed: u64, k: u64) -> Self {
         let mut outer = Self(seed ^ 0x6a09_e667_f3bc_c909);
@@ -48,22 +48,22 @@ impl Rng {
     }
 }
 
-/// What random numbers are drawn for. Each purpose begins a stream of the seed anew, or a family of streams with one
-/// for each item, so that nothing that is drawn changes what is drawn for another purpose, and an item has the same
-/// numbers whichever other items are looked at. Purposes whose numbers mean different things may share a stream.
+/// The purpose of random numbers. Each purpose begins a new stream of the seed, or a family of streams with one for
+/// each item. So the numbers of one purpose do not depend on those of another, and an item has the same numbers
+/// regardless of the other items. Purposes with unrelated numbers may share a stream.
 ///
-/// This is the whole list. Only two others draw: the problems of `bench`, whose streams are named by their class, and
-/// searches that have a seed for themselves and begin with [`Rng::new`].
+/// This is the whole list. Only two others draw numbers. They are the problems of `bench`, whose streams are named by
+/// their class, and searches with a private seed, which begin with [`Rng::new`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Purpose {
-    /// Tells families apart that are numbered from zero.
+    /// Distinguishes families that are numbered from zero.
     family: u64,
     /// The stream, or the first one of the family.
     first: u64,
 }
 
 impl Purpose {
-    /// Poses at which two platforms are compared; one stream a pose.
+    /// Poses for comparing two platforms; one stream a pose.
     pub const COMPARED_POSES: Self = Self::single(0);
     /// Frames in which a problem is generic, for eliminations and for real slices of curves; one stream an attempt.
     pub const GENERIC_FRAMES: Self = Self::single(0);
@@ -73,55 +73,55 @@ impl Purpose {
     pub const GAMMA: Self = Self::single(0);
     /// Starts of the search for real points; one stream a start.
     pub const REAL_POINTS: Self = Self::family(0x7ea1);
-    /// Integers with which poses are counted modulo primes.
+    /// Integers for counting poses modulo primes.
     pub const POSE_COUNT: Self = Self::single(0x9c);
-    /// Squared lengths at which a design is solved to be prepared for others.
+    /// Squared lengths of the solve that prepares a design for others.
     pub const START_LENGTHS: Self = Self::single(0x51e6);
-    /// Starts of the search for points at infinity that legs have in common.
+    /// Starts of the search for common points of legs at infinity.
     pub const FAR_POINTS: Self = Self::single(0xfa2);
     /// Complex designs of a topology, the same for every seed; one stream a design.
     pub const GENERIC_DESIGNS: Self = Self::single(0);
     /// Poses and joint errors of trials; one stream a trial.
     pub const TRIALS: Self = Self::family(0x7472);
-    /// Poses at which tolerances are computed.
+    /// Poses for tolerances.
     pub const TOLERANCE_POSES: Self = Self::single(0x706f);
-    /// Poses at which errors of joints on holes are solved for; one stream a pose.
+    /// Poses for solving errors of joints on holes; one stream a pose.
     pub const ROUNDED_POSES: Self = Self::family(0x6772);
-    /// Poses at which requirements are assessed.
+    /// Poses for assessing requirements.
     pub const ASSESSED_POSES: Self = Self::single(0x6d61);
-    /// Allowed poses from which a search for the one nearest to a pose begins.
+    /// Allowed starts of the search for the pose nearest to a given one.
     pub const NEAREST_POSES: Self = Self::single(0x6e70);
-    /// Poses with which the bounds of requirements begin.
+    /// Starting poses for the bounds of requirements.
     pub const BOUNDED_POSES: Self = Self::single(0x626e);
-    /// Steps of the local searches that go on from cells of the bounds of requirements; one stream a search.
+    /// Steps of the local searches from cells of the bounds of requirements; one stream a search.
     pub const CELL_SEARCHES: Self = Self::family(0x626f);
     /// Offsets of a cell of the search for the best offsets; one stream a cell.
     pub const OFFSETS_OF_CELL: Self = Self::single(0);
-    /// Further offsets of a cell to climb from; one stream a cell.
+    /// Further offsets of a cell to start climbs; one stream a cell.
     pub const FURTHER_OFFSETS: Self = Self::family(0x5eed);
-    /// Offsets that tell which poses matter.
+    /// Offsets for finding the critical poses.
     pub const CRITICAL_POSES: Self = Self::single(1 << 40);
     /// Directions of the last search from the best offsets.
     pub const LAST_DIRECTIONS: Self = Self::single(u64::MAX);
-    /// Poses at which a look for worse ones begins.
+    /// Starting poses of the search for worse ones.
     pub const WORSE_POSES: Self = Self::single(7);
-    /// Directions in which a look for worse poses goes down.
+    /// Descent directions of the search for worse poses.
     pub const DESCENT: Self = Self::single(8);
     /// Mixtures of the ends of climbs.
     pub const MIXTURES: Self = Self::single(0x4d65);
     /// The evolution of populations; one stream a population.
     pub const POPULATIONS: Self = Self::single(0x5347);
-    /// Poses among which the next ones to be measured are chosen.
+    /// Candidate poses for the next measurements.
     pub const MEASURED_POSES: Self = Self::single(0x6d65);
-    /// Poses over which a finished platform is evaluated.
+    /// Poses for evaluating a finished platform.
     pub const EVALUATED_POSES: Self = Self::single(0x6576);
-    /// Coefficients at which the search for the nearest singular design begins; one stream a start.
+    /// Starting coefficients of the search for the nearest singular design; one stream a start.
     pub const NEAREST_STARTS: Self = Self::single(0);
     /// Constants of the critical points of a self-motion.
     pub const CRITICAL_POINTS: Self = Self::single(0xc7);
-    /// Changes of joints that tell how sensitive invariants are; one stream a change.
+    /// Changes of joints for the sensitivity of invariants; one stream a change.
     pub const SHIFTS: Self = Self::single(0);
-    /// Members of topologies and planes from which rearrangements are worked out; one stream a member.
+    /// Members of topologies and planes for computing rearrangements; one stream a member.
     pub const REARRANGED_MEMBERS: Self = Self::single(0);
     /// Ends of legs that span a family.
     pub const FAMILY_ENDS: Self = Self::single(0xbe);
@@ -135,11 +135,11 @@ impl Purpose {
     pub const SWEPT_VALUES: Self = Self::family(0x5357);
     /// Permutations and scramblings of the points of a sweep; one stream a dimension of a block.
     pub const SWEPT_ORDERS: Self = Self::family(0x5358);
-    /// Candidates of a sweep that are computed again, or first to tell how long it takes.
+    /// Candidates of a sweep that are computed again, or first for an estimate of the time.
     pub const SWEPT_AGAIN: Self = Self::single(0x5359);
-    /// Cells of a column of a sweep that are looked at to tell whether its numbers repeat.
+    /// Cells of a column of a sweep for detecting repeated numbers.
     pub const SWEPT_CELLS: Self = Self::single(0x535a);
-    /// Matrices of the times of reference.
+    /// Matrices of the reference timings.
     pub const REFERENCE_MATRICES: Self = Self::single(69);
 
     const fn single(first: u64) -> Self {

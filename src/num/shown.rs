@@ -1,6 +1,6 @@
-//! Numbers as people read them.
+//! Numbers in the form for people.
 
-/// So many decimals; what rounds to zero has no sign.
+/// A number with fixed decimals; a result of zero has no sign.
 pub fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
     match text.strip_prefix('-') {
@@ -29,7 +29,7 @@ pub fn significant(x: f64) -> String {
     }
 }
 
-/// A positive number, rounded down to three digits that count: a limit that is kept where this one is.
+/// A positive number, rounded down to three significant digits, so that a limit of this value implies the original one.
 pub fn rounded_down(x: f64) -> String {
     let (mut decimals, mut scale) = (0, 1.0);
     while x * scale < 100.0 && decimals < 300 {

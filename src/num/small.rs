@@ -1,24 +1,24 @@
-//! Decompositions of small matrices in a bounded number of steps, right for matrices of any rank.
+//! Decompositions of small matrices in a bounded number of steps, correct for matrices of any rank.
 //!
-//! The iterations of `nalgebra` have no bound by default, and entries whose products fall below the range of doubles
-//! can keep them going for ever. Its singular value decomposition moreover returns factors whose product is off by some
-//! per cent for some matrices of low rank (0.35, 7 of 300 random 6 x 6 matrices of rank 2), so the one here rotates
-//! pairs of columns instead (one-sided Jacobi; Hestenes 1958, Drmac and Veselic 2008).
+//! The iterations of `nalgebra` have no bound by default, and entries whose products underflow can keep them from
+//! ending. Its singular value decomposition also returns inaccurate factors for some matrices of low rank. In 0.35, for
+//! 7 of 300 random 6 x 6 matrices of rank 2, their product is off by some per cent. The one here rotates pairs of
+//! columns instead (one-sided Jacobi; Hestenes 1958, Drmac and Veselic 2008).
 
 use nalgebra::allocator::Allocator;
 use nalgebra::{
     ComplexField, DefaultAllocator, Dim, DimMin, DimMinimum, Matrix3, OMatrix, OVector, SVD, U1, Vector3,
 };
 
-/// Entries below this, relative to the largest one, are left out: no sum with it can hold them.
+/// Entries below this, relative to the largest one, are dropped: no sum with it can represent them.
 const LEAST: f64 = 1e-100;
-/// Steps after which an iteration is given up; ten are usual.
+/// Greatest number of steps of an iteration; ten are usual.
 pub(super) const STEPS: usize = 1000;
-/// Rounds of rotations after which a decomposition is given up; six are usual.
+/// Greatest number of rounds of rotations; six are usual.
 const SWEEPS: usize = 60;
 /// Squared length below which a column is zero; the largest entry is one.
 const NOTHING: f64 = 1e-280;
-/// Share of a squared length that a turn has to leave for the difference to keep its digits.
+/// Least share of a squared length after a rotation for which the difference keeps its digits.
 const KEPT: f64 = 0.1;
 
 fn held<R: Dim, C: Dim>(m: &OMatrix<f64, R, C>) -> OMatrix<f64, R, C>
@@ -81,8 +81,8 @@ where
     Some(values)
 }
 
-/// Columns of `w`, at least as long as many, become left singular vectors; those of `v`, the unit matrix before, right
-/// ones. `None` for entries that are not finite.
+/// Makes the columns of `w`, at least as long as many, left singular vectors, and those of `v`, initially the unit
+/// matrix, right ones. `None` for entries that are not finite.
 pub(super) fn decompose<T>(w: &mut [T], v: &mut [T], values: &mut [f64]) -> Option<()>
 where
     T: ComplexField<RealField = f64> + Copy,
@@ -105,8 +105,8 @@ where
     Some(())
 }
 
-/// Rotates the columns of `w` until all are orthogonal, the longest first, those of `v` alike; their lengths are the
-/// singular values. The columns are left divided by the largest entry.
+/// Rotates the columns of `w` until all are orthogonal, the longest first, and those of `v` alike; their lengths are
+/// the singular values. The columns remain divided by the largest entry.
 fn orthogonalise<T>(w: &mut [T], v: &mut [T], values: &mut [f64]) -> Option<()>
 where
     T: ComplexField<RealField = f64> + Copy,
@@ -116,19 +116,19 @@ where
     if w.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    // the greatest of the parts: a modulus can overflow
+    // the greatest of the parts, since a modulus can overflow
     let size = w.iter().fold(0.0, |s: f64, x| s.max(x.real().abs()).max(x.imaginary().abs()));
     if size == 0.0 {
         values.fill(0.0);
         return Some(());
     }
-    // in two steps where 1 / size is not finite
+    // in two steps if 1 / size is not finite
     let step = if size < 1e-300 { 1e-300 } else { 1.0 };
     for x in w.iter_mut() {
         *x = x.unscale(step).unscale(size / step);
     }
     let settled = match (rows, columns) {
-        // sizes that are known when the program is built: half the time
+        // sizes known at compile time: half the time
         (6, 6) => (0..SWEEPS).any(|_| sweep(w, v, values, (6, 6))),
         size => (0..SWEEPS).any(|_| sweep(w, v, values, size)),
     };
@@ -146,9 +146,9 @@ fn norm_squared<T: ComplexField<RealField = f64> + Copy>(x: &[T]) -> f64 {
     x.iter().map(|x| x.modulus_squared()).sum()
 }
 
-/// Makes every pair of columns orthogonal once, the longer one first. `true` when all were. Columns that are nothing
-/// next to the largest entry are made zero, so that their squares cannot underflow. `squares` holds the squared
-/// lengths, which a turn changes by a known amount.
+/// Makes every pair of columns orthogonal once, the longer one first. `true` if all were. Columns negligible next to
+/// the largest entry are set to zero, so that their squares cannot underflow. `squares` holds the squared lengths,
+/// which a rotation changes by a known amount.
 #[inline]
 fn sweep<T: ComplexField<RealField = f64> + Copy>(
     w: &mut [T],
@@ -165,7 +165,7 @@ fn sweep<T: ComplexField<RealField = f64> + Copy>(
         for q in p + 1..columns {
             let (a, b) = pair(w, rows, p, q);
             if squares[p] < squares[q] {
-                // columns that change places miss pairs of this round
+                // exchanged columns miss pairs of this round
                 settled = false;
                 squares.swap(p, q);
                 a.swap_with_slice(b);
@@ -205,7 +205,7 @@ fn sweep<T: ComplexField<RealField = f64> + Copy>(
     settled
 }
 
-/// The root of `1 + x^2`, which a square that overflows does not spoil.
+/// The root of `1 + x^2`, also if the square overflows.
 #[inline]
 fn beside_one(x: f64) -> f64 {
     if x.abs() > 1e8 { x.abs() } else { (1.0 + x * x).sqrt() }
@@ -253,8 +253,8 @@ pub(super) fn complete<T: ComplexField<RealField = f64> + Copy>(before: &[T], co
     }
 }
 
-/// Eigenvalues, in no order, and eigenvectors, as columns, of a symmetric matrix. Of one with entries that are not
-/// finite: zeros, and the axes.
+/// Eigenvalues, in no order, and eigenvectors, as columns, of a symmetric matrix. For entries that are not finite it
+/// returns zeros and the axes.
 pub fn symmetric_eigen3(m: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let none = (Vector3::zeros(), Matrix3::identity());
     if m.iter().any(|x| !x.is_finite()) {
@@ -312,7 +312,7 @@ mod tests {
         assert!(singular_values(&DMatrix::from_element(2, 1, 5e-324)).unwrap()[0] > 0.0);
     }
 
-    /// All pairs compared in the first round are orthogonal, but for two that an exchange of columns keeps apart.
+    /// All pairs compared in the first round are orthogonal, except two that an exchange of columns separates.
     #[test]
     fn an_exchange_of_columns_hides_no_pair() {
         let rows = [[1.0, 0.0, 3.0, 0.0], [0.0, 2.0, 0.0, 5.0], [1.0, 0.0, 3.5, 0.0], [0.0, 2.0, 0.0, 4.5]];
@@ -374,7 +374,7 @@ mod tests {
             let s = Matrix3::from_fn(|_, _| rng.normal());
             let s = s + s.transpose();
             assert_eq!(symmetric_eigen3(&s).0, s.symmetric_eigen().eigenvalues);
-            // half of the entries from nothing to the least number there is
+            // half of the entries are zero, the others up to a few times the least double
             let mut small = || if rng.unit() < 0.5 { 0.0 } else { 5e-324 * (rng.next_u64() % 9) as f64 };
             let tiny = Matrix6::from_fn(|i, j| if (i + j + k) % 3 == 0 { 3.0 } else { small() });
             let d = bounded_svd(&tiny).unwrap();

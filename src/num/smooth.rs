@@ -1,4 +1,4 @@
-//! Numbers in which a formula with products is written once: plain ones, enclosures, and both with derivatives.
+//! Number types for formulas with products: plain, enclosures, and both with derivatives.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -10,7 +10,7 @@ use super::ordered::Sloped;
 pub trait SmoothNumber:
     Copy + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self> + Mul<Output = Self>
 {
-    /// Constants that they are multiplied by.
+    /// Constant factors.
     type Factor: From<f64>;
 
     /// An angle in radians.

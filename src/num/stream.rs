@@ -1,4 +1,4 @@
-//! Results of many jobs, one after the other as they are done, from several threads.
+//! Results of many jobs from several threads, in order, as they are done.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Ends a long computation from outside: clones are one switch. What is under way at the time is finished, nothing new
-/// begins.
+/// A switch that ends a long computation from outside; clones share it. Running jobs finish; no new ones begin.
 ///
 /// ```
 /// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
@@ -20,32 +19,32 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// A switch that is not thrown.
+    /// A new switch, not cancelled.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Throws it. There is no way back.
+    /// Cancels the computation. It cannot be undone.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it is thrown.
+    /// Whether it is cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// Jobs that a worker may be ahead of the result that is handed out next, for each worker: a slow job holds nobody up
-/// for long, and results that wait take no more room than this.
+/// Number of jobs per worker that may run ahead of the next returned result. It bounds both the delay by a slow job and
+/// the memory of waiting results.
 const AHEAD: usize = 16;
 
 type Outcome<T> = Result<T, Box<dyn std::any::Any + Send>>;
 type Job<I, T> = Arc<dyn Fn(I) -> T + Send + Sync>;
 
-/// The inputs, and how far the results are handed out.
+/// The inputs, and the number of returned results.
 struct Queue<I> {
     inputs: Box<dyn Iterator<Item = I> + Send>,
     taken: usize,
@@ -61,12 +60,12 @@ struct Shared<I> {
 }
 
 impl<I> Shared<I> {
-    /// A panic of the inputs leaves the queue as it was: the next to come goes on.
+    /// A panic of the inputs leaves the queue unchanged, so the next caller continues.
     fn lock(&self) -> MutexGuard<'_, Queue<I>> {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next input with its number, when there is one and it is not too far ahead.
+    /// The next input with its number, if there is one and it is not too far ahead.
     fn next(&self) -> Option<(usize, I)> {
         let mut queue = self.lock();
         while !queue.ended && queue.taken >= queue.handed_out + self.ahead {
@@ -91,20 +90,20 @@ impl<I> Shared<I> {
     }
 }
 
-/// The results of `job` for all inputs, in the order of the inputs. Ends early when it is cancelled; dropping it
+/// The results of `job` for all inputs, in the order of the inputs. It ends early after cancellation; dropping it
 /// cancels it.
 #[allow(missing_debug_implementations, reason = "a job is a function")]
 pub struct Stream<I, T> {
     shared: Arc<Shared<I>>,
     job: Job<I, T>,
-    /// `None` where the thread that asks does the work.
+    /// `None` if the calling thread does the work.
     arriving: Option<Receiver<(usize, Outcome<T>)>>,
     waiting: BTreeMap<usize, T>,
     next: usize,
 }
 
 impl<I: Send + 'static, T: Send + 'static> Stream<I, T> {
-    /// Starts `workers` threads; with one the work is done when a result is asked for, on the thread that asks.
+    /// Starts `workers` threads; with one, the calling thread does the work on request.
     pub fn new(
         inputs: impl Iterator<Item = I> + Send + 'static,
         workers: usize,
@@ -131,7 +130,7 @@ fn work<I, T>(shared: &Shared<I>, job: &Job<I, T>, sender: &Sender<(usize, Outco
     while let Some((i, input)) = shared.next() {
         let result = catch_unwind(AssertUnwindSafe(|| job(input)));
         if sender.send((i, result)).is_err() {
-            return; // nobody waits any more
+            return; // no receiver is left
         }
     }
 }
@@ -141,7 +140,7 @@ impl<I, T> Iterator for Stream<I, T> {
 
     fn next(&mut self) -> Option<T> {
         let Some(arriving) = &self.arriving else {
-            // nobody waits for room
+            // no space in the queue is needed after cancellation
             if self.shared.cancel.is_cancelled() {
                 return None;
             }
@@ -157,11 +156,11 @@ impl<I, T> Iterator for Stream<I, T> {
                 self.shared.hand_out();
                 return Some(result);
             }
-            // all workers are gone when the inputs are used up, or when it was cancelled
+            // all workers have ended: the inputs are used up, or the stream was cancelled
             let (i, result) = arriving.recv().ok()?;
             match result {
                 Ok(result) => self.waiting.insert(i, result),
-                // a panic in a worker goes on in the caller
+                // a panic in a worker continues in the caller
                 Err(payload) => resume_unwind(payload),
             };
         }
@@ -216,7 +215,7 @@ mod tests {
         });
         assert_eq!(endless.next(), Some(0));
         drop(endless);
-        // each thread holds a clone until it has ended
+        // each thread holds a clone until it ends
         for _ in 0..500 {
             if Arc::strong_count(&started) == 1 {
                 break;

@@ -2,9 +2,9 @@
 //! square roots of integers, and of these times cosines.
 //!
 //! The square roots of different squarefree integers are linearly independent over `Q` (Besicovitch 1940), and so are
-//! their products with the cosines of [`FieldRoot`]. The sum is therefore unique: it is zero only when it has no terms,
-//! and its sign is found by evaluating it to enough digits. Numbers are kept small on purpose: an operation whose
-//! result would be long, and a square root that is no such sum, give `None`.
+//! their products with the cosines of [`FieldRoot`]. The sum is therefore unique: it is zero only without terms, and
+//! its sign follows from an evaluation to enough digits. Numbers are kept short on purpose: operations with a long
+//! result, and square roots that are no such sum, give `None`.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -17,19 +17,19 @@ use num_traits::{One, Signed, Zero};
 use super::cosine::{FieldRoot, Generator};
 use super::exact::{Rational, common_divisor, farthest, nearest};
 
-/// Most terms of a sum: the degree of a field with four square roots, or of the cosines of 3, 3.75, 4.5 and 5.625
-/// degrees.
+/// Greatest number of terms of a sum. It is the degree of a field with four square roots, or of the cosines of 3, 3.75,
+/// 4.5 and 5.625 degrees.
 const MAX_TERMS: usize = 16;
-/// Most bits of a numerator or of the common denominator.
+/// Greatest number of bits of a numerator or of the common denominator.
 const MAX_BITS: u64 = 2048;
-/// Radicands are divided by the primes below this; what is left is squarefree or a square below its cube.
+/// Radicands are divided by the primes below this; the rest is squarefree or a square below its cube.
 pub(super) const TRIAL: u64 = 1 << 16;
-/// Most bits of a number that is divided by them one after the other.
+/// Greatest number of bits for trial division.
 const MAX_FACTORED: u64 = 512;
-/// How deep square roots of sums are sought under one another.
+/// Greatest nesting depth of square roots of sums.
 const MAX_NESTING: usize = 4;
 
-/// `sum_r c_r r / d` over some of the [`FieldRoot`]s, `d > 0`, integers `c_r` that are not zero and share no factor
+/// `sum_r c_r r / d` over some of the [`FieldRoot`]s, with `d > 0` and nonzero integers `c_r` without a common factor
 /// with `d`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Surd {
@@ -54,12 +54,12 @@ impl Surd {
         Self::lowest(BTreeMap::from([(FieldRoot::ONE, x.numer().clone())]), x.denom().clone())
     }
 
-    /// In lowest terms; `None` when that is too long.
+    /// The number in lowest terms; `None` if it is too long.
     fn lowest(terms: BTreeMap<FieldRoot, BigInt>, denominator: BigInt) -> Option<Self> {
         Self::reduced(terms, denominator).short()
     }
 
-    /// The number itself, `None` when it is too long.
+    /// The number itself; `None` if it is too long.
     fn short(self) -> Option<Self> {
         let short = |x: &BigInt| x.bits() <= MAX_BITS;
         let fits =
@@ -67,7 +67,7 @@ impl Surd {
         fits.then_some(self)
     }
 
-    /// In lowest terms, however long.
+    /// The number in lowest terms, of any length.
     fn reduced(mut terms: BTreeMap<FieldRoot, BigInt>, denominator: BigInt) -> Self {
         terms.retain(|_, c| !c.is_zero());
         let mut common = denominator.clone();
@@ -86,7 +86,7 @@ impl Surd {
         Self { terms, denominator }
     }
 
-    /// A fraction, however long.
+    /// A fraction of any length.
     pub(super) fn long_rational(x: &Rational) -> Self {
         Self::reduced(BTreeMap::from([(FieldRoot::ONE, x.numer().clone())]), x.denom().clone())
     }
@@ -96,7 +96,7 @@ impl Surd {
         self.terms.is_empty()
     }
 
-    /// The number when it is rational.
+    /// The number if it is rational.
     pub fn as_rational(&self) -> Option<Rational> {
         match self.terms.iter().next() {
             None => Some(Rational::zero()),
@@ -117,7 +117,7 @@ impl Surd {
         self.terms.keys().flat_map(|r| r.cosines()).map(|(n, _)| n)
     }
 
-    /// What is summed up, with the numerators that belong to it.
+    /// The terms with their numerators.
     pub fn terms(&self) -> impl Iterator<Item = (FieldRoot, &BigInt)> {
         self.terms.iter().map(|(r, c)| (*r, c))
     }
@@ -133,12 +133,12 @@ impl Surd {
         Self { terms, denominator: self.denominator.clone() }
     }
 
-    /// The sum; `None` when the field of both is too large.
+    /// The sum; `None` if the field of both is too large.
     pub fn plus(&self, other: &Self) -> Option<Self> {
         self.sum(other).short()
     }
 
-    /// The sum, however long.
+    /// The sum, of any length.
     pub(super) fn sum(&self, other: &Self) -> Self {
         let common =
             &self.denominator / common_divisor(&self.denominator, &other.denominator) * &other.denominator;
@@ -150,17 +150,17 @@ impl Surd {
         Self::reduced(terms, common)
     }
 
-    /// The difference; `None` when the field of both is too large.
+    /// The difference; `None` if the field of both is too large.
     pub fn minus(&self, other: &Self) -> Option<Self> {
         self.plus(&other.negated())
     }
 
-    /// The product; `None` when the field of both is too large.
+    /// The product; `None` if the field of both is too large.
     pub fn times(&self, other: &Self) -> Option<Self> {
         self.product(other)?.short()
     }
 
-    /// The product, however long; `None` when a radicand exceeds 64 bits.
+    /// The product, of any length; `None` if a radicand exceeds 64 bits.
     pub(super) fn product(&self, other: &Self) -> Option<Self> {
         let mut terms: BTreeMap<FieldRoot, BigInt> = BTreeMap::new();
         let doubled = [self, other].iter().all(|x| x.terms.keys().any(|r| r.has_twentieth()));
@@ -181,7 +181,7 @@ impl Surd {
         self.terms.keys().filter_map(|r| r.generator()).min()
     }
 
-    /// The image under the automorphism that moves the generator and none of those that come after it.
+    /// The image under the automorphism that moves the generator and none of the later ones.
     fn image(&self, generator: Generator) -> Self {
         let mut terms: BTreeMap<FieldRoot, BigInt> = BTreeMap::new();
         for (r, c) in &self.terms {
@@ -192,12 +192,12 @@ impl Surd {
         Self::reduced(terms, self.denominator.clone())
     }
 
-    /// `1 / x`; `None` for zero and when the result is too long.
+    /// `1 / x`; `None` for zero and for a result that is too long.
     pub fn inverse(&self) -> Option<Self> {
         self.reciprocal()?.short()
     }
 
-    /// `1 / x`, however long; `None` for zero and when a radicand exceeds 64 bits.
+    /// `1 / x`, of any length; `None` for zero and if a radicand exceeds 64 bits.
     pub(super) fn reciprocal(&self) -> Option<Self> {
         if self.is_zero() {
             return None;
@@ -213,7 +213,7 @@ impl Surd {
         others.product(&self.product(&others)?.reciprocal()?)
     }
 
-    /// The square root that is not negative; `None` for negative numbers and when it is not found among these sums.
+    /// The non-negative square root; `None` for negative numbers and if it is not among these sums.
     pub fn sqrt(&self) -> Option<Self> {
         if let Some(root) = self.root(MAX_NESTING) {
             return Some(root);
@@ -242,8 +242,7 @@ impl Surd {
             return rational_root(&x);
         }
         let generator = self.generator().filter(|g| depth > 0 && *g != Generator::Ninth)?;
-        // (u + v)^2 = a + b with u^2 = (a +- c) / 2, c^2 = (a + b)(a - b), v = b / (2 u), where a - b is the image of
-        // a + b
+        // (u + v)^2 = a + b, and a - b is the image of a + b: u^2 = (a +- c) / 2, c^2 = (a + b)(a - b), v = b / (2 u)
         let half = Self::rational(&Rational::new(1.into(), 2.into()))?;
         let image = self.image(generator);
         let (a, tail) = (self.plus(&image)?.times(&half)?, self.minus(&image)?.times(&half)?);
@@ -266,8 +265,8 @@ impl Surd {
         Self::lowest(terms.collect(), BigInt::from(2))
     }
 
-    /// Cosine and sine of `degrees`, where they are in the field: at multiples of a quarter of a degree whose cosine
-    /// has a degree of 16 at most.
+    /// Cosine and sine of `degrees`, if they are in the field. They are at multiples of a quarter of a degree whose
+    /// cosine has a degree of at most 16.
     pub fn turn(degrees: &Rational) -> Option<(Self, Self)> {
         let quarters = degrees * Rational::from_integer(4.into());
         if !quarters.is_integer() {
@@ -293,8 +292,8 @@ impl Surd {
         Some((cosine, sine))
     }
 
-    /// Rationals below and above it (both the number when it is rational), closer together than `2^-bits` of its
-    /// magnitude.
+    /// Rationals below and above it, closer together than `2^-bits` of its magnitude; both are the number if it is
+    /// rational.
     pub fn between(&self, bits: u64) -> (Rational, Rational) {
         if let Some(x) = self.as_rational() {
             return (x.clone(), x);
@@ -305,7 +304,7 @@ impl Surd {
             let error = BigInt::from(2 * self.terms.len());
             if sum.bits() > error.bits() + bits {
                 let scale = &self.denominator << k;
-                // bounds need no lowest terms
+                // bounds need not be in lowest terms
                 return (
                     Rational::new_raw(&sum - &error, scale.clone()),
                     Rational::new_raw(sum + error, scale),
@@ -315,13 +314,13 @@ impl Surd {
         }
     }
 
-    /// An upper bound of how far it is from a finite double; zero where it is the double.
+    /// An upper bound of its distance from a finite double; zero if it is the double.
     pub fn distance_from(&self, double: f64) -> f64 {
         let (low, high) = self.between(160);
         farthest(double, &low, &high)
     }
 
-    /// All conjugates are below two to this power.
+    /// The exponent of a power of two above all conjugates.
     pub fn magnitude_bits(&self) -> i64 {
         let bits = |(r, c): (&FieldRoot, &BigInt)| c.bits() + r.magnitude_bits();
         let largest = self.terms.iter().map(bits).max().unwrap_or(0);
@@ -329,7 +328,7 @@ impl Surd {
         (largest + u64::from(terms) + 1).cast_signed() - self.denominator.bits().cast_signed()
     }
 
-    /// Compared with zero.
+    /// The comparison with zero.
     pub fn sign(&self) -> Ordering {
         if self.is_zero() {
             return Ordering::Equal;
@@ -344,7 +343,7 @@ impl Surd {
         loop {
             let (low, high) = self.between(bits);
             let (low, high) = (nearest(&low), nearest(&high));
-            // an irrational number is nowhere half way between two doubles
+            // an irrational number is never half way between two doubles
             if low.total_cmp(&high).is_eq() {
                 return low;
             }
@@ -353,13 +352,13 @@ impl Surd {
     }
 }
 
-/// The sum of products; `None` when it becomes too long.
+/// The sum of products; `None` if it becomes too long.
 pub fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
     weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
 }
 
-/// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become
-/// too long.
+/// Reduces the first `width` columns to an identity above zeros as far as possible, and returns the rank. `None` if
+/// numbers become too long.
 pub fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
     let mut rank = 0;
     for column in 0..width {
@@ -384,7 +383,7 @@ pub fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
 /// Degree of the field of cosine and sine of `a / 1440` of a turn: of `2cos(360 / n)` with `n` a multiple of four.
 fn degree(a: u32) -> usize {
     let n = (1440 / a.gcd(&1440)).lcm(&4);
-    // Euler's function, of numbers without other prime factors than these
+    // Euler's function, for numbers with only these prime factors
     let units =
         [2, 3, 5].into_iter().filter(|p| n.is_multiple_of(*p)).fold(n, |units, p| units / p * (p - 1));
     (units / 2).max(1) as usize
@@ -397,8 +396,8 @@ fn rational_root(x: &Rational) -> Option<Surd> {
     Surd::lowest(BTreeMap::from([(FieldRoot::of(radicand), square)]), x.denom().clone())
 }
 
-/// `s` and squarefree `r` with `n = s^2 r`, `n` positive; `None` when `r` cannot be told to be squarefree by small
-/// primes, or is too large.
+/// `s` and squarefree `r` with `n = s^2 r`, `n` positive; `None` if small primes cannot prove `r` squarefree, or if it
+/// is too large.
 fn squarefree(mut n: BigInt) -> Option<(BigInt, u64)> {
     let (mut square, mut free) = (BigInt::one(), 1u64);
     let whole = n.sqrt();
@@ -434,12 +433,12 @@ fn squarefree(mut n: BigInt) -> Option<(BigInt, u64)> {
     if &whole * &whole == n {
         return Some((square * whole, free));
     }
-    // without factors below TRIAL: below its cube at most two prime factors, and not the same two
+    // no factors below TRIAL: below its cube at most two prime factors, and these differ
     let rest = u64::try_from(n).ok().filter(|n| *n < TRIAL.pow(3))?;
     Some((square, free.checked_mul(rest)?))
 }
 
-/// As an expression, `1/2 + 3*sqrt(2)/4` or `sqrt(3)*cos_deg(40)/2` for example.
+/// The number as an expression, for example `1/2 + 3*sqrt(2)/4` or `sqrt(3)*cos_deg(40)/2`.
 impl fmt::Display for Surd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_zero() {
@@ -470,9 +469,9 @@ impl fmt::Display for Surd {
     }
 }
 
-/// Integers whose square roots generate the same field as those of squarefree integers in ascending order, beside the
-/// cosines of these divisions: a root that is a
-/// fraction times a product of two or three before it is left out, and so is a cosine whose double is there.
+/// Integers whose square roots generate the same field, together with the cosines of these divisions. The squarefree
+/// radicands are ascending. A root is left out if it is a fraction times a product of two or three earlier ones. A
+/// cosine is left out if its double is present.
 pub fn generators(radicands: &[u64], divisions: &mut Vec<u32>) -> Vec<u64> {
     if divisions.contains(&32) {
         divisions.retain(|n| *n != 16);
@@ -495,7 +494,7 @@ pub fn generators(radicands: &[u64], divisions: &mut Vec<u32>) -> Vec<u64> {
         let three =
             kept.iter().flat_map(|k| rest.iter().filter_map(|x| product(*k, *x))).any(|x| kept.contains(&x));
         if !(two || three) {
-            // sqrt(6) beside sqrt(2) is as good as sqrt(3)
+            // with sqrt(2), sqrt(6) is equivalent to sqrt(3)
             kept.push(rest.into_iter().fold(*r, u64::min));
         }
     }
@@ -612,7 +611,7 @@ mod tests {
         #[test]
         fn a_square_has_its_root(x in any_sum()) {
             let square = x.times(&x).unwrap();
-            // nested roots are found where two square roots are under the root
+            // nested roots are found for two square roots under the root
             if let Some(found) = square.sqrt() {
                 prop_assert!(found == x || found == x.negated());
                 prop_assert!(found.sign() != Ordering::Less);
@@ -666,7 +665,7 @@ mod tests {
         assert!((800..2000).contains(&exact), "{exact}");
         assert_eq!(Surd::turn(&fraction(1, 7)), None);
         assert_eq!(Surd::turn(&fraction(1, 1)), None, "of degree 48");
-        // the ratio of diagonal and side of a pentagon, and a heptagon that is none
+        // the ratio of diagonal and side of a pentagon, and a heptagon as the negative control
         let golden = degrees(54, 1).1.times(&degrees(18, 1).1.inverse().unwrap()).unwrap();
         assert_eq!(golden, sum(&[(3, 2, 1), (1, 2, 5)]));
         assert_eq!(degrees(15, 1).0, sum(&[(1, 4, 6), (1, 4, 2)]));

@@ -1,14 +1,14 @@
-//! Describes the device: six legs between two rigid bodies.
+//! The mechanism: six legs between two rigid bodies.
 //!
-//! It knows poses, joints and legs, the lengths and the Jacobian at a pose, and which legs share which joints; it
-//! solves nothing and judges nothing. It names `num` alone.
+//! The crate has poses, joints and legs, the lengths and the Jacobian at a pose, and the topology of shared joints. It
+//! solves and judges nothing. It uses only `num`.
 //!
 //! * [`Manipulator`](manipulator::Manipulator): the joints of both bodies and the two ends of each leg.
-//! * [`Pose`](geom::Pose): where the platform is, `x_base = R x_platform + p`.
-//! * [`Topology`](topology::Topology): which legs share a joint.
+//! * [`Pose`](geom::Pose): the pose of the platform, `x_base = R x_platform + p`.
+//! * [`Topology`](topology::Topology): the legs that share joints.
 //!
-//! A manipulator is checked once where it is made; lengths follow from it and a pose, and everything else in the
-//! library takes both.
+//! A manipulator is checked once, at its construction. Lengths follow from it and a pose, and the rest of the library
+//! uses both.
 
 pub mod geom;
 pub mod manipulator;

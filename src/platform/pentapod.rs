@@ -1,9 +1,9 @@
 //! Five legs between two bodies, with exact joints.
 //!
-//! A pentapod whose joints of one body lie on a line is *linear*: its legs determine where the line is, and the body
-//! turns freely about it (Borras, Thomas 2009; Nawratil, Schicho 2015). The line is `o + mu d` in the frame of
-//! its body, `o` the joint of leg 1; in the frame of the other body it is `p + mu v` with `v . v = d . d`, so that the
-//! leg from `a` to the joint at `mu` has the squared length
+//! A pentapod with all joints of one body on a line is *linear*. Its legs determine the line, and the body rotates
+//! freely about it (Borras, Thomas 2009; Nawratil, Schicho 2015). In the frame of its body the line is `o + mu d`, with
+//! the joint `o` of leg 1. In the frame of the other body it is `p + mu v` with `v . v = d . d`. The leg from `a` to
+//! the joint at `mu` thus has the squared length
 //!
 //! ```text
 //! s = P + 2 mu Q + mu^2 d.d - 2 a.p - 2 mu a.v + a.a,    P = p.p,  Q = p.v
@@ -17,10 +17,10 @@ use num::exact::{ExactVector, Rational, rank, rational};
 /// A point with rational coordinates.
 pub type RationalPoint = [Rational; 3];
 
-/// Numbers in which the squared length of a leg to a line is linear: `P, Q, p, v`.
+/// Number of unknowns in which the squared length of a leg to a line is linear: `P, Q, p, v`.
 pub const LINE_NUMBERS: usize = 8;
 
-/// The ends of five legs, each in the frame of its body, as the rational numbers they are.
+/// The ends of five legs, each in the frame of its body, as rational numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pentapod {
     /// Ends on the base, in leg order.
@@ -46,7 +46,7 @@ pub struct LinearPentapod {
     pub origin: RationalPoint,
     /// From the joint of leg 1 to the joint farthest from it.
     pub direction: RationalPoint,
-    /// Where the joint of each leg is on the line: `o + mu d`.
+    /// Position of the joint of each leg on the line: `o + mu d`.
     pub marks: [Rational; 5],
     /// The ends on the other body.
     pub others: [RationalPoint; 5],
@@ -79,7 +79,7 @@ fn flat_dimension<'a>(points: impl IntoIterator<Item = &'a RationalPoint>) -> us
 }
 
 impl Pentapod {
-    /// Joints given as doubles, which are rational numbers; `None` when a coordinate is not finite.
+    /// Joints given as doubles, which are rational numbers; `None` if a coordinate is not finite.
     #[must_use]
     pub fn from_doubles(base: &[[f64; 3]; 5], platform: &[[f64; 3]; 5]) -> Option<Self> {
         let point = |x: &[f64; 3]| Some([rational(x[0])?, rational(x[1])?, rational(x[2])?]);
@@ -102,8 +102,8 @@ impl Pentapod {
         flat_dimension(legs.iter().map(|leg| &self.ends(body)[*leg]))
     }
 
-    /// The pentapod about the line of one of its bodies, the platform first; `None` where neither has all joints on
-    /// one, or all at one point.
+    /// The pentapod about the line of one of its bodies, the platform first. `None` if no body has all joints on a
+    /// line, or a body has all at one point.
     #[must_use]
     pub fn linear(&self) -> Option<LinearPentapod> {
         [Body::Platform, Body::Base].into_iter().find_map(|body| self.linear_on(body))
@@ -145,7 +145,7 @@ impl LinearPentapod {
         })
     }
 
-    /// What is left of the squared length: `mu^2 d.d + a.a`.
+    /// The constant part of the squared length: `mu^2 d.d + a.a`.
     #[must_use]
     pub fn constants(&self) -> [Rational; 5] {
         let square = self.square();

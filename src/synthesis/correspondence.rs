@@ -1,16 +1,16 @@
-//! Which leg of one design is which leg of another.
+//! The correspondence between the legs of two designs.
 
 use platform::manipulator::{LegIndex, Manipulator};
 
 /// Legs closer than this, relative to the size, are the same leg.
 const SAME: f64 = 1e-9;
-/// Legs closer than this, relative to the size, are named as nearly the same.
+/// Legs closer than this, relative to the size, count as nearly the same.
 const NEARLY: f64 = 1e-3;
 
-/// For each leg of TO the leg of FROM between the same joints, or nearly so.
+/// For each leg of TO the leg of FROM between the same joints, exactly or nearly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegCorrespondence {
-    /// The nearest leg of FROM, where one is nearer than a thousandth of the size.
+    /// The nearest leg of FROM, if it is within a thousandth of the size.
     pub legs: [Option<LegIndex>; 6],
     /// The larger distance of the two joints of the nearest leg of FROM, relative to the size of FROM.
     pub distances: [f64; 6],
@@ -33,14 +33,14 @@ impl LegCorrespondence {
         Self { legs, distances: nearest.map(|n| n.1) }
     }
 
-    /// Every leg of TO is (nearly) a leg of FROM, and no two are the same one.
+    /// Whether every leg of TO is (nearly) a leg of FROM, and no two are the same one.
     #[must_use]
     pub fn is_permutation(&self) -> bool {
         let mut seen = [false; 6];
         self.legs.iter().all(|leg| leg.is_some_and(|i| !std::mem::replace(&mut seen[i.get()], true)))
     }
 
-    /// Every leg named is the same up to rounding.
+    /// Whether every matched leg is the same up to rounding.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.legs.iter().zip(self.distances).all(|(leg, d)| leg.is_none() || d <= SAME)

@@ -1,14 +1,14 @@
 //! The way from coplanar points to the leg map of an equivalent platform, step by step.
 //!
-//! A joint `Q` on the line of two joints `X` and `Y` of one body is in a plane with both and with the joint `F` of the
-//! other body that their legs share, at every pose. The Cayley-Menger determinant of the four points therefore
-//! vanishes; with `d = |XY|` and `Q = X + t (Y - X)` it is the square
+//! A joint `Q` is on the line of two joints `X` and `Y`, whose legs share the joint `F` of the other body. The four
+//! points are then coplanar at every pose. Their Cayley-Menger determinant therefore vanishes. With `d = |XY|` and
+//! `Q = X + t (Y - X)` it is the square
 //!
 //! ```text
 //! D(X, Y, Q, F) = -2 d^2 (s' - (1 - t) s_X - t s_Y + t (1 - t) d^2)^2,
 //! ```
 //!
-//! so that one row of `A` and of `c` follows for each moved leg. Source: Rojas, Borras, Thomas (2010), eq. 7.
+//! so that each moved leg gives one row of `A` and of `c`. Source: Rojas, Borras, Thomas (2010), eq. 7.
 
 use num::algebraic::Algebraic;
 use platform::manipulator::{ExactLegs, LegIndex, Manipulator, Octahedral};
@@ -17,7 +17,7 @@ use crate::determinant::{Factor, offset_products};
 use crate::hexagon::{HexagonPoint, JointLabel, Offset, corner, edge, sliding_body};
 use crate::pattern::Pattern;
 
-/// One leg that moves along the line of two legs with a joint in common.
+/// One leg that moves along the line of two legs with a common joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LegSlide {
     /// The leg that moves.
@@ -28,7 +28,7 @@ pub struct LegSlide {
     pub ends: [JointLabel; 2],
     /// The new joint `Q`.
     pub moved: JointLabel,
-    /// The joint `F` that stays.
+    /// The fixed joint `F`.
     pub fixed: JointLabel,
     /// `t`, with `Q = X + t (Y - X)`.
     pub share: Algebraic,
@@ -56,27 +56,27 @@ impl LegSlide {
     }
 }
 
-/// How the leg map of one platform of the class is derived.
+/// The derivation of the leg map of one platform of the class.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivation {
-    /// All numbers are those of exact joints, and the joints lie on their lines exactly. Otherwise they are those of
+    /// Whether all numbers are those of exact joints, with joints exactly on their lines. Otherwise they are those of
     /// the doubles.
     pub exact: bool,
-    /// One row of `A` for each moved leg, all offsets at once: in the cyclic order of the legs, from the legs of the
-    /// octahedral platform.
+    /// One row of `A` for each moved leg, all offsets at once, from the legs of the octahedral platform. The rows are
+    /// in the cyclic order of the legs.
     pub moves: Vec<LegSlide>,
-    /// The same one offset at a time, in an order in which each leg slides along the line of two legs that are there;
-    /// `None` where no order reaches the platform without two legs on one another.
+    /// The same with one offset at a time, in an order in which each leg slides along the line of two existing legs.
+    /// `None` if every order passes through two coincident legs.
     pub sequence: Option<Vec<LegSlide>>,
     /// The factors of `det A` with their values.
     pub factors: Vec<(Factor, Algebraic)>,
-    /// `prod (1 - t)` and `prod t`, whose difference `det A` is, for the platform without shared joints.
+    /// `prod (1 - t)` and `prod t` for the platform without shared joints; their difference is `det A`.
     pub products: Option<[Algebraic; 2]>,
 }
 
 impl Derivation {
-    /// Of the platform `built` by `pattern` from `original`, in which `o` was recognised; `None` where an edge has no
-    /// length, which no octahedral platform has.
+    /// The derivation of the platform `built` by `pattern` from `original`, in which `o` was recognised. `None` if an
+    /// edge has no length, which is impossible for an octahedral platform.
     #[must_use]
     pub fn of(
         o: &Octahedral,
@@ -124,7 +124,7 @@ impl Derivation {
     }
 }
 
-/// The shares of the offsets of a pattern with the squares of their edges.
+/// The shares of the offsets of a pattern, and the squares of their edges.
 struct Sides {
     shares: Vec<(Offset, Algebraic, Algebraic)>,
     order: [usize; 6],
@@ -140,7 +140,7 @@ impl Sides {
         )
     }
 
-    /// Where a point stands on its side.
+    /// Position of a point on its side.
     fn position(&self, side: usize, point: HexagonPoint) -> Algebraic {
         match point {
             HexagonPoint::Vertex(i) => Algebraic::integer(i64::from(i != side)),
@@ -148,7 +148,7 @@ impl Sides {
         }
     }
 
-    /// The leg of `slot` goes to `offset` on the line of the legs of the slots `between`, which stand at `points`.
+    /// The leg of `slot` moves to `offset` on the line of the legs of the slots `between`, which are at `points`.
     fn slide(
         &self,
         slot: usize,
@@ -178,7 +178,7 @@ impl Sides {
         })
     }
 
-    /// An order of single moves that reaches the points, each along the line of two legs at different places.
+    /// An order of single moves to the points, each along the line of two legs at different places.
     fn one_at_a_time(&self, target: &[HexagonPoint; 6]) -> Option<Vec<LegSlide>> {
         let (mut now, mut path) = (std::array::from_fn(HexagonPoint::Vertex), Vec::new());
         self.extend(&mut now, target, &mut path).then_some(path)
@@ -279,7 +279,7 @@ mod tests {
         }
     }
 
-    /// All 728 patterns: rows of `A`, the factors, and an order of single moves exactly where the class has one.
+    /// All 728 patterns: rows of `A`, the factors, and an order of single moves exactly if the class has one.
     #[test]
     fn the_steps_make_the_leg_map_of_every_pattern() {
         let o = example();
@@ -302,7 +302,7 @@ mod tests {
             assert!(near(&determinant, pattern.determinant(&offsets).unwrap()), "{pattern}");
             assert_eq!(steps.sequence.is_some(), member.sequential, "{pattern}");
             if let Some(sequence) = &steps.sequence {
-                // each step keeps 1 - t of its own leg: the determinant is their product
+                // each step contributes 1 - t of its own leg: the determinant is their product
                 let of_steps = product(sequence.iter().map(LegSlide::rest).collect());
                 assert!(near(&of_steps, pattern.determinant(&offsets).unwrap()), "{pattern}");
                 assert!(sequence.iter().all(|step| step.between[0] == step.leg));

@@ -4,8 +4,8 @@ use std::ops::{Mul, Sub};
 
 use super::hexagon::{HexagonPoint, Offset};
 
-/// `(prod (1 - t), prod t)` over offsets, in any numbers (floating point, exact, intervals): with one offset on each
-/// side of the hexagon their difference is `det A`, with some left out the minors of `A`.
+/// `(prod (1 - t), prod t)` over offsets, for any number type (floating point, exact, intervals). With one offset on
+/// each side of the hexagon their difference is `det A`; with some left out they give the minors of `A`.
 pub fn offset_products<T>(one: &T, t: impl IntoIterator<Item = T>) -> (T, T)
 where
     T: Clone + Mul<Output = T> + Sub<Output = T>,
@@ -16,19 +16,20 @@ where
 
 /// `det A = prod(1 - t_i) - prod(t_i)` of the map from the octahedral to the platform without shared joints.
 ///
-/// The platform without shared joints is singular exactly where it vanishes, whatever the two triangles.
-/// Source: expansion of the cyclic bidiagonal matrix of the six one-offset relations (Rojas, Borras,
-/// Thomas, sec. 6, for two distinct values of `t`).
+/// The platform without shared joints is singular exactly if it vanishes, for any two triangles. Source: expansion of
+/// the cyclic bidiagonal matrix of the six one-offset relations (Rojas, Borras, Thomas, sec. 6, for two distinct values
+/// of `t`).
 #[must_use]
 pub fn offset_determinant(t: &[f64; 6]) -> f64 {
     let (rest, own) = offset_products(&1.0, *t);
     rest - own
 }
 
-/// The offset `t_k` that makes the platform without shared joints with the five others singular: `t_k = Q / (P + Q)`,
-/// `P = prod t_j`, `Q = prod (1 - t_j)` over `j != k`.
+/// The offset `t_k` that makes the platform without shared joints singular, for given other offsets:
+/// `t_k = Q / (P + Q)`, `P = prod t_j`, `Q = prod (1 - t_j)` over `j != k`.
 ///
-/// `None` where `P + Q = 0`: either no finite `t_k` does, or (`P = Q = 0`, two coincident legs or the like) every one.
+/// `None` if `P + Q = 0`: then either no finite `t_k` is singular, or every one (`P = Q = 0`, for example two
+/// coincident legs).
 #[must_use]
 pub fn singular_offset(t: &[f64; 6], k: usize) -> Option<f64> {
     let (rest, own) = products_without(t, &[k]);
@@ -40,7 +41,7 @@ fn products_without(t: &[f64; 6], left_out: &[usize]) -> (f64, f64) {
     offset_products(&1.0, (0..6).filter(|i| !left_out.contains(i)).map(|i| t[i]))
 }
 
-/// Gradient of [`offset_determinant`]; products without the own factor, so zeros do no harm.
+/// Gradient of [`offset_determinant`] by products without the factor itself, so zero factors do no harm.
 pub fn determinant_gradient(t: &[f64; 6]) -> [f64; 6] {
     std::array::from_fn(|j| {
         let (rest, own) = products_without(t, &[j]);
@@ -62,7 +63,7 @@ pub enum Factor {
 }
 
 impl Factor {
-    /// The value in any numbers, with `at` giving the offsets.
+    /// The value for any number type; `at` gives the offsets.
     pub fn value<T>(self, one: &T, at: impl Fn(Offset) -> T) -> T
     where
         T: Clone + Mul<Output = T> + Sub<Output = T>,
@@ -104,13 +105,13 @@ impl std::fmt::Display for Factor {
     }
 }
 
-/// Rows in the order that puts every leg in the place of one it is made of, and the factors of `det A`.
+/// Rows in an order that puts every leg in the place of one of its components, and the factors of `det A`.
 pub(crate) struct Expansion {
     pub slots: [HexagonPoint; 6],
     pub factors: Vec<Factor>,
 }
 
-/// The factor contributed by the entry of `point` in column `vertex`; `None` stands for 1.
+/// The factor of the entry of `point` in column `vertex`; `None` stands for 1.
 fn entry(point: HexagonPoint, vertex: usize) -> Option<Factor> {
     match point {
         HexagonPoint::Vertex(_) => None,
@@ -126,12 +127,12 @@ fn covers(point: HexagonPoint, vertex: usize) -> bool {
     }
 }
 
-/// Expands `det A` of six points of the hexagon; `None` when it is the zero polynomial, that is when the
-/// points are dependent for all offsets.
+/// Expands `det A` of six points of the hexagon; `None` if it is the zero polynomial, so that the points are dependent
+/// for all offsets.
 ///
-/// Row `j` of `A` has entries only in the one or two columns that point `j` covers. A column with one entry left, or a
-/// row with one entry left, is expanded (exactly one term); a column or row with none makes the determinant zero. What
-/// remains has two entries in every row and column: a cycle in the hexagon, which is either the two inner points of one
+/// Row `j` of `A` has entries only in the one or two columns that point `j` covers. A column or row with one remaining
+/// entry is expanded (exactly one term); a column or row without entries makes the determinant zero. The remaining rows
+/// and columns have two entries each, which form cycles in the hexagon. A cycle is either the two inner points of one
 /// side, `(1 - t) u - t (1 - u) = u - t`, or one inner point on each of the six sides. Neither is the zero polynomial,
 /// so the expansion decides generic independence exactly.
 pub(crate) fn expand(points: &[HexagonPoint; 6]) -> Option<Expansion> {
@@ -212,7 +213,7 @@ mod tests {
         assert!(offset_determinant(&[0.5; 6]).abs() < 1e-16);
     }
 
-    /// Legs of isosceles triangles on both sides of the plane `x = 0`, ends on the edges at `t`: base end, platform
+    /// Legs of isosceles triangles on either side of the plane `x = 0`, ends on the edges at `t`: base end, platform
     /// end.
     fn isosceles_legs(t: [f64; 6]) -> [[[f64; 2]; 2]; 6] {
         let base = [[0.0, 2.0], [-1.5, -1.0], [1.5, -1.0]];
@@ -241,8 +242,8 @@ mod tests {
         })
     }
 
-    /// "Mirror planes" in docs/theory/octahedral-class.md: of platforms without shared joints exactly those with
-    /// offsets `t, u, 1/2, 1 - u, 1 - t, 1/2` have the mirror plane of the triangles, and they are singular.
+    /// "Mirror planes" in docs/theory/octahedral-class.md: platforms without shared joints have the mirror plane of the
+    /// triangles exactly for the offsets `t, u, 1/2, 1 - u, 1 - t, 1/2`. All of these are singular.
     #[test]
     fn platforms_with_a_mirror_plane_are_singular() {
         for (t, u) in [(0.25, 0.125), (0.375, -0.5), (1.5, 0.75), (0.5, 0.5)] {

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::family::Family;
 
 impl Family {
-    /// Topologies as nodes, moves that split a joint as edges; the topology that is not reached this way
-    /// hangs on the octahedral one by a dashed edge.
+    /// Topologies as nodes, and moves that split a joint as edges. The topology that these moves do not reach hangs on
+    /// the octahedral one by a dashed edge.
     #[must_use]
     pub fn to_dot(&self) -> String {
         let mut out = String::from(

@@ -1,7 +1,8 @@
 //! The topologies of the class as a drawing: one small platform for each, in levels by number of joints.
 //!
-//! In the spirit of Rojas, Borras, Thomas, Fig. 6. Seen from above: grey base triangle, green platform triangle turned
-//! by 180 degrees, legs between them; big dots are shared joints, dotted red lines joints that must be on one line.
+//! The drawing follows Rojas, Borras, Thomas, Fig. 6. In top view it shows a grey base triangle, a green platform
+//! triangle rotated by 180 degrees, and the legs between them. Big dots are shared joints; dotted red lines connect
+//! joints that must be collinear.
 
 use std::fmt::Write as _;
 
@@ -14,7 +15,7 @@ const CELL: (f64, f64) = (150.0, 190.0);
 const MARGIN: f64 = 30.0;
 /// Circumradius of the base and of the platform triangle.
 const RADIUS: (f64, f64) = (56.0, 47.0);
-/// Height of the drawing inside its cell; edges run in what is left below.
+/// Height of the drawing inside its cell; edges run in the space below.
 const DRAWN: f64 = 138.0;
 
 const STYLE: &str = "<style>\
@@ -31,7 +32,7 @@ text{font-family:sans-serif;font-size:10px;text-anchor:middle;fill:#222}\
 .shared{fill:#111}\
 </style>";
 
-/// Where corner `i` is drawn, relative to the centre of the platform; y points down.
+/// Position of corner `i`, relative to the centre of the platform; y points down.
 fn corner_at(i: usize) -> (f64, f64) {
     let (radius, degrees) = match i {
         0 => (RADIUS.0, 210.0),
@@ -45,7 +46,7 @@ fn corner_at(i: usize) -> (f64, f64) {
     (radius * cos, -radius * sin)
 }
 
-/// A moved leg is drawn four tenths of the edge away from where it was.
+/// Position of a joint; a moved leg is drawn four tenths of the edge away from its original place.
 fn joint_at(pattern: &Pattern, joint: JointLabel) -> (f64, f64) {
     match joint {
         JointLabel::Corner(i) => corner_at(i),
@@ -93,7 +94,7 @@ fn platform(out: &mut String, pattern: &Pattern) {
     }
 }
 
-/// Centres of the cells: levels from top to bottom, each ordered by the mean place of what leads to it.
+/// Centres of the cells: levels from top to bottom, each ordered by the mean place of its predecessors.
 fn layout(family: &Family) -> (Vec<(f64, f64)>, f64, f64) {
     let topologies = family.topologies();
     let level =
@@ -166,7 +167,7 @@ impl Family {
     }
 }
 
-/// The dashed way around, for what no sequence of moves reaches.
+/// The dashed edge to the topology that no sequence of moves reaches.
 fn jump(out: &mut String, from: (f64, f64), to: (f64, f64), width: f64) {
     let right = width - 12.0;
     let _ = writeln!(

@@ -4,7 +4,7 @@ use super::pattern::Pattern;
 
 /// Every pattern of six independent points of the hexagon, by number of offsets.
 ///
-/// All choices of unchanged legs and of zero, one or two inner points a side that make six points are tried;
+/// The loop tries all choices of unchanged legs and of zero, one or two inner points per side that give six points.
 /// [`Pattern::new`] keeps those whose `det A` is not the zero polynomial.
 #[must_use]
 pub fn enumerate() -> Vec<Pattern> {
@@ -42,7 +42,7 @@ impl Symmetry {
         if self.reflected { self.vertex(k + 1) } else { self.vertex(k) }
     }
 
-    /// Whether even sides go to even sides, so that base stays base.
+    /// Whether it maps even sides to even sides, so that base stays base.
     #[must_use]
     pub fn keeps_bodies(self) -> bool {
         self.side(0).is_multiple_of(2)

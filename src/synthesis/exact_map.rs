@@ -1,8 +1,9 @@
-//! The leg map between platforms whose joints are known exactly, as exact numbers.
+//! The leg map between platforms with exactly known joints, in exact numbers.
 //!
 //! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of
-//! FROM, and `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if
-//! all three hold: the legs of FROM are independent, those of TO are, and every one of TO is in the span of FROM.
+//! FROM, and `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. The platforms are equivalent if and only if
+//! three conditions hold. The legs of FROM are independent, those of TO are independent, and each leg of TO is in the
+//! span of FROM.
 
 use std::fmt::Write as _;
 
@@ -21,7 +22,7 @@ pub(crate) struct ExactMap {
     pub determinant: Algebraic,
 }
 
-/// What two platforms have to do with each other, decided without rounding.
+/// The relation of two platforms, decided without rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ExactRelation {
     /// A regular map.
@@ -30,7 +31,7 @@ pub(crate) enum ExactRelation {
     Singular {
         /// Ranks of the leg vectors of FROM and of TO.
         ranks: [usize; 2],
-        /// The map where the legs of FROM are independent and those of TO are in their span; its determinant is zero.
+        /// The map if the legs of FROM are independent and those of TO are in their span; its determinant is zero.
         map: Option<Box<ExactMap>>,
     },
     /// Both are independent, and these legs of TO, from 0, are not in the span of those of FROM.
@@ -38,7 +39,7 @@ pub(crate) enum ExactRelation {
 }
 
 impl ExactRelation {
-    /// Of six legs and six others.
+    /// The relation of six legs to six others.
     pub(crate) fn of(from: &ExactLegs, to: &ExactLegs) -> Self {
         let ranks = [from, to].map(|legs| rank(&legs.vectors));
         let (mut a, mut off) = (Vec::new(), Vec::new());
@@ -61,7 +62,7 @@ impl ExactRelation {
         }
     }
 
-    /// The map, also where its determinant is zero.
+    /// The map, also if its determinant is zero.
     pub(crate) fn map(&self) -> Option<&ExactMap> {
         match self {
             Self::Equivalent(map) | Self::Singular { map: Some(map), .. } => Some(map),
@@ -79,12 +80,12 @@ impl ExactMap {
         Self { c: c.collect(), determinant: determinant(&a), a }
     }
 
-    /// Most bits of a numerator, and of a denominator, in `A` and `c`.
+    /// Greatest number of bits of a numerator or denominator in `A` and `c`.
     pub(crate) fn bits(&self) -> u64 {
         self.a.iter().flatten().chain(&self.c).map(Algebraic::bits).max().unwrap_or(0)
     }
 
-    /// The columns of `1 - t` and of `t` where row `i` is these beside zeros.
+    /// The columns of `1 - t` and of `t`, if row `i` has only these nonzero entries.
     fn share_columns(&self, i: usize) -> Option<(usize, usize)> {
         let filled: Vec<usize> = (0..6).filter(|k| !self.a[i][*k].is_zero()).collect();
         let (first, second) = match filled[..] {
@@ -95,7 +96,7 @@ impl ExactMap {
         Some(if second == i { (second, first) } else { (first, second) })
     }
 
-    /// The determinant with rows that have a single one each, in the columns given, in the place of those of `A`.
+    /// The determinant with single ones, in the given columns, in place of the rows of `A`.
     fn determinant_with(&self, columns: &[(usize, usize)]) -> Algebraic {
         let mut a = self.a.clone();
         for (i, column) in columns {
@@ -104,8 +105,7 @@ impl ExactMap {
         determinant(&a)
     }
 
-    /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine
-    /// in `t`.
+    /// The share `t` at which the determinant vanishes, if row `i` has only `1 - t` and `t`: `det A` is affine in `t`.
     pub(crate) fn singular_share(&self, i: usize) -> Option<Algebraic> {
         let (own, other) = self.share_columns(i)?;
         let at = |k: usize| self.determinant_with(&[(i, k)]);
@@ -114,9 +114,9 @@ impl ExactMap {
         (!slope.is_zero()).then(|| &start / &slope)
     }
 
-    /// `det A` for all shares `t1` to `t6` at once, of the rows that are `1 - t` and `t` beside zeros, the other rows
-    /// as they stand: a sum of products of `(1 - t)` and `t`, since the determinant is affine in each row. Its zeros
-    /// are the singular ones of the platforms whose leg ends stay on the same edges. `None` where there is no such row.
+    /// `det A` as a polynomial in all shares `t1` to `t6` of the rows with only `1 - t` and `t`; other rows are
+    /// constant. It is a sum of products of `(1 - t)` and `t`, since the determinant is affine in each row. Its zeros
+    /// are the singular platforms with the leg ends on the same edges. `None` without such a row.
     pub(crate) fn determinant_of_shares(&self) -> Option<String> {
         let free: Vec<(usize, (usize, usize))> =
             (0..6).filter_map(|i| Some((i, self.share_columns(i)?))).collect();
@@ -155,7 +155,7 @@ impl ExactMap {
                 (false, sign) => write!(text, " {sign} {size}{product}"),
             };
         }
-        // no choice gives a regular matrix: singular whatever the shares are
+        // no choice gives a regular matrix: singular for all shares
         Some(if text.is_empty() { "0".into() } else { text })
     }
 }
@@ -253,7 +253,7 @@ mod tests {
         }
     }
 
-    /// All offsets at once: legs that stay have no share, and the polynomial is zero where the platform is singular.
+    /// All offsets at once: unmoved legs have no share, and the polynomial is zero where the platform is singular.
     #[test]
     fn the_singular_offsets_are_the_zeros_of_one_polynomial() {
         let octahedral = slid(&std::array::from_fn(|_| Surd::zero()));
@@ -264,10 +264,10 @@ mod tests {
         };
         let all = "(1 - t1) (1 - t2) (1 - t3) (1 - t4) (1 - t5) (1 - t6) - t1 t2 t3 t4 t5 t6";
         assert_eq!(of([1, 2, 3, 1, 2, 4]).0.as_deref(), Some(all));
-        // each t beside its 1 - t: the same polynomial, and zero
+        // each t with its 1 - t: the same polynomial, and zero
         let (polynomial, determinant) = of([1, 4, 2, 3, 1, 4]);
         assert_eq!((polynomial.as_deref(), determinant.is_zero()), (Some(all), true));
-        // with one leg where it was the product of the shares is zero, and only a share of one is singular
+        // with one unmoved leg the product of the shares is zero, and only a share of one is singular
         assert_eq!(of([0, 2, 3, 1, 0, 4]).0.as_deref(), Some("(1 - t2) (1 - t3) (1 - t4) (1 - t6)"));
         assert_eq!(of([0; 6]), (None, Algebraic::integer(1)));
     }

@@ -7,18 +7,18 @@ use super::moves::{moves, reachable};
 use super::pattern::Pattern;
 use platform::topology::Topology;
 
-/// A pattern and where it stands.
+/// A pattern and its place in the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FamilyMember {
     /// The pattern.
     pub pattern: Pattern,
-    /// Index of its class, base and platform kept apart.
+    /// Index of its class, without exchange of base and platform.
     pub class: usize,
     /// Index of its class with exchange of base and platform.
     pub class_exchange: usize,
     /// Index into [`Family::topologies`].
     pub topology: usize,
-    /// Whether it is reached by offsets introduced one at a time.
+    /// Whether offsets introduced one at a time reach it.
     pub sequential: bool,
 }
 
@@ -27,15 +27,15 @@ pub struct FamilyMember {
 pub struct FamilyTopology {
     /// The graph.
     pub topology: Topology,
-    /// A pattern that shows it: reached by moves that each split a joint and with few offsets, if there is one.
+    /// A pattern of this topology with few offsets, reached only by moves that split a joint, if there is one.
     pub example: Pattern,
-    /// Whether a pattern of this topology is reached by offsets introduced one at a time.
+    /// Whether offsets introduced one at a time reach a pattern of this topology.
     pub sequential: bool,
-    /// Indices of the topologies reached from it by one move that splits a joint.
+    /// Indices of the topologies after one move that splits a joint.
     pub next: Vec<usize>,
 }
 
-/// How many members the class has.
+/// Counts of the members of the class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -49,13 +49,13 @@ pub struct FamilyCounts {
     pub classes: usize,
     /// Patterns up to all symmetries of the hexagon.
     pub classes_exchange: usize,
-    /// Ways in which legs share joints, the octahedral one included.
+    /// Topologies of shared joints, including the octahedral one.
     pub topologies: usize,
-    /// The same where base and platform may be exchanged.
+    /// The same with base and platform exchangeable.
     pub topologies_exchange: usize,
     /// Topologies that are reached by offsets introduced one at a time.
     pub sequential_topologies: usize,
-    /// The same where base and platform may be exchanged.
+    /// The same with base and platform exchangeable.
     pub sequential_topologies_exchange: usize,
     /// Patterns that are reached by offsets introduced one at a time.
     pub sequential_patterns: usize,
@@ -93,7 +93,7 @@ fn distinct<K: Ord>(keys: impl Iterator<Item = K>) -> usize {
 }
 
 impl Family {
-    /// The class of the octahedral platform. It does not depend on the shape of the triangles.
+    /// The class of the octahedral platform. It is the same for all triangles.
     #[must_use]
     pub fn octahedral() -> Self {
         let patterns = enumerate();

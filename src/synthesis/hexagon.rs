@@ -1,9 +1,9 @@
 //! The hexagon of lines of an octahedral platform.
 //!
-//! The legs `0..6` in cyclic order are the vertices of a hexagon in the space of legs. Side `k` joins leg `k`
-//! and leg `k + 1` (indices mod 6), which share a joint; it is the line of all legs that keep that joint and
-//! end on the line through the two other joints. On even sides (0, 2, 4) the platform joint is fixed and the
-//! base end slides along a side of the base triangle, on odd sides it is the other way round.
+//! The legs `0..6` in cyclic order are the vertices of a hexagon in the space of legs. Side `k` joins leg `k` and leg
+//! `k + 1` (indices mod 6), which share a joint. It is the line of all legs with that joint and an end on the line
+//! through the two other joints. On even sides (0, 2, 4) the platform joint is fixed and the base end slides along a
+//! side of the base triangle. On odd sides the roles are exchanged.
 
 use nalgebra::{Point3, Vector3};
 
@@ -91,13 +91,13 @@ pub fn corner(body: Body, i: usize) -> usize {
     }
 }
 
-/// The two corners between which the legs of a side slide, those of leg `side` and of leg `side + 1`.
+/// The two corners of the edge along which the legs of a side slide: those of leg `side` and of leg `side + 1`.
 pub fn edge(side: usize) -> [usize; 2] {
     let body = sliding_body(side);
     [corner(body, side), corner(body, (side + 1) % 6)]
 }
 
-/// Where corner `i` is, in the frame of its body.
+/// Position of corner `i`, frame of its body.
 pub(crate) fn corner_point(o: &Octahedral, i: usize) -> Point3<f64> {
     if i < 3 { o.base()[i] } else { o.platform()[i - 3] }
 }
@@ -173,8 +173,8 @@ pub fn edge_lengths(o: &Octahedral) -> [f64; 6] {
 
 /// `t = Delta / edge` on the six sides for one offset on all base edges and one on all platform edges.
 ///
-/// This is the parametrisation of Rojas, Borras, Thomas, sec. 6: `Delta1 = base`, `Delta2 = platform`, in
-/// design units, measured from leg `k` towards leg `k + 1`; negative offsets lie beyond leg `k`.
+/// This is the parametrisation of Rojas, Borras, Thomas, sec. 6: `Delta1 = base`, `Delta2 = platform`, in design units.
+/// They count from leg `k` towards leg `k + 1`; negative offsets lie beyond leg `k`.
 #[must_use]
 pub fn offsets_from_distances(o: &Octahedral, base: f64, platform: f64) -> [f64; 6] {
     let d = edge_lengths(o);

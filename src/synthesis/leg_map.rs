@@ -43,12 +43,12 @@ pub struct NotRealizable {
 pub struct SingularMap {
     /// Smallest over largest singular value of `A`.
     pub inverse_condition: f64,
-    /// What it had to exceed.
+    /// The required minimum.
     pub limit: f64,
 }
 
 impl AffineLegMap {
-    /// Below this `sigma_min / sigma_max` the inverse has no correct digit left worth returning.
+    /// Below this `sigma_min / sigma_max` the inverse has no correct digits.
     const INVERSE_LIMIT: f64 = 1e-13;
 
     /// The map of a platform to itself.
@@ -57,7 +57,7 @@ impl AffineLegMap {
         Self { a: Matrix6::identity(), c: Vector6::zeros() }
     }
 
-    /// `A s + c` for `A` and `c` as they are, in double-double; the radii hold those of `s` and the rounding of the
+    /// `A s + c` for the stored `A` and `c`, in double-double; the radii include those of `s` and the rounding of the
     /// sums.
     ///
     /// # Errors
@@ -105,7 +105,7 @@ impl AffineLegMap {
     /// The map back: `s = A^-1 (s' - c)`.
     ///
     /// # Errors
-    /// When `sigma_min / sigma_max` of `A` is below `1e-13`: then `A` cannot be told from a singular matrix.
+    /// `sigma_min / sigma_max` of `A` is below `1e-13`: then `A` is indistinguishable from a singular matrix.
     pub fn invert(&self) -> Result<Self, SingularMap> {
         let singular =
             SingularMap { inverse_condition: self.inverse_condition(), limit: Self::INVERSE_LIMIT };
@@ -117,7 +117,7 @@ impl AffineLegMap {
     }
 }
 
-/// What two platforms have to do with each other.
+/// The relation of two platforms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -125,18 +125,18 @@ impl AffineLegMap {
     serde(rename_all = "snake_case")
 )]
 pub enum Relation {
-    /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: same poses, same singularities.
+    /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: equal poses, equal singularities.
     Equivalent,
-    /// The legs of FROM or those of TO are dependent: one of the two is architecturally singular.
+    /// The legs of FROM or of TO are dependent: one of the two is architecturally singular.
     Singular,
     /// Some leg of TO is not an affine function of the legs of FROM.
     Unrelated,
-    /// Not decided: the relation holds within rounding only, or a singular design lies within it.
+    /// Undecided: the relation holds only within rounding, or a singular design is within rounding.
     Undecided,
 }
 
 impl Relation {
-    /// The relation where it is decided.
+    /// The relation if it is decided.
     pub fn decided(self) -> Option<Self> {
         Some(self).filter(|r| *r != Self::Undecided)
     }
@@ -162,37 +162,37 @@ impl std::fmt::Display for Relation {
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegMapTolerances {
-    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it. Asked only where
-    /// joints are not known exactly.
+    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it. It applies only to
+    /// joints that are not known exactly.
     pub residual: f64,
-    /// Leg vectors with singular values below this times the largest are left out of the span, where exact arithmetic
-    /// does not find them independent.
+    /// Leg vectors with singular values below this times the largest are left out of the span, unless exact arithmetic
+    /// proves them independent.
     pub rank: f64,
-    /// `A` with `sigma_min / sigma_max` below this cannot be told from a singular one. Asked only where joints are not
-    /// known exactly.
+    /// `A` with `sigma_min / sigma_max` below this is indistinguishable from a singular matrix. It applies only to
+    /// joints that are not known exactly.
     pub singular: f64,
 }
 
 impl Default for LegMapTolerances {
-    /// `1e-9` for all three: a joint `1e-6` of the size off its line is seen, rounding of the data is not.
+    /// `1e-9` for all three: it detects a joint `1e-6` of the size off its line, but no rounding of the data.
     fn default() -> Self {
         Self { residual: 1e-9, rank: 1e-9, singular: 1e-9 }
     }
 }
 
-/// The answer of [`leg_map`] with the numbers that decided it.
+/// The answer of [`leg_map`] with the deciding numbers.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LegMapOutcome {
-    /// The verdict: decided in exact arithmetic wherever the joints of both are known exactly, never by a tolerance.
+    /// The verdict: decided in exact arithmetic if the joints of both are known exactly, never by a tolerance.
     pub relation: Relation,
-    /// What the verdict is proved about; [`Level::WithinRounding`] where nothing is proved.
+    /// The level of the proof; [`Level::WithinRounding`] without a proof.
     pub level: Level,
-    /// Whether the relation holds within rounding of the joints, so that they may be rounded values of equivalent
-    /// platforms; true as well where it holds exactly.
+    /// Whether the relation holds within rounding of the joints, which may be rounded values of equivalent platforms.
+    /// It is also true if the relation holds exactly.
     pub holds_within_rounding: bool,
-    /// The least-squares map. It is *the* map unless `relation` is [`Relation::Unrelated`]; then only the
-    /// rows with a small residual mean anything.
+    /// The least-squares map. It is *the* map unless `relation` is [`Relation::Unrelated`]; then only the rows with a
+    /// small residual are valid.
     pub closest: AffineLegMap,
     /// `det A`.
     pub determinant: f64,
@@ -200,27 +200,27 @@ pub struct LegMapOutcome {
     pub residuals: [f64; 6],
     /// The largest of `residuals`.
     pub residual: f64,
-    /// Dimension of the span of the legs of FROM: exact where it is below 6.
+    /// Dimension of the span of the legs of FROM: exact if below 6.
     pub leg_rank: usize,
     /// Singular values of the normalised leg vectors of FROM, largest first.
     pub singular_values: [f64; 6],
     /// `sigma_min / sigma_max` of `A`.
     pub inverse_condition: f64,
-    /// What `inverse_condition` had to exceed: the tolerance asked for, or the error to expect in `A` from rounding,
-    /// the residual and the condition of FROM, whichever is larger; below the tolerance the error alone, where exact
-    /// arithmetic found both platforms independent; 0 where the map is exact.
+    /// Required minimum of `inverse_condition`. It is the larger of the tolerance and the expected error of `A` from
+    /// rounding, the residual and the condition of FROM. Below the tolerance it is that error alone if exact arithmetic
+    /// proves both platforms independent; it is 0 for an exact map.
     pub singular_limit: f64,
-    /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM, not within a tolerance.
+    /// Whether the map is exact: every leg vector of TO is exactly in the span of those of FROM.
     pub exact: bool,
-    /// The map in exact numbers, where it is exact; `None` elsewhere, and where the numbers are too long to be read.
+    /// The map in exact numbers if it is exact and the numbers are short enough to read; otherwise `None`.
     pub exact_numbers: Option<ExactNumbers>,
-    /// Whether the leg vectors of both are independent; not known where joints are known between bounds only.
+    /// Whether the leg vectors of both are independent; unknown for joints known only between bounds.
     leg_vectors_independent: bool,
-    /// How far a singular platform is from one of the two, design units, where that is within rounding.
+    /// Distance of a singular platform from one of the two, design units, if it is within rounding.
     pub near_singular: Option<f64>,
     /// Legs of TO that are not in the span of FROM.
     off: [bool; 6],
-    /// The tolerances asked for.
+    /// The tolerances used.
     pub tolerances: LegMapTolerances,
 }
 
@@ -233,17 +233,16 @@ pub struct ExactNumbers {
     pub c: [String; 6],
     /// `det A`.
     pub determinant: String,
-    /// For each leg of TO whose row of `A` is `1 - t` and `t` beside zeros, the number `t` for which `det A` vanishes
-    /// while the other legs stay; `None` for other rows, and where there is no such number. A leg end at the share `t`
-    /// of an edge has such a row.
+    /// For each leg of TO with only `1 - t` and `t` in its row of `A`, the `t` at which `det A` vanishes. `None` for
+    /// other rows, and if no such number exists. A leg end at the share `t` of an edge has such a row.
     pub singular_shares: [Option<String>; 6],
-    /// `det A` as a polynomial in the shares `t1` to `t6` of all such rows at once, the others as they stand: its zeros
-    /// are the singular shares. `None` where there is no such row.
+    /// `det A` as a polynomial in the shares `t1` to `t6` of all such rows, with the other rows constant. Its zeros are
+    /// the singular shares. `None` without such rows.
     pub determinant_of_shares: Option<String>,
 }
 
 impl LegMapOutcome {
-    /// Whether the map, and its inverse, may be computed with: the platforms are equivalent, proved or within rounding.
+    /// Whether the map and its inverse are usable: the platforms are equivalent, by proof or within rounding.
     #[must_use]
     pub fn is_regular_within_rounding(&self) -> bool {
         match self.relation {
@@ -257,21 +256,21 @@ impl LegMapOutcome {
         }
     }
 
-    /// The same where the leg lines of one of the two are dependent at every pose, proved at `level`.
+    /// The outcome if the leg lines of one of the two are dependent at every pose, proved at `level`.
     pub fn with_dependent_lines(mut self, level: Level) -> Self {
         (self.relation, self.level) = (Relation::Singular, level);
         self
     }
 
-    /// The same where a singular platform is within rounding of one of the two, at this distance.
+    /// The outcome if a singular platform is within rounding of one of the two, at this distance.
     pub fn near_singular(mut self, distance: f64) -> Self {
         (self.relation, self.level) = (Relation::Undecided, Level::WithinRounding);
         self.near_singular = Some(distance);
         self
     }
 
-    /// The same for a TO that was moved by numbers that are known to the tolerance only: its joints as written mean
-    /// nothing. `dependent` where the legs of one of the two are, which no motion changes.
+    /// The outcome for a TO moved by numbers that are known only to the tolerance, so that its joints as written are
+    /// not exact. `dependent` if the legs of one of the two are dependent, which no motion changes.
     pub(super) fn of_moved(mut self, dependent: bool) -> Self {
         self.holds_within_rounding = self.residual <= self.tolerances.residual;
         if dependent && self.holds_within_rounding {
@@ -284,7 +283,7 @@ impl LegMapOutcome {
         self
     }
 
-    /// Takes over what exact arithmetic says of the joints, proved at `level`.
+    /// Takes over the result of exact arithmetic on the joints, proved at `level`.
     fn decided(&mut self, relation: &ExactRelation, level: Level) {
         self.level = level;
         self.leg_vectors_independent = !matches!(relation, ExactRelation::Singular { .. });
@@ -307,7 +306,7 @@ impl LegMapOutcome {
         self.exact_numbers = (map.bits() <= readable).then(|| ExactNumbers::of(map));
     }
 
-    /// One sentence: what was decided and by which number.
+    /// One sentence: the decision and the deciding number.
     #[must_use]
     pub fn explanation(&self) -> String {
         let (o, t) = (self, self.tolerances);
@@ -393,9 +392,9 @@ impl ExactNumbers {
     }
 }
 
-/// Most bits of exact numbers that are written out.
+/// Greatest number of bits of printed exact numbers.
 const LONG: u64 = 2048;
-/// The same for doubles, whose fractions are long without need.
+/// The same limit for doubles, whose fractions are unnecessarily long.
 const SHORT: u64 = 256;
 /// Coordinates count as rounded by this share of the largest coordinate of their body: eight half units in its last
 /// place.
@@ -403,21 +402,21 @@ const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// The affine map from the squared leg lengths of `from` to those of `to`, leg by leg in leg order.
 ///
-/// Row `i` of `A` are the coefficients of `v(a'_i, b'_i)` in the leg vectors of `from`, and
+/// Row `i` of `A` holds the coefficients of `v(a'_i, b'_i)` in the leg vectors of `from`, and
 ///
 /// ```text
 /// c_i = |a'_i|^2 + |b'_i|^2 - sum_j A_ij (|a_j|^2 + |b_j|^2).
 /// ```
 ///
-/// Both platforms are described in the same two frames; the unit must be the same. Moving a frame or changing
-/// the unit does not change `A` (see [`Normalisation`]). Since `sum_j A_ij = 1`, `sum_j A_ij a_j = a'_i` and
-/// likewise for `b`, a shift by `u` changes `c_i` by `2 u (a'_i - sum A_ij a_j) + |u|^2 (1 - sum A_ij) = 0`,
-/// so `c` is formed from the centred joints, where nothing large cancels.
+/// Both platforms are described in the same two frames; the unit must be the same. Moving a frame or changing the unit
+/// does not change `A` (see [`Normalisation`]). Since `sum_j A_ij = 1` and `sum_j A_ij a_j = a'_i` (and the same for
+/// `b`), a shift by `u` changes `c_i` by `2 u (a'_i - sum A_ij a_j) + |u|^2 (1 - sum A_ij) = 0`. So `c` is computed
+/// from the centred joints, without cancellation of large numbers.
 ///
-/// The relation is decided in exact arithmetic on the joints as they are: numbers of a field of square roots for
-/// designs with constructions, the rational numbers that doubles are for others. Platforms that are not equivalent as
-/// written, but miss it by no more than rounding of their doubles, are [`Relation::Undecided`]. Tolerances decide only
-/// where joints are known between bounds only, and never for a relation.
+/// The relation is decided in exact arithmetic on the joints as given. They are numbers of a field of square roots for
+/// designs with constructions, otherwise doubles as rational numbers. Platforms that differ from equivalent ones by no
+/// more than rounding of their doubles are [`Relation::Undecided`]. Tolerances decide only for joints known between
+/// bounds, and never for a relation.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
@@ -449,8 +448,8 @@ pub fn leg_map(
     related(from, &to.legs(), ExactLegs::of(to).as_ref(), to.level(), tolerances)
 }
 
-/// As [`leg_map()`], for six legs that were computed from those of `from`, so that they are known to the tolerance
-/// only; two of them may be the same one, which no [`Manipulator`] has.
+/// [`leg_map()`] for six legs computed from those of `from`, so that they are known only to the tolerance. Two of them
+/// may coincide, which a [`Manipulator`] does not allow.
 pub(super) fn leg_map_to_legs(
     from: &Manipulator,
     legs: &[Leg; 6],
@@ -472,7 +471,7 @@ fn related(
     let mut span = LegSpan::of(from, tolerances.rank)?;
     let independent = !matches!(relation, None | Some(ExactRelation::Singular { ranks: [..6, _], .. }));
     if span.rank() < 6 && independent {
-        span = LegSpan::of(from, 0.0)?; // bodies of mixed scales: small singular values are no rounding
+        span = LegSpan::of(from, 0.0)?; // bodies of mixed scales: small singular values are not rounding
     }
     let residuals = legs.map(|leg| span.distance(&leg));
     let residual = residuals.iter().copied().fold(0.0, f64::max);
@@ -503,7 +502,7 @@ fn related(
     let Some(relation) = relation else {
         let off = outcome.off.contains(&true);
         outcome.holds_within_rounding = !off;
-        // rounding reaches as far as the span is known
+        // rounding effects grow with the inaccuracy of the span
         if off && residual > tolerances.residual + 64.0 * f64::EPSILON / span.inverse_condition() {
             outcome.relation = Relation::Unrelated;
         }
@@ -511,13 +510,13 @@ fn related(
     };
     let level = level.min(from.level());
     outcome.leg_rank = 6;
-    // of dependent legs a map says little, but whether there is one is known within the tolerance
+    // for dependent legs the map itself means little, but its existence is known within the tolerance
     outcome.holds_within_rounding =
         matches!(relation, ExactRelation::Singular { .. }) && residual <= tolerances.residual;
     outcome.decided(&relation, level);
     if let ExactRelation::Unrelated(legs_off) = &relation {
         let limits = rounding_of_residuals(from, legs, &outcome.closest.a, &span.normalisation());
-        // plain joints are off by rounding as well: the legs to name are those off by more
+        // joints given as plain numbers are also rounded: name only the legs that are off by more
         let exact = level == Level::ExactJoints;
         outcome.off = from_fn(|i| legs_off.contains(&i) && (exact || !(residuals[i] <= limits[i])));
         if !outcome.off.contains(&true) {
@@ -529,9 +528,9 @@ fn related(
     Ok(outcome)
 }
 
-/// How far, relative to its vector, a leg of TO that is a combination of those of FROM may be from their span when all
-/// coordinates are rounded: with coordinates off by `d`, in normalised units, every leg vector is off by `4 d` of
-/// itself at most, and a combination by as much for each of its terms.
+/// Greatest distance, relative to its vector, of a leg of TO from the span of FROM by rounding of all coordinates. The
+/// leg must be a combination of legs of FROM. Coordinates off by `d`, in normalised units, move every leg vector by at
+/// most `4 d` of itself, and a combination by as much per term.
 fn rounding_of_residuals(from: &Manipulator, to: &[Leg; 6], a: &Matrix6<f64>, n: &Normalisation) -> [f64; 6] {
     let legs = from.legs();
     let all = || legs.iter().chain(to);

@@ -6,10 +6,9 @@
 //! s(a, b) = <v(a, b), W(R, p)> + |a|^2 + |b|^2,
 //! ```
 //!
-//! where `W` has the entries `|p|^2`, `-2p`, `2 R^T p`, `-2R` and depends on the pose only. The sixteen
-//! entries of `W`, together with 1, are linearly independent functions of the pose as far as combinations
-//! with coefficient sum 1 are concerned, so a leg is an affine function of six others exactly when its
-//! vector lies in their span.
+//! where `W` has the entries `|p|^2`, `-2p`, `2 R^T p`, `-2R` and depends on the pose only. The sixteen entries of `W`,
+//! together with 1, are linearly independent functions of the pose for combinations with coefficient sum 1. So a leg is
+//! an affine function of six others exactly if its vector lies in their span.
 
 use nalgebra::{Point3, Vector3};
 
@@ -24,13 +23,12 @@ pub fn leg_vector(leg: &Leg) -> [f64; 16] {
     std::array::from_fn(|k| a[k / 4] * b[k % 4])
 }
 
-/// The shift and the unit in which the joints of each body are written before ranks are decided.
+/// The shift and the unit of the joints of each body before ranks are decided.
 ///
-/// Writing `a = o + L x` turns `(1, a)` into `M (1, x)` with an invertible `M`, so every leg vector is
-/// multiplied on the right by one invertible 16 x 16 matrix: spans, ranks and the coefficients `A` of a leg
-/// map do not change. With the centroid of the leg ends as `o` and their greatest distance from it as `L`,
-/// separately for the two bodies, the entries of `v` are of order one for micrometres and metres, for a
-/// small platform over a large base, and for frames whose origin is far from the joints.
+/// Writing `a = o + L x` maps `(1, a)` to `M (1, x)` with an invertible `M`. Every leg vector is thus multiplied by one
+/// invertible 16 x 16 matrix, which keeps spans, ranks and the coefficients `A` of a leg map. For each body, `o` is the
+/// centroid of the leg ends and `L` their greatest distance from it. The entries of `v` are then of order one in any
+/// unit, for bodies of different sizes, and for frames with distant origins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Normalisation {
     /// Centroid of the base ends of the legs, base frame.
@@ -44,7 +42,7 @@ pub struct Normalisation {
 }
 
 impl Normalisation {
-    /// Centre and unit of the two bodies of `m`. A body whose leg ends coincide takes the unit of the other.
+    /// Centre and unit of the two bodies of `m`. A body with coincident leg ends takes the unit of the other.
     #[must_use]
     pub fn of(m: &Manipulator) -> Self {
         let legs = m.legs();
@@ -70,7 +68,7 @@ impl Normalisation {
 }
 
 fn centre_and_reach(points: &[Point3<f64>; 6]) -> (Point3<f64>, f64) {
-    // differences from the first point first: no digits are lost when the origin is far away
+    // differences from the first point first, so a distant origin loses no digits
     let mean = points.iter().map(|p| p - points[0]).sum::<Vector3<f64>>() / 6.0;
     let centre = points[0] + mean;
     (centre, points.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max))
@@ -120,7 +118,7 @@ impl LegSpan {
         self.singular_values[5] / self.singular_values[0]
     }
 
-    /// The coordinates in which the legs were compared.
+    /// The normalised coordinates of the comparison.
     #[must_use]
     pub fn normalisation(&self) -> Normalisation {
         self.normalisation
@@ -128,12 +126,12 @@ impl LegSpan {
 
     /// Distance of the vector of `leg` from the span over its length, in `[0, 1]`, in normalised coordinates.
     ///
-    /// The squared length of `leg` is an affine function of the six exactly when this is zero.
+    /// The squared length of `leg` is an affine function of the six exactly if this is zero.
     #[must_use]
     pub fn distance(&self, leg: &Leg) -> f64 {
         let w = leg_vector(&self.normalisation.apply(leg));
         let norm = w.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // the part along the orthogonal complement: no difference of nearly equal numbers is formed
+        // the part along the orthogonal complement, which avoids differences of nearly equal numbers
         let across: f64 = (self.rank..16).map(|k| self.along(k, &w).powi(2)).sum();
         across.sqrt() / norm
     }
@@ -147,8 +145,8 @@ impl LegSpan {
         std::array::from_fn(|i| scaled.iter().enumerate().map(|(k, x)| self.u[i][k] * x).sum())
     }
 
-    /// A unit vector `n` with `sum n_i v_i = 0` for each dimension the span lacks (normalised coordinates;
-    /// the dependency itself does not depend on them). Empty for independent legs.
+    /// A unit vector `n` with `sum n_i v_i = 0` for each missing dimension of the span. The vectors are in normalised
+    /// coordinates; the dependency itself is independent of coordinates. Empty for independent legs.
     #[must_use]
     pub fn dependencies(&self) -> Vec<[f64; 6]> {
         (self.rank..6).map(|k| std::array::from_fn(|i| self.u[i][k])).collect()
@@ -197,7 +195,7 @@ mod tests {
 
     #[test]
     fn four_legs_on_a_line_of_legs_lower_the_rank_to_the_right_number() {
-        // two legs span a line, all further legs from the same platform joint to that line are on it
+        // two legs span a line that contains all further legs from the same platform joint to that line
         let mut rng = Rng::new(3);
         let (a, b, p) = (point(&mut rng), point(&mut rng), point(&mut rng));
         let mut legs: [Leg; 6] =

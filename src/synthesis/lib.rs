@@ -1,14 +1,14 @@
-//! Finds the platforms that are equivalent to a given one with the leg maps between them, and the designs that no pose
-//! can hold.
+//! The platforms equivalent to a given one with the leg maps between them, and the designs that are singular at every
+//! pose.
 //!
-//! It knows `num` and `platform`. Nothing in here solves forward kinematics: `synthesis` and `fk` never import each
-//! other, so that agreement of the root sets of two platforms is evidence for the map between them.
+//! The crate uses `num` and `platform`. It does not solve forward kinematics: `synthesis` and `fk` never import each
+//! other. Equal root sets of two platforms are therefore independent evidence for the map between them.
 //!
 //! * [`Family`]: all platforms that are equivalent to an octahedral one.
 //! * [`AffineLegMap`]: `s' = A s + c` between the squared lengths of two platforms.
-//! * [`Architecture`](singularity::Architecture): whether a design is singular at every pose, and how that is proved.
+//! * [`Architecture`](singularity::Architecture): whether a design is singular at every pose, and its proof.
 //!
-//! Legs become vectors whose linear relations decide: equal spans give the map, dependent ones a singular design.
+//! Legs become vectors with linear relations: equal spans give the map, dependent vectors a singular design.
 
 pub mod alignment;
 pub mod components;

@@ -1,4 +1,5 @@
-//! How far the squared lengths of a platform can be from what a leg map says, over a box of poses.
+//! Bounds of the difference between the squared lengths of a platform and their values by a leg map, over a box of
+//! poses.
 //!
 //! About the home pose `(R0, p0)`, with `x0 = R0 b0 + p0` for any point `b0` of the platform, `b~ = b - b0`,
 //! `a~ = a - x0`, `R = T R0` and `y = R b0 + p - x0`,
@@ -7,8 +8,8 @@
 //! s = |y + R b~ - a~|^2 = |y|^2 + |a~|^2 + |b~|^2 + 2 y.(R b~ - a~) - 2 a~.R b~.
 //! ```
 //!
-//! With `D[f] = f(leg i of TO) - sum_k A_ik f(leg k of FROM)`, which is zero for every `f` below but for rounding where
-//! the map is exact,
+//! With `D[f] = f(leg i of TO) - sum_k A_ik f(leg k of FROM)`, which vanishes up to rounding for every `f` below if the
+//! map is exact,
 //!
 //! ```text
 //! s'_i - (A s + c)_i = D[1] |y|^2 + (D[|a~|^2 + |b~|^2] - c_i - 2 D[a~.R0 b~]) + 2 y.(R D[b~] - D[a~]) - 2 tr((T - 1) R0 D[b~ a~^T]),
@@ -24,7 +25,7 @@ use num::ball::{Real, UP};
 use platform::geom::SamplePlan;
 use platform::manipulator::{Leg, Manipulator};
 
-/// Sums over the legs of FROM taken from a leg of TO.
+/// Sums over the legs of FROM, subtracted from the terms of a leg of TO.
 struct LegDeviation {
     one: Real,
     base: [Real; 3],
@@ -33,7 +34,7 @@ struct LegDeviation {
     squares: Real,
 }
 
-/// A leg in the frames of the module's text.
+/// A leg in the frames of the module documentation.
 fn terms(leg: &Leg, base_origin: &Vector3<f64>, platform_origin: &Vector3<f64>) -> LegDeviation {
     let centred = |p: &Vector3<f64>, origin: &Vector3<f64>| -> [Real; 3] {
         std::array::from_fn(|k| Real::point(p[k]) - Real::point(origin[k]))
@@ -61,17 +62,17 @@ impl LegDeviation {
     }
 }
 
-/// At least the Euclidean norm.
+/// An upper bound of the Euclidean norm.
 fn norm<'a>(list: impl IntoIterator<Item = &'a Real>) -> f64 {
     list.into_iter().map(|x| x.magnitude() * x.magnitude()).sum::<f64>().sqrt() * UP
 }
 
 impl AffineLegMap {
-    /// For each leg of `to` a bound of `|s(to) - A s(from) - c|` over the box of poses from which a plan draws, units
+    /// For each leg of `to` a bound of `|s(to) - A s(from) - c|` over the box of poses of a sampling plan, units
     /// squared.
     ///
-    /// It holds for the joints as the doubles they are, without a tolerance: zero but for rounding where the map is
-    /// exact, and of the size of the differences of the joints times that of the platforms where joints are rounded.
+    /// It holds for the doubles of the joints, without a tolerance. It is zero up to rounding for an exact map; for
+    /// rounded joints it has the size of their differences times that of the platforms.
     #[must_use]
     pub fn deviation_bounds(&self, from: &Manipulator, to: &Manipulator, plan: &SamplePlan) -> [f64; 6] {
         let b0 = to.mean_leg_ends()[1];
@@ -150,7 +151,7 @@ mod tests {
                 }
             }
             for i in 0..6 {
-                // beside the rounding of the squared lengths themselves
+                // besides the rounding of the squared lengths themselves
                 assert!(worst[i] <= bounds[i] + 1e-12, "{worst:?} {bounds:?}");
                 assert!(rounding == 0.0 || bounds[i] < 60.0 * rounding, "{bounds:?}");
                 assert!(rounding > 0.0 || bounds[i] < 1e-11, "{bounds:?}");

@@ -1,13 +1,13 @@
 //! Offsets introduced one at a time.
 //!
-//! A *move* takes two legs of the current platform that share a joint `Y` and have different other ends
-//! `X1`, `X2`, and slides the end `X1` of one of them along the line `X1 X2` to a generic point. On the hexagon:
-//! the closed side that belongs to `Y` carries two points, one of them is a vertex, and it moves into the side.
-//! (Moving an inner point on its side only changes the value of its offset.)
+//! A *move* takes two legs of the current platform that share a joint `Y` and have different other ends `X1`, `X2`. It
+//! slides the end `X1` of one of them along the line `X1 X2` to a generic point. On the hexagon, the closed side of `Y`
+//! has two points, one of which is a vertex; this vertex moves into the side. Moving an inner point on its side only
+//! changes the value of its offset.
 //!
-//! A move *splits* a joint when another leg stays behind at `X1`. Only then a joint is added and the topology changes;
-//! otherwise the lone joint `X1` is merely displaced and the topology stays what it was. Two inner points on one side
-//! are reached: the first leg of a pair slides, then the second, which still shares `Y` with it.
+//! A move *splits* a joint when another leg stays behind at `X1`. Only such a move adds a joint and changes the
+//! topology; otherwise the joint `X1` itself is displaced. Two inner points on one side are possible: the first leg of
+//! a pair slides, then the second, which still shares `Y` with it.
 
 use std::collections::BTreeSet;
 
@@ -20,13 +20,13 @@ pub struct Move {
     pub side: usize,
     /// Hexagon vertex that leaves, `side` or `side + 1`.
     pub vertex: usize,
-    /// Whether another leg stays at the joint the leg leaves.
+    /// Whether another leg stays at the old joint.
     pub splits: bool,
     /// The pattern reached.
     pub to: Pattern,
 }
 
-/// Number of legs on a closed side: two when the joint that belongs to the side is shared.
+/// Number of legs on a closed side: two if the joint of the side is shared.
 fn legs_on(pattern: &Pattern, side: usize) -> usize {
     pattern.legs().iter().filter(|p| p.is_on_side(side)).count()
 }
@@ -40,7 +40,7 @@ pub fn moves(pattern: &Pattern) -> Vec<Move> {
             if !pattern.vertices()[vertex] {
                 continue;
             }
-            // the joint that slides belongs to the other side at this vertex
+            // the sliding joint belongs to the other side at this vertex
             let behind = if vertex == side { (side + 5) % 6 } else { vertex };
             let (mut vertices, mut inner) = (pattern.vertices(), pattern.inner());
             vertices[vertex] = false;
@@ -53,8 +53,8 @@ pub fn moves(pattern: &Pattern) -> Vec<Move> {
     list
 }
 
-/// All patterns reached from the octahedral one by moves, itself included; with `splitting_only` by moves that
-/// split a joint.
+/// All patterns that moves reach from the octahedral one, including itself; with `splitting_only`, by moves that split
+/// a joint.
 #[must_use]
 pub fn reachable(splitting_only: bool) -> BTreeSet<Pattern> {
     let mut reached: BTreeSet<Pattern> = Pattern::new([true; 6], [0; 6]).into_iter().collect();

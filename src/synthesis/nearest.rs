@@ -1,21 +1,21 @@
 //! The octahedral platform nearest to a platform: six legs moved as little as possible onto the sides of two triangles.
 //!
-//! A platform with one leg on each side of the hexagon of an octahedral platform ([`edge`]) is equivalent to the
-//! octahedral platform where `det A = prod (1 - t_k) - prod t_k` is not zero; with all `t_k = 0` it is the octahedral
-//! platform. Of these platforms the one is sought whose leg ends are nearest:
+//! A platform with one leg on each side of the hexagon of an octahedral platform ([`edge`]) is equivalent to it if
+//! `det A = prod (1 - t_k) - prod t_k` is nonzero. With all `t_k = 0` it is the octahedral platform. The search
+//! minimises the distances of its leg ends:
 //!
 //! ```text
 //! F = sum over the legs of |a - a'|^2 + |b - b'|^2  ->  min,
 //! ```
 //!
-//! with base ends `a` in the frame of the base and platform ends `b` in that of the platform, over the six corners, the
-//! six `t_k` between `-e` and `1 + e`, and the 120 ways to lay six legs round the hexagon. For one way the two bodies
-//! are fits of their own: a triangle whose corners are near three points and the lines of whose sides are near three
-//! others. Each is solved by Gauss-Newton steps over the corners (the nearest `t_k` are projections, and `F` with these
-//! has the gradient that it has with fixed `t_k`), from six starts without random numbers.
+//! with base ends `a` in the base frame and platform ends `b` in the platform frame. The variables are the six corners,
+//! the six `t_k` between `-e` and `1 + e`, and the 120 ways to lay six legs round the hexagon. For one way the two
+//! bodies are separate fits: a triangle with corners near three points and side lines near three others. Gauss-Newton
+//! steps over the corners solve each fit, from six deterministic starts. The nearest `t_k` are projections; with them
+//! `F` has the same gradient as with fixed `t_k`.
 //!
-//! What is found is a local minimum for each way and the least of them; there may be a smaller one. Ways whose minimum
-//! has triangles without area, or `|det A|` below the limit, are set aside and counted.
+//! The result is the least of the local minima of all ways; a smaller one may exist. Ways whose minimum has triangles
+//! without area, or `|det A|` below the limit, are set aside and counted.
 
 use nalgebra::{Point3, SMatrix, SVector, Vector3};
 
@@ -24,23 +24,23 @@ use super::offset_determinant;
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Leg, LegIndex, Manipulator, is_collinear};
 
-/// Steps of a fit before it counts as not settled.
+/// Greatest number of steps of a fit.
 const STEPS: usize = 300;
-/// A fit has settled where its gradient is below this times the size of the body.
+/// A fit has converged if its gradient is below this times the size of the body.
 const SETTLED: f64 = 1e-10;
-/// Offsets this near to 0 or 1, and joints this near in sizes, are at the corner.
+/// Offsets within this of 0 or 1, and joints within this share of the size, are at the corner.
 const AT_CORNER: f64 = 1e-9;
 
-/// What counts as an octahedral platform near another.
+/// Limits of the search for the nearest octahedral platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestOptions {
-    /// `e`: how far a leg end may be beyond a corner on the line of its side, in lengths of the side.
+    /// `e`: greatest extension of a leg end beyond a corner on the line of its side, in lengths of the side.
     pub extension: f64,
     /// Least `|det A|`.
     pub min_abs_det: f64,
 }
 
-/// The octahedral platform found nearest, and the platform equivalent to it whose legs are next to the given ones.
+/// The nearest octahedral platform found, and its equivalent platform with legs nearest to the given ones.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct NearestOctahedral {
@@ -52,13 +52,13 @@ pub struct NearestOctahedral {
     pub platform: [Point3<f64>; 3],
     /// `t_k` of the leg on side `k`, exactly 0 or 1 at a corner.
     pub offsets: [f64; 6],
-    /// How far the base end and the platform end of each leg have been moved, in the order of the legs.
+    /// Displacements of the base end and the platform end of each leg, in the order of the legs, design units.
     pub displacements: [[f64; 2]; 6],
     /// `det A = prod (1 - t_k) - prod t_k`.
     pub determinant: f64,
-    /// Whether both fits have settled.
+    /// Whether both fits converged.
     pub settled: bool,
-    /// Ways round the hexagon that came nearer but are no regular platform.
+    /// Number of nearer ways round the hexagon that give no regular platform.
     pub set_aside: usize,
 }
 
@@ -78,7 +78,7 @@ impl NearestOctahedral {
     /// The octahedral platform: leg `order[k]` joins the corners of vertex `k`.
     ///
     /// # Errors
-    /// Corners that make no manipulator.
+    /// The corners form no manipulator.
     pub fn octahedral(&self) -> Result<Manipulator, InvalidManipulator> {
         let mut pairs = [(0, 0); 6];
         for (k, leg) in self.order.into_iter().enumerate() {
@@ -87,7 +87,7 @@ impl NearestOctahedral {
         Manipulator::try_new(self.base.to_vec(), self.platform.to_vec(), pairs)
     }
 
-    /// Where the legs next to the given ones end, base first, in their order.
+    /// Ends of the legs nearest to the given ones, base first, in their order.
     #[must_use]
     pub fn ends(&self) -> [[LegEnd; 2]; 6] {
         let mut ends = [[LegEnd::Corner(0); 2]; 6];
@@ -118,19 +118,19 @@ impl NearestOctahedral {
         }
     }
 
-    /// The legs next to the given ones, in their order.
+    /// The legs nearest to the given ones, in their order.
     #[must_use]
     pub fn legs(&self) -> [Leg; 6] {
         self.ends().map(|[base, platform]| Leg { base: self.point(base), platform: self.point(platform) })
     }
 }
 
-/// Where a leg of a platform on the sides of two triangles ends.
+/// The end of a leg on the sides of two triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LegEnd {
     /// A corner: 0, 1, 2 on the base, 3, 4, 5 on the platform.
     Corner(usize),
-    /// The joint on the side of a triangle that belongs to this side of the hexagon, 0 to 5.
+    /// The joint on the triangle side of this side of the hexagon, 0 to 5.
     OnSide(usize),
 }
 
@@ -161,18 +161,18 @@ pub fn length_deviation(a: &[Leg; 6], b: &[Leg; 6], poses: &[Pose]) -> Option<Le
     worst
 }
 
-/// A triangle next to six points of a body.
+/// A triangle fitted to six points of a body.
 #[derive(Debug, Clone, Copy)]
 struct TriangleFit {
     corners: [Vector3<f64>; 3],
-    /// Of the points at the sides, from corner `s` to corner `s + 1`.
+    /// Parameters of the side points, from corner `s` to corner `s + 1`.
     t: [f64; 3],
     /// Sum of squared distances.
     squares: f64,
     settled: bool,
 }
 
-/// Three points that want to be corners, and for each side from corner `s` to `s + 1` one that wants to be on its line.
+/// Target points of a triangle: three for the corners, and one for the line of each side from corner `s` to `s + 1`.
 #[derive(Debug, Clone, Copy)]
 struct TriangleWish {
     corners: [Vector3<f64>; 3],
@@ -182,7 +182,7 @@ struct TriangleWish {
 }
 
 impl TriangleWish {
-    /// The nearest place on side `s`, and whether it is at the end of what is allowed.
+    /// The nearest place on side `s`, and whether it is at the end of the allowed range.
     fn place(&self, c: &[Vector3<f64>; 3], s: usize) -> (f64, bool) {
         let (from, to) = (c[s], c[(s + 1) % 3]);
         let along = to - from;
@@ -223,7 +223,7 @@ impl TriangleWish {
             let mut across = nalgebra::Matrix3::identity();
             if !at_end {
                 let u = along.normalize();
-                across -= u * u.transpose(); // a place that is free to slide does not feel motions along the side
+                across -= u * u.transpose(); // a freely sliding place is unaffected by motions along the side
             }
             let miss = self.miss(c, s, t);
             for (v, x) in [(from, 1.0 - t), (to, t)] {
@@ -259,7 +259,7 @@ impl TriangleWish {
                     break None;
                 }
             };
-            // no step lowers the sum any more: the minimum up to rounding, or the gradient says that it is not one
+            // no step lowers the sum: this is the minimum up to rounding, or the gradient shows the contrary
             let Some((next, value)) = found else {
                 settled = half.norm() <= SETTLED.sqrt() * self.size;
                 break;
@@ -270,8 +270,9 @@ impl TriangleWish {
         TriangleFit { corners: c, t, squares, settled }
     }
 
-    /// The best fit of all starts: the corners as they are, each half-way to the side points before, after and to both,
-    /// the triangle whose sides have the side points in their middle, and the corners twice as far from their mean.
+    /// The best fit over all starts. The starts are the corners as given, and each corner moved half-way to the side
+    /// points before, after and to both. Two further starts are the triangle with the side points at its midpoints, and
+    /// the corners at twice the distance from their mean.
     fn best(&self) -> TriangleFit {
         let p = self.corners;
         let q = |s: usize| self.sides[s % 3];
@@ -306,7 +307,7 @@ impl HexagonWay {
     fn of(legs: &[Leg; 6], order: [usize; 6], extension: f64, size: f64) -> Self {
         let fits = Body::BOTH.map(|body| {
             let end = |k: usize| body.of((legs[order[k]].base, legs[order[k]].platform)).coords;
-            // the side that starts at corner s, and the side of the other body whose legs end there
+            // the side that starts at corner s, and the side of the other body with leg ends there
             let slides = [0, 1, 2].map(|s| 2 * s + body.index());
             let ends = [0, 1, 2].map(|v| {
                 let label = v + 3 * body.index();
@@ -322,7 +323,7 @@ impl HexagonWay {
         self.fits[0].squares + self.fits[1].squares
     }
 
-    /// The platform, where it is regular.
+    /// The platform, if it is regular.
     fn platform(&self, legs: &[Leg; 6], options: &NearestOptions) -> Option<NearestOctahedral> {
         let [base, platform] = self.fits.map(|f| f.corners.map(Point3::from));
         if is_collinear(&base) || is_collinear(&platform) {
@@ -360,7 +361,7 @@ impl HexagonWay {
 
 /// The octahedral platform nearest to a platform.
 ///
-/// The legs may share joints; those at one joint are moved independently. `None` where no way round the hexagon gives a
+/// The legs may share joints; legs at one joint are moved independently. `None` if no way round the hexagon gives a
 /// regular platform.
 ///
 /// The sum of squares has the unit of the design squared; the answer scales with the design. The same input gives the
@@ -375,8 +376,8 @@ pub fn nearest_octahedral(m: &Manipulator, options: &NearestOptions) -> Option<N
     found.map(|(set_aside, nearest)| NearestOctahedral { set_aside, ..nearest })
 }
 
-/// The 120 ways to lay six legs round the hexagon of an octahedral platform, leg `order[k]` on side `k`, up to its
-/// symmetries that keep base and platform.
+/// The 120 ways to lay six legs round the hexagon of an octahedral platform, with leg `order[k]` on side `k`.
+/// Symmetries that keep base and platform are removed.
 pub(crate) fn hexagon_orders() -> impl Iterator<Item = [usize; 6]> {
     (0..46656_usize).filter_map(|n| {
         let mut rest = n;

@@ -1,4 +1,4 @@
-//! A pattern: which six points of the hexagon are the legs of an equivalent platform.
+//! A pattern: the six points of the hexagon that are the legs of an equivalent platform.
 
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
@@ -12,9 +12,8 @@ use platform::topology::Topology;
 
 /// Six points of the hexagon that are linearly independent for generic offsets.
 ///
-/// Printed as its identifier: `V` and the unchanged legs, `S` and the sides that carry an inner point, from
-/// 1; `V123456` is the octahedral platform, `S123456` the one without shared joints, `V3456S11` has two
-/// inner points on side 1.
+/// It prints as its identifier: `V` and the unchanged legs, `S` and the sides with an inner point, from 1. `V123456` is
+/// the octahedral platform, `S123456` the one without shared joints. `V3456S11` has two inner points on side 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pattern {
     vertices: [bool; 6],
@@ -23,7 +22,7 @@ pub struct Pattern {
     factors: Vec<Factor>,
 }
 
-/// Why a pattern cannot be realised with the offsets given.
+/// Reasons why a pattern has no platform with the given offsets.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InstantiateError {
@@ -38,12 +37,12 @@ pub enum InstantiateError {
     /// NaN or infinite.
     #[error("the offset {offset} is {value}, not a finite number")]
     NotFinite {
-        /// Which offset.
+        /// The offset.
         offset: Offset,
         /// Its value.
         value: f64,
     },
-    /// Joints and legs do not make a manipulator.
+    /// Joints and legs form no manipulator.
     #[error(transparent)]
     Design(#[from] InvalidManipulator),
 }
@@ -61,8 +60,8 @@ pub enum ParsePatternError {
 }
 
 impl Pattern {
-    /// The pattern with the unchanged legs `vertices` and `inner[k]` generic points on side `k`, `None`
-    /// unless these are six points, independent for generic offsets.
+    /// The pattern with the unchanged legs `vertices` and `inner[k]` generic points on side `k`. `None` unless these
+    /// are six points, independent for generic offsets.
     #[must_use]
     pub fn new(vertices: [bool; 6], inner: [u8; 6]) -> Option<Self> {
         if inner.iter().any(|m| *m > 2) {
@@ -80,7 +79,7 @@ impl Pattern {
         Some(Self { vertices, inner, slots: expansion.slots, factors: expansion.factors })
     }
 
-    /// Which legs of the octahedral platform are kept.
+    /// Whether each leg of the octahedral platform is kept.
     #[must_use]
     pub fn vertices(&self) -> [bool; 6] {
         self.vertices
@@ -92,13 +91,13 @@ impl Pattern {
         self.inner
     }
 
-    /// The legs in cyclic order: entry `i` stands in the place of leg `i`, one of the legs it is made of.
+    /// The legs in cyclic order: entry `i` replaces leg `i`, one of the legs in its combination.
     #[must_use]
     pub fn legs(&self) -> [HexagonPoint; 6] {
         self.slots
     }
 
-    /// The offsets in the order in which their values are given: by side, the second point of a side last.
+    /// The offsets in the order of their values: by side, the second point of a side last.
     #[must_use]
     pub fn offsets(&self) -> Vec<Offset> {
         let mut list: Vec<Offset> = self
@@ -136,9 +135,9 @@ impl Pattern {
         })
     }
 
-    /// Which legs share which joints; base and platform are kept apart.
+    /// The topology of shared joints; base and platform are distinguished.
     ///
-    /// Two legs share a joint when their ends coincide by construction, for all offsets.
+    /// Two legs share a joint if their ends coincide by construction, for all offsets.
     #[must_use]
     pub fn topology(&self) -> Topology {
         let joints = self.joints();
@@ -163,7 +162,7 @@ impl Pattern {
         shared
     }
 
-    /// Sets of three or four joints that must be on one line, in order along the triangle side.
+    /// Sets of three or four joints that must be collinear, in order along the triangle side.
     #[must_use]
     pub fn alignments(&self) -> Vec<Vec<JointLabel>> {
         let used = self.joints().concat();
@@ -197,7 +196,7 @@ impl Pattern {
         Ok(self.factors.iter().map(|f| f.value(&1.0, &at)).product())
     }
 
-    /// The leg map from the octahedral platform, in the leg order of the design `o` was recognised in.
+    /// The leg map from the octahedral platform, in the leg order of the design from which `o` was recognised.
     ///
     /// An unchanged leg has `s' = s`; an inner point of side `k` with the edge `d_k` has
     /// `s' = (1 - t) s_k + t s_{k+1} - t (1 - t) d_k^2`.

@@ -1,15 +1,15 @@
-//! Singular poses of five legs that hold a line, and the sixth legs that leave a platform which is solved in steps.
+//! Singular poses of five legs that hold a line, and sixth legs that allow a stepwise solution of the platform.
 //!
 //! With the numbers of [`platform::pentapod`] the five squared lengths are linear in `(P, Q, p, v)`, which satisfy
-//! `P = p.p`, `Q = p.v` and `v.v = d.d`. The legs lose their hold on the line where a motion along these three changes
-//! none of them:
+//! `P = p.p`, `Q = p.v` and `v.v = d.d`. The pose of the line is singular if a motion that keeps these three equations
+//! changes no leg length:
 //!
 //! ```text
 //! F(p, v) = det [ row 1; ..; row 5;  (1, 0, -2p, 0);  (0, 1, -v, -p);  (0, 0, 0, 2v) ] = 0
 //! ```
 //!
-//! `F` is a cubic polynomial, at most quadratic in the position and at most quadratic in the direction; Rasoulzadeh and
-//! Nawratil (2018) look for linear pentapods where it is simpler: linear in one of them, or quadratic in all.
+//! `F` is a cubic polynomial, at most quadratic in the position and at most quadratic in the direction. Rasoulzadeh and
+//! Nawratil (2018) search for linear pentapods with a simpler `F`: linear in one of them, or quadratic in total.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ type LineExponents = [u8; 6];
 /// A polynomial in the position and the direction of the line.
 pub type LinePolynomial = BTreeMap<LineExponents, Rational>;
 
-/// Where five legs lose their hold on a line.
+/// The singular locus of five legs that hold a line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineLocus {
     /// `F` with coprime integers as coefficients; `p` is the joint of leg 1 and `v` has the length of `d`.
@@ -35,7 +35,7 @@ pub struct LineLocus {
     pub in_position: u8,
     /// Its degree in the direction.
     pub in_direction: u8,
-    /// Every pose of the line is singular: the pentapod is architecturally singular.
+    /// Whether every pose of the line is singular: the pentapod is architecturally singular.
     pub everywhere: bool,
 }
 
@@ -56,7 +56,7 @@ impl LineLocus {
         }
     }
 
-    /// The name of the family that the degrees make.
+    /// The name of the family with these degrees.
     #[must_use]
     pub fn family(&self) -> &'static str {
         match (self.everywhere, self.degree, self.in_position, self.in_direction) {
@@ -84,7 +84,7 @@ fn integer(x: i64) -> Rational {
     Rational::from_integer(x.into())
 }
 
-/// A row of `F` below those of the legs: entries are constants or multiples of one unknown.
+/// The rows of `F` below those of the legs: entries are constants or multiples of one unknown.
 fn gradients() -> [[LinePolynomial; LINE_NUMBERS]; 3] {
     let constant = |c: i64| LinePolynomial::from([([0; 6], integer(c))]);
     let unknown = |k: usize, c: i64| {
@@ -184,7 +184,7 @@ fn exact_determinant(mut rows: Vec<ExactVector>) -> Rational {
     out
 }
 
-/// The same function where `v.v` has a fixed value: `v_z^2` is replaced.
+/// The same function with `v_z^2` replaced, for a fixed value of `v.v`.
 fn with_unit_length(polynomial: &LinePolynomial, square: &Rational) -> LinePolynomial {
     let mut out = LinePolynomial::new();
     for (exponents, c) in polynomial {
@@ -193,7 +193,7 @@ fn with_unit_length(polynomial: &LinePolynomial, square: &Rational) -> LinePolyn
             add(&mut out, &LinePolynomial::from([(lower, c.clone())]), &Rational::one());
             continue;
         }
-        // the degree in the direction is at most two, so that this is done once
+        // the degree in the direction is at most two, so one pass suffices
         lower[5] -= 2;
         let raised = |k: usize| {
             let mut e = lower;
@@ -211,7 +211,7 @@ fn primitive(polynomial: LinePolynomial) -> LinePolynomial {
     exponents.into_iter().zip(num::exact::primitive(&coefficients)).collect()
 }
 
-/// A sixth leg with which the platform is solved in steps, each a polynomial of low degree.
+/// A sixth leg that allows a solution of the platform in steps, each a polynomial of low degree.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -220,21 +220,22 @@ fn primitive(polynomial: LinePolynomial) -> LinePolynomial {
 )]
 #[non_exhaustive]
 pub enum DecouplingLeg {
-    /// The five legs hold a line of this body: any leg off the line adds the turn about it, two for each pose of the
-    /// line.
+    /// The five legs hold a line of this body. Any leg off the line determines the rotation about it, with two
+    /// solutions for each pose of the line.
     OffTheLine {
         /// The body.
         body: Body,
     },
-    /// Four legs end on a line of this body: a fifth leg to the line makes them hold it, so that the line comes first.
+    /// Four legs end on a line of this body. A fifth leg to the line makes them hold it, so that the line is solved
+    /// first.
     ToTheLine {
         /// The body.
         body: Body,
         /// The four legs, counted from 1.
         legs: Vec<usize>,
     },
-    /// Two legs meet in a joint of this body: a third leg to it fixes its place by three distances, so that the
-    /// position comes first and the orientation about that joint after it.
+    /// Two legs share a joint of this body. A third leg to it determines its place by three distances, so that the
+    /// position is solved first and the orientation about that joint second.
     ToTheJoint {
         /// The body.
         body: Body,
@@ -244,7 +245,7 @@ pub enum DecouplingLeg {
 }
 
 impl DecouplingLeg {
-    /// All of them for five legs.
+    /// All suitable sixth legs for five legs.
     #[must_use]
     pub fn all(p: &Pentapod) -> Vec<Self> {
         let mut out = Vec::new();
@@ -275,11 +276,11 @@ impl DecouplingLeg {
     }
 }
 
-/// Poses at which [`independent_somewhere`] looks.
+/// Number of poses tried by [`independent_somewhere`].
 const POSES: usize = 8;
 
-/// Whether the lines of five legs are independent at a pose that is drawn from the seed: then they are at almost every
-/// pose. `false`: they are dependent at all poses that were tried, which proves nothing.
+/// Whether the lines of five legs are independent at a random pose; then they are independent at almost every pose.
+/// `false`: they are dependent at all tried poses, which proves nothing.
 #[must_use]
 pub fn independent_somewhere(p: &Pentapod, seed: u64) -> bool {
     let mut rng = num::Rng::new(seed);
@@ -318,7 +319,8 @@ mod tests {
         Pentapod::from_doubles(base, &marks.map(|x| [x, 0.0, 0.0])).unwrap().linear().unwrap()
     }
 
-    /// The Plücker coordinates of five legs and of the line, whose moments vanish together where the line is free.
+    /// The determinant of the Plücker coordinates of five legs and a torque about the line; it vanishes at singular
+    /// poses.
     fn moments(base: &[[f64; 3]; 5], marks: [f64; 5], p: Vector3<f64>, v: Vector3<f64>) -> f64 {
         let mut rows = SMatrix::<f64, 6, 6>::zeros();
         for (i, a) in base.iter().enumerate() {
@@ -326,7 +328,7 @@ mod tests {
             let (l, m) = (b - a, b.cross(&(b - a)));
             rows.row_mut(i).copy_from_slice(&[l.x, l.y, l.z, m.x, m.y, m.z]);
         }
-        // a torque about the line, which no leg can hold
+        // a torque about the line, which no leg can resist
         rows.row_mut(5).copy_from_slice(&[0.0, 0.0, 0.0, v.x, v.y, v.z]);
         rows.determinant()
     }
@@ -348,7 +350,7 @@ mod tests {
             let ratio = |rng: &mut Rng| {
                 let p = Vector3::from_fn(|_, _| rng.uniform(-3.0, 3.0));
                 let v = Vector3::from_fn(|_, _| rng.normal()).normalize();
-                // the direction has the length of the farthest joint, which is at mark 5
+                // the direction has the length of the farthest joint, at mark 5
                 let scaled = v * 5.0;
                 locus.value(&p.into(), &scaled.into()) / moments(&base, marks, p, v)
             };
@@ -361,7 +363,7 @@ mod tests {
 
     #[test]
     fn families_are_those_of_their_degrees() {
-        // four joints of one place: singular everywhere, with independent rows
+        // four coincident joints: singular everywhere, with independent rows
         let base = [[0.0, 0.0, 0.0], [4.0, 0.0, 1.0], [6.0, 3.0, 0.0], [3.0, 6.0, 2.0], [-1.0, 5.0, 0.0]];
         let p = five(&base, [0.0, 0.0, 0.0, 0.0, 1.0]);
         assert!(num::exact::relations(&p.rows()).is_empty());

@@ -1,11 +1,11 @@
-//! Poses so far out that coordinates in double precision do not determine them.
+//! Distant poses that coordinates in double precision do not determine.
 
 use fk::FkRoot;
 use platform::geom::ComplexPose;
 
-/// Relative error to expect of joints that were computed and rounded to doubles.
+/// Expected relative error of joints computed and rounded to doubles.
 pub(super) const ROUNDED: f64 = 64.0 * f64::EPSILON;
-/// Poses with smaller numbers are not far out, however badly conditioned: rounding moves them, but not to infinity.
+/// Poses with smaller numbers are not distant, however badly conditioned: rounding moves them, but not to infinity.
 const FAR: f64 = 100.0;
 
 /// The largest of 1, the moduli of `R` and those of `p` over the size.
@@ -14,10 +14,10 @@ pub(super) fn magnitude(p: &ComplexPose, size: f64) -> f64 {
     p.position.iter().map(|z| z.norm() / size).fold(r, f64::max)
 }
 
-/// Whether joints within rounding of the given ones need not have this pose at all: to first order they reach
-/// `e.e = 0`, where it is at infinity.
+/// Whether joints within rounding of the given ones may lack this pose: to first order they reach `e.e = 0`, where it
+/// is at infinity.
 ///
-/// With `M` the [`magnitude`] of the pose and `kappa` its condition number in dual quaternions, relative errors `eps`
+/// Let `M` be the [`magnitude`] of the pose and `kappa` its condition number in dual quaternions. Relative errors `eps`
 /// of the joints change `e.e` by up to `2 eps kappa M` of itself (`docs/theory/leg-maps.md`).
 pub(super) fn is_beyond_precision(root: &FkRoot, size: f64) -> bool {
     let magnitude = magnitude(&root.pose, size);
@@ -49,15 +49,15 @@ mod tests {
     #[test]
     fn far_and_badly_conditioned_poses_are_beyond_precision_and_no_others() {
         let of = |r, p, condition| is_beyond_precision(&root(r, p, condition), 10.0);
-        // as seen on the worked isolator
+        // values of the worked isolator
         assert!(of(1.1e13, 1.0, 2.6e11) && of(6.5e11, 1.0, 1.0e11));
         // near the simple end of a path
         assert!(of(1e15, 1.0, 1.0) && of(1.0, 1e16, 1.0));
-        // near an end where two meet: displacements of the root of rounding
+        // near an end where two meet: displacements of the square root of rounding
         assert!(of(1e8, 1.0, 1e8));
-        // far, but held by the joints
+        // distant, but determined by the joints
         assert!(!of(1e9, 1.0, 100.0) && !of(500.0, 1.0, 1e3) && !of(1.0, 1e10, 100.0));
-        // hardly determined, but not far
+        // hardly determined, but not distant
         assert!(!of(50.0, 1.0, 1e15));
     }
 }

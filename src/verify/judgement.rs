@@ -1,11 +1,11 @@
-//! The one judgement on two platforms: every command that asks whether they are equivalent asks it.
+//! The common judgement on two platforms, used by every command that asks for their equivalence.
 
 use num::linalg::LinalgError;
 use platform::manipulator::{Level, Manipulator};
 use synthesis::singularity::SingularityVerdict;
 use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
 
-/// What platforms A and B, described in the same two frames and units, have to do with each other.
+/// The relation of platforms A and B, described in the same two frames and units.
 ///
 /// | relation | when |
 /// |---|---|
@@ -14,8 +14,8 @@ use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
 /// | unrelated | a leg vector of B is no combination of those of A |
 /// | undecided | it holds within rounding only, or a singular design is within rounding of plain doubles, or joints are known between bounds only |
 ///
-/// The first three are proved about the exact joints or about doubles as written ([`LegMapOutcome::level`]), except for
-/// unrelated platforms whose joints are known between bounds only.
+/// The first three are proved for the exact joints or for doubles as written ([`LegMapOutcome::level`]). The exception
+/// is unrelated platforms whose joints are known only between bounds.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.

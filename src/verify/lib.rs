@@ -1,15 +1,15 @@
 //! Decides whether two platforms are kinematically equivalent, by two kinds of evidence: the leg map between them, and
-//! the poses that forward kinematics of both, solved independently, finds.
+//! the independently solved poses of both.
 //!
-//! It knows `num`, `platform`, `fk` and `synthesis`, and is the only room that sees both of the last two: the map is
-//! never asked where the poses are, nor the poses what the map is.
+//! The crate uses `num`, `platform`, `fk` and `synthesis`, and is the only one that uses the last two together. The map
+//! never uses the poses, and the poses never use the map.
 //!
-//! * [`Verdict`]: equivalent, not equivalent, singular, or not decided, and at which level.
+//! * [`Verdict`]: equivalent, not equivalent, singular, or undecided, and at which level.
 //! * [`Verification`]: the verdict with the map and all samples.
 //! * [`Sample`]: one set of lengths, the poses of both platforms, and how they match.
 //!
-//! Two designs are judged by [`judge`] on exact joints first; then lengths are drawn, mapped, and solved twice, and the
-//! two sets of poses are matched one to one.
+//! [`judge`] first compares two designs on exact joints. Then lengths are drawn, mapped, and solved twice, and the two
+//! sets of poses are matched one to one.
 
 mod determined;
 mod judgement;

@@ -6,16 +6,16 @@ use platform::geom::ComplexPose;
 /// A pairing of two sets of poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseMatching {
-    /// Pairs (index in A, index in B, distance); distances as [`ComplexPose::distance`], divided by the size
-    /// of the numbers in the pose where these exceed one.
+    /// Pairs (index in A, index in B, distance). Distances are those of [`ComplexPose::distance`], divided by the size
+    /// of the numbers in the pose if these exceed one.
     pub pairs: Vec<(usize, usize, f64)>,
     /// Poses of A with no partner within the tolerance.
     pub only_a: Vec<usize>,
     /// Poses of B with no partner within the tolerance.
     pub only_b: Vec<usize>,
-    /// Poses of A without partner that were set aside.
+    /// Poses of A without partner that are excluded.
     pub beyond_a: Vec<usize>,
-    /// Poses of B without partner that were set aside.
+    /// Poses of B without partner that are excluded.
     pub beyond_b: Vec<usize>,
 }
 
@@ -26,21 +26,21 @@ impl PoseMatching {
         self.pairs.iter().map(|p| p.2).fold(0.0, f64::max)
     }
 
-    /// Every pose of either set that was not set aside has its partner.
+    /// Whether every pose of either set that is not excluded has a partner.
     #[must_use]
     pub fn is_perfect(&self) -> bool {
         self.only_a.is_empty() && self.only_b.is_empty()
     }
 
-    /// Sets aside poses without partner of which the first function (for A) and the second (for B) say so.
+    /// Excludes poses without partner that `of_a` (for A) or `of_b` (for B) selects.
     pub(super) fn set_aside(&mut self, of_a: impl Fn(usize) -> bool, of_b: impl Fn(usize) -> bool) {
         self.beyond_a.extend(self.only_a.extract_if(.., |i| of_a(*i)));
         self.beyond_b.extend(self.only_b.extract_if(.., |j| of_b(*j)));
     }
 }
 
-/// Pairs the poses of two sets one to one, nearest pairs first; a pair farther apart than `tolerance`
-/// (relative to `size` for positions and to the pose's own numbers) is not a pair.
+/// Pairs the poses of two sets one to one, nearest pairs first. Poses farther apart than `tolerance` (relative to
+/// `size` for positions and to the pose's own numbers) are not paired.
 #[must_use]
 pub fn match_poses(a: &[ComplexPose], b: &[ComplexPose], size: f64, tolerance: f64) -> PoseMatching {
     let mut all: Vec<(usize, usize, f64)> = Vec::with_capacity(a.len() * b.len());
@@ -98,7 +98,7 @@ mod tests {
         b[2].position.x += 1e-6;
         let m = match_poses(&a, &b, 1.0, 1e-9);
         assert_eq!((&m.only_a, &m.only_b), (&vec![3], &vec![2]));
-        // what is set aside on one side spares the other nothing
+        // excluding on one side does not affect the other
         let mut m = m;
         m.set_aside(|i| i == 3, |j| j == 0);
         assert_eq!((&m.beyond_a, &m.only_a, &m.only_b), (&vec![3], &vec![], &vec![2]));

@@ -18,36 +18,36 @@ use platform::geom::{ComplexPose, SamplePlan};
 use platform::manipulator::{LegIndex, Manipulator};
 use synthesis::{LegMapOutcome, NotRealizable, Relation};
 
-/// Two poses are the same when they are closer than this (relative to the size and to their own numbers).
+/// Two poses count as equal if they are closer than this (relative to the size and to their own numbers).
 ///
-/// Roots come out at `1e-12` or better unless they are nearly double; a joint `1e-6` of the size off its
-/// place moves poses by about `1e-6`.
+/// Roots are accurate to `1e-12` or better unless they are nearly double. A joint displaced by `1e-6` of the size moves
+/// poses by about `1e-6`.
 pub const SAME_POSE: f64 = 1e-8;
-/// Longest exact number that a sentence takes.
+/// Greatest length of an exact number in a sentence.
 const SHORT: usize = 24;
-/// A counterexample must miss the lengths of the other platform by this many times the rounding to expect.
+/// Least ratio of a counterexample's miss of the other platform's lengths to the expected rounding.
 const CLEAR_MISS: f64 = 1e3;
 
-/// Why platforms could not be compared at all.
+/// The reason why platforms could not be compared at all.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum VerifyError {
     /// The leg map could not be computed.
     #[error("the leg map could not be computed: {0}")]
     LegMap(#[from] LinalgError),
-    /// A forward-kinematics method broke down.
+    /// A forward-kinematics method failed.
     #[error("forward kinematics of {platform} failed: {error}")]
     ForwardKinematics {
         /// `"A"` or `"B"`.
         platform: &'static str,
-        /// What happened.
+        /// The error.
         error: FkError,
     },
-    /// A sample pose gives lengths that overflow or that the map sends to a negative square.
+    /// A sample pose has lengths that overflow or that the map sends to a negative square.
     #[error("sample {sample} has no usable leg lengths{}", .why.map(|w| format!(": {w}")).unwrap_or_default())]
     Lengths {
         /// Index of the sample.
         sample: usize,
-        /// The leg whose square came out negative.
+        /// The leg with the negative square.
         why: Option<NotRealizable>,
     },
     /// Two proofs contradict each other.
@@ -57,56 +57,56 @@ pub enum VerifyError {
     Contradiction {
         /// Index of the sample.
         sample: usize,
-        /// Numbers of poses of A and of B, both proved to be all.
+        /// Numbers of poses of A and of B, both proved complete.
         poses: [usize; 2],
     },
-    /// It was told to end.
+    /// The comparison was cancelled.
     #[error("the comparison was cancelled")]
     Cancelled,
 }
 
-/// A pose that belongs to the lengths of one platform and not to those of the other.
+/// A pose for the lengths of one platform that does not fit those of the other.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Counterexample {
     /// Index of the sample.
     pub sample: usize,
-    /// `"A"` when the pose solves A and not B, `"B"` the other way round.
+    /// `"A"` if the pose solves A and not B, `"B"` for the reverse.
     pub solves: &'static str,
     /// The pose.
     pub pose: ComplexPose,
-    /// The interval certificate that proves the pose a solution of the one, where there is one.
+    /// The interval certificate that proves the pose a solution of the one platform, if there is one.
     pub certificate: Option<RootCertificate>,
-    /// The leg of the other platform that is missed most.
+    /// The leg of the other platform with the greatest miss.
     pub leg: LegIndex,
-    /// By how much its squared length is missed, relative to the squared size.
+    /// The miss of its squared length, relative to the squared size.
     pub miss: f64,
-    /// Rounding to expect in this number.
+    /// Expected rounding of this number.
     pub rounding: f64,
 }
 
 impl Counterexample {
-    /// Whether the pose is proved a solution of the one.
+    /// Whether the pose is proved to solve the one platform.
     #[must_use]
     pub fn certified(&self) -> bool {
         self.certificate.is_some()
     }
 }
 
-/// Why no verdict was reached.
+/// The reason for an undecided verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InconclusiveReason {
     /// The map holds within rounding, but some sample could not be solved completely.
     SolverIncomplete,
-    /// The map holds within rounding and the poses found do not agree with it.
+    /// The map holds within rounding, but the poses found contradict it.
     Contradiction,
-    /// The map holds within its tolerance, and whether it is regular is not decided.
+    /// The map holds within its tolerance, but its regularity is undecided.
     MapUndecided,
-    /// No sample was asked for, so that nothing but the map speaks.
+    /// No samples were requested, so only the map decides.
     NoSamples,
     /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
     WithinRounding,
-    /// There is no map, but no pose was found that tells the platforms apart either.
+    /// There is no map, but no pose was found that distinguishes the platforms.
     NoCounterexample,
 }
 
@@ -139,18 +139,18 @@ impl InconclusiveReason {
 /// The verdict on two platforms.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// Proved: there is a regular leg map between the joints as they are. Forward kinematics of both, solved
-    /// independently at the samples, is evidence besides ([`Verification::agreeing`]).
+    /// Proved: there is a regular leg map between the joints as given. Independently solved forward kinematics of both
+    /// at the samples is additional evidence ([`Verification::agreeing`]).
     Equivalent,
-    /// There is no leg map, which is proved or shown by a pose; the pose where a sample has one.
+    /// There is no leg map, by proof or by a pose; the pose if a sample has one.
     NotEquivalent(Option<Box<Counterexample>>),
     /// One platform is architecturally singular: proved.
     Singular,
-    /// Not decided.
+    /// Undecided.
     Inconclusive(InconclusiveReason),
 }
 
-/// The verdict in words, with what shows it or why there is none.
+/// The verdict in words, with its evidence or the reason for none.
 impl std::fmt::Display for Verdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -167,7 +167,7 @@ impl std::fmt::Display for Verdict {
 }
 
 impl Verdict {
-    /// The word for it.
+    /// The verdict as a word.
     #[must_use]
     pub fn word(&self) -> VerdictWord {
         match self {
@@ -193,13 +193,13 @@ impl Verdict {
     serde(rename_all = "snake_case")
 )]
 pub enum VerdictWord {
-    /// They are.
+    /// They are equivalent.
     Equivalent,
-    /// They are not.
+    /// They are not equivalent.
     NotEquivalent,
     /// One of them is architecturally singular.
     Singular,
-    /// Not decided.
+    /// Undecided.
     Inconclusive,
 }
 
@@ -222,30 +222,30 @@ impl VerdictWord {
 pub struct Verification {
     /// The verdict.
     pub verdict: Verdict,
-    /// The algebraic side.
+    /// The algebraic evidence.
     pub map: LegMapOutcome,
-    /// For each leg of B a bound of how far its squared length is from `A s + c` over the box of the sample poses,
-    /// units squared, for the joints as doubles; `None` where the map is proved, so that there is no difference, and
-    /// where it is singular.
+    /// Bounds of `|s(B) - A s - c|` for each leg of B over the box of the sample poses, units squared, for the joints
+    /// as doubles. `None` for a proved map, which has no difference, and for a singular one.
     pub deviation_bounds: Option<[f64; 6]>,
-    /// The numerical side; empty for a singular map, where forward kinematics has nothing to compare.
+    /// The numerical evidence; empty for a singular map, for which forward kinematics gives no comparison.
     pub samples: Vec<Sample>,
 }
 
 impl Verification {
-    /// Whether the verdict is proved: by an identity of leg vectors in exact arithmetic, or because there is none.
+    /// Whether the verdict is proved: by an identity of leg vectors in exact arithmetic, or by the proof that there is
+    /// none.
     #[must_use]
     pub fn proved(&self) -> bool {
         self.map.level.is_proved() && self.map.relation != Relation::Undecided
     }
 
-    /// Samples at which forward kinematics of both, solved independently, agrees.
+    /// Number of samples with agreeing, independently solved forward kinematics.
     #[must_use]
     pub fn agreeing(&self) -> usize {
         self.samples.iter().filter(|s| s.agrees()).count()
     }
 
-    /// One sentence with the numbers that decided.
+    /// One sentence with the deciding numbers.
     #[must_use]
     pub fn explanation(&self) -> String {
         let (v, n) = (self, self.samples.len());
@@ -299,8 +299,8 @@ impl Verification {
         self.samples.iter().map(|s| s.matching.worst_distance()).fold(0.0, f64::max)
     }
 
-    /// Numbers of poses of A and of B over all samples that have no partner and were set aside: joints within the
-    /// rounding of the given ones need not have them.
+    /// Numbers of excluded poses of A and of B without partner over all samples. Joints within the rounding of the
+    /// given ones may lack these poses.
     #[must_use]
     pub fn beyond_precision(&self) -> [usize; 2] {
         let count = |of: fn(&Sample) -> usize| self.samples.iter().map(of).sum();
@@ -308,7 +308,7 @@ impl Verification {
     }
 }
 
-/// `det A` as an exact number where that is short, otherwise rounded.
+/// `det A` as an exact number if that is short, otherwise rounded.
 fn exact_determinant(v: &Verification) -> String {
     match v.map.exact_numbers.as_ref().map(|numbers| &numbers.determinant) {
         Some(exact) if exact.len() <= SHORT => format!("det A = {exact}"),
@@ -320,7 +320,7 @@ fn exact_determinant(v: &Verification) -> String {
     }
 }
 
-/// At how many sets of lengths both lists of poses are proved to be complete.
+/// Number of length sets with both lists of poses proved complete, in words.
 fn lists_proved(v: &Verification) -> String {
     let proved =
         |s: &&Sample| [&s.solutions_a, &s.solutions_b].iter().all(|found| found.completeness.is_proved());
@@ -332,7 +332,7 @@ fn lists_proved(v: &Verification) -> String {
     }
 }
 
-/// How far the squared lengths are from the map where it is not exact.
+/// The deviation of the squared lengths from an inexact map, in words.
 fn deviation(v: &Verification) -> String {
     let worst = v.deviation_bounds.map(|bounds| bounds.into_iter().fold(0.0, f64::max));
     worst.map_or_else(String::new, |worst| {
@@ -342,7 +342,7 @@ fn deviation(v: &Verification) -> String {
     })
 }
 
-/// What is said about poses beyond precision, after the sentence.
+/// The poses beyond precision in words, for the end of the sentence.
 fn set_aside(v: &Verification) -> String {
     let [a, b] = v.beyond_precision();
     match a + b {
@@ -356,13 +356,13 @@ fn set_aside(v: &Verification) -> String {
 
 /// Compares platforms A and B, described in the same two frames and units.
 ///
-/// The leg map `s' = A s + c` is derived from the leg vectors alone. Then for each sample pose the forward kinematics
-/// of A is solved by its best method and that of B by the general one, which knows nothing of the map, and the complex
-/// poses are matched. Poses without partner that joints in double precision do not determine are set aside
-/// (`docs/theory/leg-maps.md`). A regular map and perfect matchings of the others give `Equivalent`.
+/// The leg map `s' = A s + c` is derived from the leg vectors alone. At each sample pose the best method solves the
+/// forward kinematics of A. That for B is solved by the general method, which does not use the map. The complex poses
+/// are then matched. Poses without partner that joints in double precision do not determine are excluded
+/// (`docs/theory/leg-maps.md`). A regular map and perfect matchings of the other poses give `Equivalent`.
 ///
 /// # Errors
-/// [`VerifyError`] when a part could not be computed.
+/// [`VerifyError`] if a part could not be computed.
 pub fn verify(
     a: &Manipulator,
     b: &Manipulator,
@@ -373,19 +373,19 @@ pub fn verify(
     verify_each(a, b, plan, options, &alone, &mut |_| ControlFlow::Continue(()))
 }
 
-/// How a comparison is carried out; its answer does not depend on it.
+/// The execution of a comparison, which does not influence its answer.
 #[derive(Debug, Clone, Default)]
 pub struct VerifyRun {
     /// Threads that solve samples.
     pub threads: Threads,
-    /// What ends it before its time.
+    /// The cancellation switch.
     pub cancel: Cancel,
 }
 
-/// As [`verify()`], with each sample shown as soon as it and those before it are solved.
+/// [`verify()`], with each sample passed on as soon as it and the earlier ones are solved.
 ///
 /// # Errors
-/// Those of [`verify()`]; [`VerifyError::Cancelled`] when `look` breaks or the run is cancelled.
+/// The errors of [`verify()`]; [`VerifyError::Cancelled`] if `look` breaks or the run is cancelled.
 pub fn verify_each(
     a: &Manipulator,
     b: &Manipulator,
@@ -397,10 +397,10 @@ pub fn verify_each(
     verified(a, b, judge(a, b)?, plan, options, run, look)
 }
 
-/// As [`verify()`], for a map that is known.
+/// [`verify()`] for a known map.
 ///
 /// # Errors
-/// Those of [`verify()`].
+/// The errors of [`verify()`].
 pub fn verify_mapped(
     a: &Manipulator,
     b: &Manipulator,
@@ -446,7 +446,7 @@ fn verified(
     for sample in Stream::new(0..plan.count, workers, run.cancel.clone(), job) {
         solved += 1;
         let sample = match sample {
-            // a proof stands, whether or not doubles can solve the sets of lengths that illustrate it
+            // a proof holds even if doubles cannot solve the illustrating length sets
             Err(VerifyError::Lengths { .. } | VerifyError::ForwardKinematics { .. }) if proved => continue,
             other => other?,
         };
@@ -481,7 +481,7 @@ fn verified(
     Ok(Verification { verdict, map, deviation_bounds, samples })
 }
 
-/// Complete lists of poses of platforms that are proved equivalent are equally long.
+/// Complete lists of poses of platforms that are proved equivalent have equal lengths.
 fn contradiction(samples: &[Sample]) -> Option<VerifyError> {
     samples.iter().enumerate().find_map(|(sample, s)| {
         let lists = [&s.solutions_a, &s.solutions_b];
@@ -507,8 +507,8 @@ fn take_sample(
         None => pose.squared_lengths(b).ok_or(none)?,
     };
     let failed = |platform| move |error| VerifyError::ForwardKinematics { platform, error };
-    // the two sets are compared with each other: poses that joints in double precision do not determine are set aside
-    // there, not counted
+    // the two sets are compared with each other: poses that joints in double precision do not determine are excluded
+    // there, and not counted
     let options = &options.pose_count(PoseCounting::Never);
     let solutions_a = solver(None).solve(a, &squares_a, options).map_err(failed("A"))?;
     let solutions_b = Homotopy.solve(b, &squares_b, options).map_err(failed("B"))?;
@@ -516,7 +516,7 @@ fn take_sample(
     Ok(Sample { pose, squares_a, squares_b, solutions_a, solutions_b, matching })
 }
 
-/// The poses of both, paired; those without partner that joints in double precision do not determine are set aside.
+/// The poses of both, paired; excluded are those without partner that joints in double precision do not determine.
 fn matched(a: &FkSolutions, b: &FkSolutions, size: f64) -> PoseMatching {
     let poses = |s: &FkSolutions| -> Vec<ComplexPose> { s.roots.iter().map(|r| r.pose).collect() };
     let mut matching = match_poses(&poses(a), &poses(b), size, SAME_POSE);
@@ -525,7 +525,7 @@ fn matched(a: &FkSolutions, b: &FkSolutions, size: f64) -> PoseMatching {
     matching
 }
 
-/// The pose of the sample that misses the other platform's lengths most clearly.
+/// The pose of the sample with the clearest miss of the other platform's lengths.
 fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -> Option<Counterexample> {
     let sides = [("A", &s.solutions_a, b, &s.squares_b), ("B", &s.solutions_b, a, &s.squares_a)];
     let mut best: Option<Counterexample> = None;
@@ -605,7 +605,7 @@ mod tests {
         let of = |other: &Manipulator| {
             verify(&a, other, &SamplePlan { count: 0, ..plan() }, &FkOptions::default()).unwrap().verdict
         };
-        // joints in doubles: within rounding nothing but poses could say more, and a joint off its line is proved to be
+        // joints in doubles: within rounding only poses could add evidence, and a joint off its line is proved as such
         assert_eq!(of(&b), Verdict::Inconclusive(InconclusiveReason::NoSamples));
         assert_eq!(of(&Manipulator::from_legs(legs).unwrap()), Verdict::NotEquivalent(None));
         assert_eq!(of(&a), Verdict::Equivalent);
@@ -623,7 +623,7 @@ mod tests {
         assert!(c.miss > 1e-9 && c.certified());
     }
 
-    /// What `agrees` makes of a sample of an equivalent pair with one more root in B.
+    /// The agreement of a sample of an equivalent pair with an additional root in B.
     fn agreement_with_another_root(stretch: f64, condition: f64) -> (bool, usize) {
         let a = octahedral();
         let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();

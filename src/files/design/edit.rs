@@ -1,4 +1,4 @@
-//! A design changed in place, with the text it was read from: comments, order and spelling of everything else stay.
+//! Edits of a design in its source text: comments, order and spelling of everything else stay.
 
 use nalgebra::Point3;
 use thiserror::Error;
@@ -9,11 +9,10 @@ use super::violation::Findings;
 use super::{DesignModel, Format, Warning, parse_with_cranks, toml_text};
 use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
-/// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they
-/// are written.
+/// The text a design was read from, with its warnings. Designs with equal content are equal regardless of their text.
 #[derive(Clone, Default)]
 pub struct Written {
-    /// `None` for designs that are from no TOML text.
+    /// `None` for designs without TOML text.
     toml: Option<String>,
     warnings: Vec<Warning>,
 }
@@ -24,7 +23,7 @@ impl PartialEq for Written {
     }
 }
 
-/// Without the text, for the same reason.
+/// The text is left out, for the same reason.
 impl std::fmt::Debug for Written {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("Written")
@@ -41,7 +40,7 @@ impl Written {
         &self.warnings
     }
 
-    /// Puts other coordinates at a joint of the text. A text in which it is not found is not kept.
+    /// Replaces the coordinates of a joint in the text. The text is dropped if the joint is not found.
     fn set_joint(&mut self, body: &str, name: &str, point: [f64; 3]) {
         let edited = self.toml.take().and_then(|text| {
             let mut out = text;
@@ -60,7 +59,7 @@ impl Written {
     }
 }
 
-/// Where it stands what a joint is.
+/// The place of a joint's definition in the text.
 enum JointPlace {
     /// The three coordinates, in this order.
     Coordinates([Span; 3]),
@@ -84,7 +83,7 @@ fn given(text: &str, body: &str, name: &str) -> Option<JointPlace> {
     }
 }
 
-/// Why a joint cannot be changed. The design is then as it was.
+/// Reasons why a joint cannot be changed. The design then stays unchanged.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum JointError {
@@ -102,13 +101,13 @@ pub enum JointError {
         /// The name given.
         name: String,
     },
-    /// The joints would make no manipulator.
+    /// The joints would form no manipulator.
     #[error(transparent)]
     Invalid(#[from] InvalidManipulator),
-    /// Another joint is constructed from this one and has no place then: a line through two equal points for instance.
+    /// The construction of another joint fails with this one, for instance a line through two equal points.
     #[error("{message}")]
     Construction {
-        /// What is wrong.
+        /// The fault.
         message: String,
     },
 }
@@ -123,10 +122,9 @@ impl From<NotBuilt> for JointError {
 }
 
 impl DesignModel {
-    /// Moves a joint: its name, with the body before it where both have one of this name (`"base.P1"`), and its new
-    /// coordinates in the frame of its body. Everything else stays, lengths included, and so do the comments of the
-    /// [`text`](Self::text). A construction of this joint gives way to the three numbers; joints that are constructed
-    /// from this one follow it.
+    /// Moves a joint to new coordinates in the frame of its body. If both bodies have a joint of this name, the body
+    /// comes before it (`"base.P1"`). Everything else stays, including lengths and the comments of the
+    /// [`text`](Self::text). Three numbers replace a construction of this joint; joints constructed from it follow it.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
@@ -139,7 +137,7 @@ impl DesignModel {
     /// ```
     ///
     /// # Errors
-    /// [`JointError`]; the design is then as it was.
+    /// [`JointError`]; the design then stays unchanged.
     pub fn set_joint(&mut self, name: &str, point: impl Into<Point3<f64>>) -> Result<(), JointError> {
         let point = point.into();
         let (body, index) = self.joint(name)?;
@@ -186,14 +184,13 @@ impl DesignModel {
         })
     }
 
-    /// The TOML text the design was read from, comments and all, with the joints that were [moved](Self::set_joint)
-    /// since; [`to_toml`](Self::to_toml) where it was read from none, or where the text no longer says what the design
-    /// is because something else was changed.
+    /// The TOML text the design was read from, with comments and with joints [moved](Self::set_joint) since. It is
+    /// [`to_toml`](Self::to_toml) if there is no such text, or if other changes made it outdated.
     #[must_use]
     pub fn text(&self) -> String {
         let kept = self.written.toml.as_ref().filter(|text| {
             parse_with_cranks(text, Format::Toml).is_ok_and(|(mut read, _)| {
-                // the table of a trajectory is a file of its own
+                // the table of a trajectory is a separate file
                 if let (Some(own), Some(t)) = (&self.workspace.trajectory, &mut read.workspace.trajectory) {
                     t.poses.clone_from(&own.poses);
                 }

@@ -12,7 +12,7 @@ pub struct FiveLegs {
     pub name: String,
     /// The label of the length unit.
     pub units: String,
-    /// Where the numbers come from.
+    /// The source of the numbers.
     pub source: Option<String>,
     /// Free text.
     pub description: Option<String>,
@@ -22,14 +22,14 @@ pub struct FiveLegs {
     pub pentapod: Pentapod,
     /// The base joint and the platform joint of each leg.
     pub leg_names: [[String; 2]; 5],
-    /// A joint is no fraction, and its nearest doubles were taken for it.
+    /// Whether a joint is not a fraction and was rounded to its nearest doubles.
     pub rounded: bool,
 }
 
 /// A design of five legs with its warnings, or all violations of its text.
 pub type FiveLegsOrViolations = Result<(FiveLegs, Vec<Warning>), Vec<Violation>>;
 
-/// Reads a design of five legs; `None` where the text lists another number of legs, or cannot be read at all.
+/// Reads a design of five legs; `None` if the text lists another number of legs or cannot be read.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_files::design; } }

@@ -1,4 +1,4 @@
-//! Texts of designs that tests read, and spoil by replacements.
+//! Texts of designs for tests, which spoil them by replacements.
 
 /// From the legs to the home pose.
 macro_rules! octahedral {

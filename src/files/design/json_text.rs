@@ -22,7 +22,7 @@ const STRICT: ParseOptions = ParseOptions {
     allow_extended_string_escapes: false,
 };
 
-/// Reads the text; a syntax error goes to the report and makes this `None`.
+/// Reads the text; `None` after a syntax error, which goes to the report.
 pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
         Ok(result) => match result.value {

@@ -1,5 +1,5 @@
-//! Bodies of a design that move: the platform with its payload, its plate, and the legs; what is assumed of them, and
-//! the loads that follow.
+//! Moving bodies of a design: the platform with its payload, its plate, and the legs. Also their assumed values and the
+//! resulting loads.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -11,7 +11,7 @@ use machine::requirements::{
 };
 use platform::manipulator::Body;
 
-/// The forces that an answer states or judges, for the assumptions behind them.
+/// The kinds of forces in an answer, which select its assumptions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JudgedForces {
     /// Leg forces or crank torques that hold loads.
@@ -21,7 +21,7 @@ pub struct JudgedForces {
 }
 
 impl JudgedForces {
-    /// Forces that requirements of these kinds are about.
+    /// Forces in requirements of these kinds.
     pub fn of(kinds: impl IntoIterator<Item = TermKind>) -> Self {
         let mut out = Self { at_rest: false, in_motion: false };
         for kind in kinds {
@@ -33,10 +33,10 @@ impl JudgedForces {
 }
 
 impl DesignModel {
-    /// The payload and the legs vibrate; `None` where the file states nothing that moves, no stiffness of legs or no
-    /// known unit of length.
+    /// The vibrating payload and legs. `None` if the file has no moving mass, no leg stiffness or no known unit of
+    /// length.
     ///
-    /// Without names of units forces are newtons and masses kilograms.
+    /// Without named units, forces are newtons and masses kilograms.
     #[must_use]
     pub fn vibrating(&self) -> Option<VibratingMasses> {
         let metres = micrometres(&self.units)? as f64 * 1e-6;
@@ -45,43 +45,43 @@ impl DesignModel {
         Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
     }
 
-    /// [What moves with the platform](Self::moving_payload) and the legs, where one design unit is so many metres: the
-    /// masses of `motion`, of natural frequencies and of simulators. `None` where nothing is known to move with the
-    /// platform. [`mass_assumptions`](Self::mass_assumptions) says what is assumed.
+    /// The legs and the bodies that [move with the platform](Self::moving_payload), with the length of a design unit in
+    /// metres. `motion`, natural frequencies and simulators use these masses. `None` if no mass moves with the
+    /// platform. [`mass_assumptions`](Self::mass_assumptions) lists the assumptions.
     #[must_use]
     pub fn moving_bodies(&self, metres: f64) -> Option<MovingBodies> {
         Some(self.bodies_with(&self.moving_payload()?, metres))
     }
 
-    /// The bodies of a file that does not say what moves: a platform of so many kilograms with its centre in the middle
-    /// of its joints and [the inertia of a ball](Self::moving_payload), and the legs as the file has them.
+    /// The bodies of a file without moving mass. The platform gets this mass, with its centre in the middle of its
+    /// joints and [the inertia of a ball](Self::moving_payload). The legs are those of the file.
     pub(crate) fn assumed_bodies(&self, kilograms: f64, metres: f64) -> MovingBodies {
         let mass = kilograms / self.mass_unit().kilograms();
         self.bodies_with(&self.unshaped(mass, self.platform_middle(), self.ball(mass)), metres)
     }
 
-    /// The legs with what moves with the platform.
+    /// The legs with the payload that moves with the platform.
     fn bodies_with(&self, payload: &Payload, metres: f64) -> MovingBodies {
         MovingBodies::new(payload, self.hardware.leg_masses.as_ref(), self.mass_unit(), metres)
     }
 
-    /// The unit of all masses: kilograms where the file names none.
+    /// The unit of all masses; kilograms if the file names none.
     pub fn mass_unit(&self) -> MassUnit {
         self.mass_units.unwrap_or(MassUnit::Kilogram)
     }
 
-    /// The unit of all forces: newtons where the file names none.
+    /// The unit of all forces; newtons if the file names none.
     pub fn force_unit(&self) -> ForceUnit {
         self.force_units.unwrap_or(ForceUnit::Newton)
     }
 
-    /// A body without a room of its own.
+    /// A body without a shape.
     fn unshaped(&self, mass: f64, center: Point3<f64>, inertia: Matrix3<f64>) -> Payload {
         let (inertia, gravity, plate) = (Some(inertia), self.gravity(), PlateMass::Included);
         Payload { mass, center, inertia, gravity, plate, shape: None }
     }
 
-    /// Gravity, base frame, m/s^2: that of the payload, else standard gravity along the third axis downwards.
+    /// Gravity, base frame, m/s^2: that of the payload, otherwise standard gravity along the negative third axis.
     pub(crate) fn gravity(&self) -> Vector3<f64> {
         self.payload.map_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY), |payload| payload.gravity)
     }
@@ -100,8 +100,8 @@ impl DesignModel {
         Point3::from(joints.iter().map(|b| b.coords).sum::<Vector3<f64>>() / joints.len() as f64)
     }
 
-    /// Lists the assumptions of motions, natural frequencies and models of simulators about masses and their units
-    /// that the file leaves open, a sentence each.
+    /// The assumptions about masses and their units in motions, natural frequencies and models of simulators, one
+    /// sentence each. They cover values that the file omits.
     #[must_use]
     pub fn mass_assumptions(&self) -> Vec<String> {
         if self.moving_payload().is_none() {
@@ -117,8 +117,8 @@ impl DesignModel {
         out
     }
 
-    /// Lists the assumptions of forces at rest about weights and their units that the file leaves open, a sentence
-    /// each: [`mass_assumptions`](Self::mass_assumptions) has those of motions besides.
+    /// The assumptions about weights and their units in forces at rest, one sentence each.
+    /// [`mass_assumptions`](Self::mass_assumptions) adds those of motions.
     #[must_use]
     pub fn weight_assumptions(&self) -> Vec<String> {
         let mut out = Vec::new();
@@ -146,7 +146,7 @@ impl DesignModel {
         out
     }
 
-    /// Lists the assumptions behind forces at rest and in motion, each sentence once.
+    /// The assumptions of forces at rest and in motion, each sentence once.
     pub fn assumptions_of(&self, forces: JudgedForces) -> Vec<String> {
         let mut out = if forces.in_motion { self.mass_assumptions() } else { Vec::new() };
         let at_rest = if forces.at_rest { self.weight_assumptions() } else { Vec::new() };
@@ -155,25 +155,25 @@ impl DesignModel {
         out
     }
 
-    /// The plate of a body as a rigid body; `None` where its density or the unit of length is not known.
+    /// The plate of a body as a rigid body; `None` if its density or the unit of length is unknown.
     pub(crate) fn rigid_plate(&self, body: Body) -> Option<PlateBody> {
         let metres = micrometres(&self.units)? as f64 * 1e-6;
         self.plate(body)?.rigid(self.plates.of(body)?, metres)
     }
 
-    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not
-    /// known.
+    /// Mass of the plate of a body without its holes, kilograms; `None` if its density or the unit of length is
+    /// unknown.
     #[must_use]
     pub fn plate_mass(&self, body: Body) -> Option<f64> {
         self.rigid_plate(body).map(|plate| plate.mass)
     }
 
-    /// The payload moves with the platform: as the file states it, with the plate of the platform where the file says
-    /// that it comes on top; the plate alone where the file has no payload and the mass of the plate is known.
+    /// The payload that moves with the platform, as stated in the file. It includes the plate of the platform if the
+    /// file adds it. Without a payload it is the plate alone, if its mass is known.
     ///
     /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre
     /// `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with `e = c - d`. A payload without
-    /// inertia has that of a ball whose radius of gyration is the root mean square distance of the platform joints from
+    /// inertia gets that of a ball. Its radius of gyration is the root mean square distance of the platform joints from
     /// their middle.
     #[must_use]
     pub fn moving_payload(&self) -> Option<Payload> {
@@ -201,16 +201,16 @@ impl DesignModel {
         })
     }
 
-    /// The weight of all that moves, where there is something, and the loads of the file.
+    /// The loads of the file, after the weight of all moving bodies if there are any.
     ///
-    /// Without names of units forces are newtons and masses kilograms.
+    /// Without named units, forces are newtons and masses kilograms.
     #[must_use]
     pub fn all_loads(&self) -> Vec<Load> {
         self.weight().into_iter().chain(self.loads.iter().cloned()).collect()
     }
 
-    /// The weight of [what moves with the platform](Self::moving_payload) and of the legs as one load, named after its
-    /// first part: `payload`, `platform plate` or `legs`.
+    /// The weight of [the moving payload](Self::moving_payload) and of the legs as one load, named after its first
+    /// part: `payload`, `platform plate` or `legs`.
     fn weight(&self) -> Option<Load> {
         let units = (self.mass_unit(), self.force_unit());
         let legs = self.hardware.leg_masses.as_ref();
@@ -221,7 +221,7 @@ impl DesignModel {
             Some(_) => "platform plate",
             None => "legs",
         };
-        // legs alone stand on a platform that weighs nothing
+        // legs alone: the platform has no weight
         let payload =
             moving.or_else(|| legs.map(|_| self.unshaped(0.0, Point3::origin(), Matrix3::zeros())))?;
         Some(Load { name: name.to_owned(), legs, ..payload.weight(units.0, units.1) })

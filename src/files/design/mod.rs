@@ -1,8 +1,8 @@
 //! Reads and writes design files: a manipulator with its joint names, home pose, workspace and options, as TOML or
 //! JSON.
 //!
-//! Everything here is pure: text in, [`DesignModel`] or a list of [`Violation`]s out, and back to text. The
-//! format is described key by key in `docs/design-files.md`.
+//! The module does no input or output: it maps text to a [`DesignModel`] or a list of [`Violation`]s, and back to text.
+//! The format is described key by key in `docs/design-files.md`.
 
 mod construction;
 mod edit;
@@ -63,7 +63,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format a file name announces: `.json` in any case is JSON, everything else TOML.
+    /// The format of a file name: `.json` in any case is JSON, everything else TOML.
     #[must_use]
     pub fn of_path(path: &std::path::Path) -> Self {
         match path.extension() {
@@ -108,19 +108,19 @@ impl std::str::FromStr for Format {
 /// ```
 ///
 /// # Errors
-/// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose
-/// legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that change their lengths does not hold for
-/// it, and [`parse_with_cranks`] reads it; so is one whose joints are not ideal ([`Code::NotIdeal`]).
+/// All violations found, in the order of the text: a text with syntax errors is not examined further. Rods on cranks
+/// are a violation ([`Code::Rotary`]), since results for legs of variable length do not apply; [`parse_with_cranks`]
+/// reads such designs. Joint offsets are also a violation ([`Code::NotIdeal`]).
 pub fn parse(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     read(text, format, false)
 }
 
-/// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`), or whose joints are not ideal
-/// ([`Hardware::is_coupled`](machine::requirements::Hardware::is_coupled)), so that the lengths of its drives are not
-/// the distances of its joints.
+/// Reads a design from text, including rods on cranks (`drive = "rotary"`) and joint offsets. With offsets
+/// ([`Hardware::is_coupled`](machine::requirements::Hardware::is_coupled)) the drive lengths differ from the distances
+/// of the joints.
 ///
-/// The base joints of such a design are the centres of its cranks: [`DesignModel::manipulator`] joins them to the
-/// platform and says nothing of the rods. Ask [`DesignModel::rotary`] for cranks and rods.
+/// The base joints of such a design are the centres of its cranks. [`DesignModel::manipulator`] joins them to the
+/// platform without the rods. [`DesignModel::rotary`] has the cranks and rods.
 ///
 /// # Errors
 /// All violations found.
@@ -128,13 +128,13 @@ pub fn parse_with_cranks(text: &str, format: Format) -> Result<(DesignModel, Vec
     read(text, format, true)
 }
 
-/// Reads a design whose joints are ideal, its legs drives or rods on cranks.
+/// Reads a design with ideal joints, whose legs are drives or rods on cranks.
 ///
 /// # Errors
-/// All violations found; joints that are not ideal are one ([`Code::NotIdeal`]).
+/// All violations found; joint offsets are one ([`Code::NotIdeal`]).
 pub fn parse_ideal(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     match parse(text, format) {
-        // cranks have no drives that couple a rotation to a length, so that this takes no more than them
+        // cranks cannot couple a rotation to a length, so this admits cranks only
         Err(violations) if violations.iter().any(|v| v.code == Code::Rotary) => {
             parse_with_cranks(text, format)
         }

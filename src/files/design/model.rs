@@ -1,4 +1,4 @@
-//! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
+//! The design: the contents of a valid file, with its requirements and the variables of the optimiser.
 
 use nalgebra::{DMatrix, Point3, Vector3};
 use thiserror::Error;
@@ -17,57 +17,57 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 use platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 
-/// A manipulator with names and everything else a design file may carry.
+/// A manipulator with names and all other contents of a design file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignModel {
     /// Name of the design.
     pub name: String,
     /// Label of the length unit; all lengths are in it.
     pub units: String,
-    /// Where the numbers come from (paper, year, table).
+    /// Source of the numbers (paper, year, table).
     pub source: Option<String>,
     /// Free text.
     pub description: Option<String>,
-    /// The revision of the design, as its drawings and parts name it.
+    /// The revision of the design, as named on its drawings and parts.
     pub revision: Option<String>,
-    /// Leg lengths that belong to the design, those of a published example for instance.
+    /// Leg lengths that belong to the design, for instance of a published example.
     pub lengths: Option<LegLengths>,
-    /// The pose the platform is built for.
+    /// The pose for which the platform is designed.
     pub home: Option<Pose>,
     /// The poses the platform has to reach.
     pub workspace: Workspace,
     /// Limits for the optimisation of joint offsets.
     pub optimize: OptimizeTable,
-    /// What the optimiser may choose and what is best; the other keys of `[optimize]`.
+    /// Variables and objectives of the optimiser: the other keys of `[optimize]`.
     pub search: SearchTable,
     /// Sizes and limits of joints, legs and drives.
     pub hardware: Hardware,
-    /// How fast the platform has to move.
+    /// Required speed of the platform.
     pub speed: Option<PlatformSpeed>,
-    /// How stiff the platform has to be on its legs.
+    /// Required stiffness of the platform on its legs.
     pub stiffness: Option<PlatformStiffness>,
     /// Loads on the platform.
     pub loads: Vec<Load>,
     /// Bodies that the legs must not touch.
     pub keep_outs: Vec<KeepOut>,
-    /// What the platform carries.
+    /// The payload of the platform.
     pub payload: Option<Payload>,
-    /// Room that plates and machine may take up.
+    /// Space that plates and machine may occupy.
     pub envelopes: Envelopes,
     /// The plates that carry the joints.
     pub plates: Plates,
-    /// The table of drives from which one is chosen: a file whose name is relative to the folder of the design.
+    /// The file name of the table of drives to choose from, relative to the folder of the design.
     pub drive_table: Option<String>,
-    /// What has to remain of each limit.
+    /// The required reserves of the limits.
     pub reserves: Reserves,
-    /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes
-    /// are stated.
+    /// Grids for the joints of base and platform; `None`: any position. If holes are stated, at least one plate has a
+    /// grid.
     pub holes: Option<[Option<Grid>; 2]>,
-    /// Unit of forces; `None` where the file names none.
+    /// Unit of forces; `None` if the file names none.
     pub force_units: Option<ForceUnit>,
-    /// Unit of masses; `None` where the file names none.
+    /// Unit of masses; `None` if the file names none.
     pub mass_units: Option<MassUnit>,
-    /// What measurements of the machine say of it beside its joints.
+    /// Results of a calibration besides the joints.
     pub calibration: Option<CalibrationTable>,
     /// The text it was read from.
     pub written: Written,
@@ -77,7 +77,7 @@ pub struct DesignModel {
     platform_names: Vec<String>,
 }
 
-/// Limits for the optimisation of joint offsets; what is absent is left to the optimiser.
+/// Limits for the optimisation of joint offsets; the optimiser chooses absent ones.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OptimizeTable {
     /// Smallest distance between two joints of one body, design units, positive.
@@ -88,19 +88,19 @@ pub struct OptimizeTable {
     pub characteristic_length: Option<f64>,
 }
 
-/// What a calibration says of a machine beside the joints, which stand where all joints do.
+/// The results of a calibration besides the joints, which are stored as those of the design.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CalibrationTable {
-    /// What the length that each leg shows is longer than the distance of its joints, design units.
+    /// Shown length of each leg minus the distance of its joints, design units.
     pub offsets: [f64; 6],
     /// Standard deviations of the offsets, design units.
     pub offset_deviations: Option<[f64; 6]>,
-    /// Standard deviations of the coordinates of the base joints, in joint order; `None` for joints about which nothing
-    /// is said.
+    /// Standard deviations of the coordinates of the base joints, in joint order, design units; `None` for joints
+    /// without data.
     pub base_deviations: Vec<Option<Vector3<f64>>>,
-    /// Those of the platform joints.
+    /// Standard deviations of the coordinates of the platform joints, in the same form.
     pub platform_deviations: Vec<Option<Vector3<f64>>>,
-    /// How coordinates and offsets are off together; `None`: each for itself.
+    /// Correlations of coordinates and offsets; `None`: uncorrelated.
     pub correlations: Option<Correlations>,
 }
 
@@ -121,13 +121,13 @@ pub enum CalibratedNumber {
 }
 
 impl CalibratedNumber {
-    /// What it is called: `base.A1.x`, `offset.3`.
+    /// Its name: `base.A1.x`, `offset.3`.
     #[must_use]
     pub fn name(&self, design: &DesignModel) -> String {
         self.name_among([design.base_names(), design.platform_names()])
     }
 
-    /// The same among these names of the joints of base and platform.
+    /// The name, from these names of the joints of base and platform.
     pub(super) fn name_among(self, joints: [&[String]; 2]) -> String {
         match self {
             Self::Coordinate { body, joint, axis } => {
@@ -138,11 +138,10 @@ impl CalibratedNumber {
     }
 }
 
-/// Correlations of the numbers of a calibration. They have no unit; numbers that are not listed are off each for
-/// itself.
+/// Correlations of the numbers of a calibration. They have no unit; unlisted numbers are uncorrelated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlations {
-    /// What rows and columns are about.
+    /// The numbers of rows and columns.
     pub unknowns: Vec<CalibratedNumber>,
     /// The lower triangle with the diagonal, which is 1: row `i` has `i + 1` numbers. The matrix is positive
     /// semidefinite up to rounding.
@@ -150,7 +149,7 @@ pub struct Correlations {
 }
 
 impl Correlations {
-    /// Those of a covariance `F F^T`, rounded to ten decimals; a number that is not uncertain is correlated with none.
+    /// The correlations of a covariance `F F^T`, rounded to ten decimals; a number without uncertainty has none.
     #[must_use]
     pub fn of_root(unknowns: Vec<CalibratedNumber>, root: &DMatrix<f64>) -> Self {
         let units: Vec<_> = root.row_iter().map(|row| row.transpose().try_normalize(0.0)).collect();
@@ -159,7 +158,7 @@ impl Correlations {
             (Some(a), Some(b)) => a.dot(b),
             _ => 0.0,
         };
-        // text, so that the file has no digits behind the tenth; adding zero takes the sign from -0
+        // formatted as text, so the file has at most ten decimals; adding zero removes the sign of -0
         let kept = |x: f64| format!("{x:.10}").parse::<f64>().unwrap_or(x) + 0.0;
         let row = |i: usize| (0..=i).map(|j| kept(one(i, j)).clamp(-1.0, 1.0)).collect();
         Self { triangle: (0..unknowns.len()).map(row).collect(), unknowns }
@@ -180,7 +179,7 @@ impl CalibrationTable {
         body.of((&self.base_deviations, &self.platform_deviations)).get(joint).copied().flatten()
     }
 
-    /// The standard deviation of a number; `None` where nothing is said.
+    /// The standard deviation of a number; `None` without data.
     #[must_use]
     pub fn deviation_of(&self, number: CalibratedNumber) -> Option<f64> {
         match number {
@@ -189,7 +188,7 @@ impl CalibrationTable {
         }
     }
 
-    /// Correlations of these numbers: 1 of each with itself, what the table says of two that it lists, and 0 of others.
+    /// Correlations of these numbers: 1 on the diagonal, the values of the table for listed pairs, 0 for others.
     #[must_use]
     pub fn correlations_of(&self, numbers: &[CalibratedNumber]) -> DMatrix<f64> {
         let mut out = DMatrix::identity(numbers.len(), numbers.len());
@@ -206,14 +205,14 @@ impl CalibrationTable {
         out
     }
 
-    /// Distances of the joints from lengths that the legs show: what every other question about lengths is asked in.
+    /// Distances of the joints for shown leg lengths; all other functions take distances.
     #[must_use]
     pub fn distances(&self, shown: [f64; 6]) -> [f64; 6] {
         std::array::from_fn(|leg| shown[leg] - self.offsets[leg])
     }
 }
 
-/// There are not as many names as joints.
+/// The number of names differs from that of the joints.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the {body} has {joints} joints, but {names} names were given for them")]
 pub struct NameCount {
@@ -221,17 +220,17 @@ pub struct NameCount {
     pub body: Body,
     /// Names given.
     pub names: usize,
-    /// Joints there are.
+    /// Number of joints.
     pub joints: usize,
 }
 
-/// Why constructions make no design.
+/// Reasons why constructions give no design.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub(crate) enum NotBuilt {
     /// One of them gives no point.
     #[error("{0}")]
     Construction(Fault),
-    /// The points make no manipulator.
+    /// The points form no manipulator.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
 }
@@ -239,7 +238,7 @@ pub(crate) enum NotBuilt {
 impl From<Vec<Fault>> for NotBuilt {
     fn from(mut faults: Vec<Fault>) -> Self {
         if faults.is_empty() {
-            // what is not said to be at fault are coordinates that are not finite
+            // without a reported fault the coordinates are not finite
             return Self::Manipulator(InvalidManipulator::NoSize);
         }
         Self::Construction(faults.swap_remove(0))
@@ -285,11 +284,11 @@ impl DesignModel {
         }
     }
 
-    /// The same design with other joint names, in joint order.
+    /// The design with other joint names, in joint order.
     ///
     /// # Errors
-    /// [`NameCount`] unless there is one name for every joint. Names are not compared with each other
-    /// here; a file with the same name twice in a body is refused when it is read.
+    /// [`NameCount`] unless there is one name for every joint. Names are not compared here; the reader of a file
+    /// refuses duplicate names in a body.
     pub fn with_joint_names(mut self, base: Vec<String>, platform: Vec<String>) -> Result<Self, NameCount> {
         let bodies = [
             (Body::Base, base.len(), self.manipulator.base_joints().len()),
@@ -304,8 +303,7 @@ impl DesignModel {
         Ok(self)
     }
 
-    /// The same with the source and all tables of another design that say what is required: what a rearrangement of its
-    /// legs does not change.
+    /// The design with the source and all requirement tables of another one, which a rearrangement of its legs keeps.
     #[must_use]
     pub fn with_tables_of(mut self, other: &Self) -> Self {
         self.source.clone_from(&other.source);
@@ -320,23 +318,23 @@ impl DesignModel {
         self.holes = other.holes;
         self.plates = other.plates.clone();
         self.drive_table.clone_from(&other.drive_table);
-        // other joints would give another length, and the conditioning another value
+        // other joints would change the default length, and with it the conditioning
         self.optimize.characteristic_length = Some(other.characteristic_length());
         self
     }
 
-    /// For each joint of a body whether no search may move it.
+    /// For each joint of a body whether searches must keep it.
     pub fn fixed_joints(&self, body: Body) -> Vec<bool> {
         let fixed = &self.search.fixed[body.index()];
         self.joint_names(body).iter().map(|name| fixed.contains(name)).collect()
     }
 
-    /// Whether any joint may not be moved.
+    /// Whether any joint is fixed.
     pub fn has_fixed_joints(&self) -> bool {
         Body::BOTH.into_iter().any(|body| self.fixed_joints(body).contains(&true))
     }
 
-    /// The cranks and rods of a design whose drive is rotary; `None` where legs change their lengths.
+    /// The cranks and rods of a design with rotary drive; `None` for legs of variable length.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
@@ -350,13 +348,13 @@ impl DesignModel {
     /// ```
     ///
     /// # Errors
-    /// Cranks and joints that make no platform, which can be where joints were [moved](Self::set_joint).
+    /// Cranks and joints form no platform, which is possible after [moving](Self::set_joint) joints.
     pub fn rotary(&self) -> Result<Option<RotaryPlatform>, InvalidRotary> {
         let Some(cranks) = &self.constructions.cranks else { return Ok(None) };
         let m = &self.manipulator;
         let leg = |i: usize| {
             let (a, b) = m.pairs()[i];
-            // a crank of which something is missing is refused when the design is read
+            // the reader refuses cranks with missing keys
             let values =
                 cranks.values.get(a).and_then(|v| v.as_ref().ok()).ok_or(InvalidRotary::BadNumber(i))?;
             Ok::<_, InvalidRotary>(RotaryLeg {
@@ -382,14 +380,13 @@ impl DesignModel {
         self.constructions.cranks.is_some()
     }
 
-    /// What the drives of the cranks can do; nothing is said of legs that change their lengths.
+    /// Limits of the drives of the cranks; empty for legs of variable length.
     #[must_use]
     pub fn crank_limits(&self) -> CrankLimits {
         self.constructions.cranks.as_ref().map(|cranks| cranks.drives).unwrap_or_default()
     }
 
-    /// Joints and legs. Where the legs are rods on [cranks](Self::rotary) the base joints are the centres of the
-    /// cranks.
+    /// Joints and legs. With rods on [cranks](Self::rotary) the base joints are the centres of the cranks.
     #[must_use]
     pub fn manipulator(&self) -> &Manipulator {
         &self.manipulator
@@ -412,11 +409,11 @@ impl DesignModel {
         body.of((&self.base_names, &self.platform_names))
     }
 
-    /// The joints of a body as exactly as they are known, in joint order.
+    /// The joints of a body with exact coordinates, in joint order.
     ///
-    /// A joint of three plain numbers is the three doubles. One that is constructed is what its construction says:
-    /// fractions, sums of square roots, or bounds; the coordinates in [`Self::manipulator`] are the doubles nearest to
-    /// them.
+    /// A joint of three plain numbers is the three doubles. A constructed joint has the exact numbers of its
+    /// construction: fractions, sums of square roots, or bounds. The coordinates in [`Self::manipulator`] are the
+    /// nearest doubles.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } pub mod prelude { pub use platform::manipulator::Body; } }
@@ -448,7 +445,7 @@ impl DesignModel {
         self.exact_points(body).iter().map(ExactJoint::of).collect()
     }
 
-    /// How exactly all joints are known.
+    /// Exactness of all joints.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
@@ -471,30 +468,27 @@ impl DesignModel {
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
     }
 
-    /// The length that rotations are multiplied with where they are compared with translations, as in every inverse
-    /// condition number of the Jacobian: that of `[optimize]`, else the RMS distance of the platform's leg ends from
-    /// their centroid.
+    /// The length that makes rotations comparable with translations, as in every inverse condition number of the
+    /// Jacobian. It is that of `[optimize]`, otherwise the RMS distance of the platform's leg ends from their centroid.
     #[must_use]
     pub fn characteristic_length(&self) -> f64 {
         self.optimize.characteristic_length.unwrap_or_else(|| self.manipulator.platform_rms_radius())
     }
 
-    /// What is said of the joints beside three numbers each and of home beside plain numbers, without a home that has
-    /// been given another pose since.
+    /// The current constructions of joints and home; home is left out if it has been given another pose since.
     pub(super) fn current_constructions(&self) -> Constructions {
         let mut constructions = self.constructions.clone();
         constructions.home = self.written_home().cloned();
         constructions
     }
 
-    /// The home pose as it was written, where an expression gives a number of it and no other pose has been given
-    /// since.
+    /// The home pose as written, if an expression gives one of its numbers and no other pose has been set since.
     pub(super) fn written_home(&self) -> Option<&WrittenHome> {
         self.constructions.home.as_ref().filter(|written| self.home == Some(written.pose))
     }
 
-    /// The exact numbers of the home pose as it was written: the position, and the angles in degrees where the rotation is
-    /// given by them. `None` where no expression gives a number of it, or one is known between bounds only.
+    /// The exact numbers of the written home pose: the position, and the angles in degrees if the rotation is given by
+    /// them. `None` if no expression gives one of them, or if one is known only between bounds.
     #[must_use]
     pub fn exact_home(&self) -> Option<([Surd; 3], Option<[Surd; 3]>)> {
         let values = self.written_home()?.values.iter().map(|x| x.exact().cloned());
@@ -503,8 +497,8 @@ impl DesignModel {
         Some((three(values.get(..3)?)?, values.get(3..).and_then(three)))
     }
 
-    /// The constructions have been resolved: home follows from them, and so do the coordinates of the manipulator,
-    /// which get what they are where they are not the doubles.
+    /// Sets resolved constructions. Home and the coordinates of the manipulator take their values, unless the doubles
+    /// agree already.
     pub(super) fn set_constructions(&mut self, constructions: Constructions) {
         self.constructions = constructions;
         if let Some(home) = &self.constructions.home {
@@ -530,7 +524,7 @@ impl DesignModel {
         self.manipulator = self.manipulator.clone().with_values(values);
     }
 
-    /// The same with other constructions, and the coordinates that follow from them.
+    /// The design with other constructions, and the resulting coordinates.
     pub(crate) fn with_constructions(mut self, mut constructions: Constructions) -> Result<Self, NotBuilt> {
         let m = &self.manipulator;
         let names = [self.base_names.as_slice(), &self.platform_names];
@@ -547,7 +541,7 @@ impl DesignModel {
         self.manipulator.pairs().map(|(a, b)| (self.base_names[a].as_str(), self.platform_names[b].as_str()))
     }
 
-    /// What the design has to satisfy, from all its tables.
+    /// The requirements of the design, from all its tables.
     #[must_use]
     pub fn requirements(&self) -> Requirements {
         Requirements {
@@ -566,7 +560,7 @@ impl DesignModel {
         }
     }
 
-    /// The limits of cranks and rods; `None` without cranks, or where they make no platform.
+    /// The limits of cranks and rods; `None` without cranks, or if they form no platform.
     fn limits_of_cranks(&self) -> Option<Cranks> {
         let platform = self.rotary().ok()??;
         let values = &self.constructions.cranks.as_ref()?.values;
@@ -593,15 +587,14 @@ impl DesignModel {
         })
     }
 
-    /// Offsets of the calibration, design units, zero without one: each leg shows the distance of its joints and its
+    /// Offsets of the calibration, design units, zero without one: each leg shows the distance of its joints plus its
     /// offset.
     #[must_use]
     pub fn leg_offsets(&self) -> [f64; 6] {
         self.calibration.as_ref().map_or([0.0; 6], |table| table.offsets)
     }
 
-    /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are
-    /// at home.
+    /// The plate of a body as a solid, if the file describes it; the legs are on their side at home.
     #[must_use]
     pub fn plate(&self, body: Body) -> Option<PlateSolid> {
         let home = self.home_or_default();
@@ -645,7 +638,7 @@ impl DesignModel {
         }
     }
 
-    /// The legs that a requirement is about, counted from 1: all of them for what the platform as a whole has.
+    /// The legs of a requirement, counted from 1: all legs for requirements of the platform as a whole.
     pub fn legs_of(&self, term: Term) -> Vec<usize> {
         let pairs = self.manipulator.pairs();
         let at = |body: Body| {
@@ -678,34 +671,34 @@ impl DesignModel {
     }
 }
 
-/// How several objectives are combined.
+/// The combination of several objectives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Combination {
     /// The weighted sum of the gains.
     Weighted,
-    /// One after the other; later levels may take this share of the gains of the earlier ones.
+    /// One after the other; later levels may give up this share of the gains of earlier ones.
     Lexicographic {
         /// Share, positive.
         slack: f64,
     },
-    /// Designs of which none is better in every objective.
+    /// Designs of which none is better than another in every objective.
     Pareto {
         /// Steps between the extremes of each objective but the first.
         points: usize,
     },
 }
 
-/// The keys of `[optimize]` that ask for more than the six offsets with the best worst-case conditioning.
+/// The keys of `[optimize]` beyond the default task: the six offsets with the best worst-case conditioning.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SearchTable {
-    /// What may be chosen; empty: the offsets.
+    /// The variables; empty: the offsets.
     pub variables: Vec<VariableKind>,
-    /// The symmetry that the platform has to keep; when absent the three-fold one of a design that has it, as long as a
-    /// platform with it meets the requirements.
+    /// The symmetry that the search keeps. If absent, it is the three-fold one of a design that has it, as long as a
+    /// symmetric platform meets the requirements.
     pub symmetry: Option<KeptSymmetry>,
     /// Objectives with weights, or in the order of their levels; empty: the worst-case conditioning.
     pub objectives: Vec<(Objective, f64)>,
-    /// How objectives are combined, weighted when absent.
+    /// The combination of objectives; weighted if absent.
     pub mode: Option<Combination>,
     /// Least and greatest offset; 0 and 1 are the ends of the edge.
     pub offset_bounds: Option<(f64, f64)>,
@@ -713,11 +706,11 @@ pub struct SearchTable {
     pub stretch_bounds: Option<(f64, f64)>,
     /// Least and greatest change of the height of home, in sizes of the design.
     pub height_bounds: Option<(f64, f64)>,
-    /// Names of the joints of base and platform that no search may move.
+    /// Names of the joints of base and platform that searches must keep.
     pub fixed: [Vec<String>; 2],
 }
 
-/// The coordinates when all three are known exactly.
+/// The coordinates if all three are known exactly.
 fn exact_point(p: &RealPoint) -> Option<SurdPoint> {
     let [x, y, z] = p;
     Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])

@@ -1,12 +1,11 @@
-//! The text of a design from the few numbers that its maker has in mind: sizes of a symmetric hexapod, or the corners
-//! of two triangles.
+//! The text of a design from a few main dimensions: sizes of a symmetric hexapod, or the corners of two triangles.
 
 use std::fmt::Write as _;
 
 use thiserror::Error;
 
-/// The sizes by which makers describe a hexapod: the joints of each body stand in three pairs on a circle, and legs
-/// join neighbouring pairs.
+/// The usual dimensions of a hexapod: the joints of each body stand in three pairs on a circle, and legs join
+/// neighbouring pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HexapodSizes {
     /// Radii of the circles of the base and platform joints, design units.
@@ -17,22 +16,22 @@ pub struct HexapodSizes {
     pub height: f64,
 }
 
-/// Why sizes or corners give no design.
+/// The reason why sizes or corners give no design.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct InvalidOutline(String);
 
-/// The pairs of two bodies are a sixth of a turn apart, so that legs of equal length cross from pair to pair.
+/// Angle between the pairs of the two bodies: a sixth of a turn, so that legs of equal length cross from pair to pair.
 const PLATFORM_TURN_DEG: f64 = 60.0;
 /// Angle from pair to pair.
 const PAIRS_DEG: f64 = 120.0;
 
 impl HexapodSizes {
-    /// Whether the sizes can be those of a hexapod.
+    /// Whether the sizes are those of a hexapod.
     ///
     /// # Errors
-    /// The first size that cannot be; spreads that make the hexagons similar are no size at fault, but give no hexapod
-    /// that its legs hold.
+    /// The first invalid size. Spreads that make the hexagons similar also fail: the legs of such a hexapod cannot hold
+    /// it.
     pub fn check(&self) -> Result<(), InvalidOutline> {
         let [base, platform] = self.radius;
         for (what, x) in
@@ -59,7 +58,7 @@ impl HexapodSizes {
         Ok(())
     }
 
-    /// Where the joints are and how the spreads are meant, a sentence each.
+    /// The places of the joints and the meaning of the spreads, one sentence each.
     pub fn understood(&self, units: &str) -> [String; 3] {
         let pair = |k: usize, middle: f64| {
             let half = self.spread_deg[k] / 2.0;
@@ -81,7 +80,7 @@ impl HexapodSizes {
         ]
     }
 
-    /// The same numbers where the pair of the platform is counted from the legs of a base pair, as some makers do.
+    /// The same numbers if the pair of the platform is counted from the legs of a base pair, as some makers do.
     #[must_use]
     pub fn other_reading(self) -> Self {
         Self { spread_deg: [self.spread_deg[0], PAIRS_DEG - self.spread_deg[1]], ..self }
@@ -115,20 +114,20 @@ impl HexapodSizes {
         out + &home(self.height)
     }
 
-    /// Where the second joint of a body is on its circle, degrees from the x axis.
+    /// Angle of the second joint of a body on its circle, degrees from the x axis.
     fn angle(self, k: usize) -> f64 {
         let half = self.spread_deg[k] / 2.0;
         if k == 0 { half } else { PLATFORM_TURN_DEG - half }
     }
 
-    /// This angle, where its cosine and sine are no sums of square roots: they are then written as decimals, since
-    /// poses of joints that are known between bounds only are not counted.
+    /// This angle, if its cosine and sine are not sums of square roots. They are then written as decimals, since poses
+    /// cannot be counted for joints known only between bounds.
     fn inexact_angle(self, k: usize) -> Option<f64> {
         let angle = self.angle(k);
         (self.spread_deg[k] > 0.0 && angle % 15.0 != 0.0).then_some(angle)
     }
 
-    /// The joints of a body, whose first pair is around `turn` degrees, and the joints at the ends of the six legs.
+    /// The joints of a body with its first pair at `turn` degrees, and the joints at the ends of the six legs.
     fn body(self, k: usize, letter: &str, turn: f64) -> (String, [String; 6]) {
         let body = ["base", "platform"][k];
         let joint = |n: u8| format!("{letter}{n}");
@@ -178,7 +177,7 @@ fn home(height: f64) -> String {
     format!("[home]\nposition = [0, 0, {height}]\nrpy_deg = [0, 0, 0]\n")
 }
 
-/// A text in quotes; what JSON writes is a basic string of TOML, but for one character.
+/// A text in quotes: JSON strings are basic strings of TOML, except for one character.
 fn quoted(text: &str) -> String {
     serde_json::to_string(text).unwrap_or_default().replace('\u{7f}', "\\u007f")
 }

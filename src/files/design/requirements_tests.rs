@@ -167,7 +167,7 @@ fn what_contradicts_itself_is_refused() {
     );
 }
 
-/// The tables of what is wanted besides limits.
+/// Required tables besides limits.
 const WANTED: &str = r#"
 [payload]
 mass = 300
@@ -205,7 +205,7 @@ fn payload_envelopes_and_reserves_are_read_and_written_back_to_the_bit() {
     let (design, _) = parse(&all, Format::Toml).unwrap();
     assert_eq!((design.reserves.all, design.reserves.kinds.len()), (Some(2.5), 0));
     assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
-    // lengths follow the unit, percentages and newtons do not
+    // lengths follow the unit; percentages and newtons do not
     let (design, _) =
         parse(&format!("{}{WANTED}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)), Format::Toml)
             .unwrap();
@@ -459,7 +459,7 @@ fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
     let block = Housing::Box(nalgebra::Vector3::new(0.25, 0.5, 0.75));
     assert_eq!(h.base_joint_housing, [None, None, None, Some(Housing::Sphere(0.375)), None, Some(block)]);
     assert_eq!(h.platform_joint_housing, [None; 6]);
-    // the limit of the body is that of the legs without one of their own
+    // the limit of the body applies to legs without their own
     assert_eq!(h.base_swing.unwrap().limits_deg, [45.0, 45.0, 170.0, 12.0, 45.0, 3.5]);
     assert_eq!(h.platform_swing.unwrap().limits_deg, [60.0; 6]);
     for format in [Format::Toml, Format::Json] {
@@ -474,7 +474,7 @@ fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
     let free = parse(&free, Format::Toml).unwrap().0;
     assert_eq!(free.hardware.base_swing.unwrap().limits_deg, [180.0, 180.0, 170.0, 12.0, 180.0, 3.5]);
     assert_eq!(parse(&free.to_toml(), Format::Toml).unwrap().0, free, "{}", free.to_toml());
-    // six tables that say the same are one
+    // six equal tables are one
     let ball = "{ model = \"ball\", swing_deg = 45 }, ".repeat(6);
     let same = parse(&GOOD.replacen(JOINTS, &format!("base_joint = [{ball}]\n"), 1), Format::Toml).unwrap().0;
     let plain = parse(&GOOD.replacen(JOINTS, "", 1), Format::Toml).unwrap().0;
@@ -513,7 +513,7 @@ fn faults_of_kinds_of_joints_per_leg_are_refused_at_their_place() {
     assert!(line_of(first, six)[0].starts_with("+1 design::"));
     let along = line_of(first, "{ model = \"universal\", first_axis = [0, 0, 1] }");
     assert!(along[0].contains("the axis of leg 1 is the first axis"), "{along:?}");
-    // an offset is one of all six joints
+    // an offset applies to all six joints
     let offset = line_of("angle_deg = [120, 40.5]", "angle_deg = [120, 40.5], offset = 2");
     assert!(
         offset
@@ -665,7 +665,7 @@ fn the_mass_of_a_plate_is_counted_once() {
     let design = |text: &str| parse(text, Format::Toml).unwrap().0;
     let added = design(&with_plates());
     let plate = added.plate_mass(Body::Platform).unwrap();
-    // by another route: area of a polygon with many corners, less the holes
+    // by a separate method: area of a polygon with many corners, minus the holes
     let solid = added.plate(Body::Platform).unwrap();
     let ring = solid.outline.polygon(20_000);
     let twice: f64 = (0..ring.len()).map(|i| ring[i].coords.perp(&ring[(i + 1) % ring.len()].coords)).sum();
@@ -681,7 +681,7 @@ fn the_mass_of_a_plate_is_counted_once() {
         (nalgebra::Matrix3::identity() * c.norm_squared() - c * c.transpose()) * mass
     };
     let all = moving.inertia.unwrap() + about(moving.mass, moving.center.coords);
-    // a payload without inertia is a ball as wide as the joints of the platform
+    // a payload without inertia is a ball with the spread of the platform joints
     let joints = added.manipulator().platform_joints();
     let middle = joints.iter().map(|b| b.coords).sum::<nalgebra::Vector3<f64>>() / joints.len() as f64;
     let gyration =
@@ -699,7 +699,7 @@ fn the_mass_of_a_plate_is_counted_once() {
     assert!((moving.inertia.unwrap() - ball).norm() < 1e-12 * ball.norm());
     let stated = machine::requirements::Payload { inertia: None, ..moving };
     assert_eq!(Some(stated), included.payload, "the mass has the plate in it");
-    // without a payload the plate is what moves
+    // without a payload only the plate moves
     let (text, _) = PLATES.split_once("[payload]").unwrap();
     let alone = design(&format!("{}{text}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)));
     assert!((alone.moving_payload().unwrap().mass - plate).abs() < 1e-12);
@@ -778,8 +778,8 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
     assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");
 }
 
-/// The axes of joints are the normal of their plane, one vector, or a list with normals in it; what is read is written
-/// as vectors.
+/// The axes of joints are the normal of their plane, one vector, or a list that may contain normals. Normals are
+/// written back as vectors.
 #[test]
 fn axes_are_normals_vectors_or_both() {
     let with = |base: &str, platform: &str| {
@@ -806,7 +806,7 @@ fn axes_are_normals_vectors_or_both() {
     }
     let tilted = nalgebra::Vector3::new(0.0, 0.6, 0.8);
     assert!(given(h.platform_swing).iter().all(|axis| (axis - tilted).norm() < 1e-15));
-    // swing counts from them, in `assess` and `ik` alike
+    // joint angles count from them, in `assess` and `ik` alike
     let required = design.requirements();
     let terms = machine::requirements::Terms::new(design.manipulator(), &required, &home);
     let margins = terms.at(&home);
@@ -829,7 +829,7 @@ fn axes_are_normals_vectors_or_both() {
     }
     let wrong = GOOD.replacen("platform_axes = \"optimize\"", "platform_axes = \"normals\"", 1);
     assert_eq!(parse(&wrong, Format::Toml).unwrap_err()[0].code, Code::WrongType);
-    // a normal that is the first axis of a universal joint is refused as any other axis is
+    // a normal along the first axis of a universal joint is refused as any other axis
     let universal = GOOD.replacen(
         "platform_axes = \"optimize\"",
         "platform_axes = \"normal\"\nplatform_joint = { model = \"universal\", first_axis = [0, 0, 1] }",
@@ -838,7 +838,7 @@ fn axes_are_normals_vectors_or_both() {
     assert!(parse(&universal, Format::Toml).is_err());
 }
 
-/// The name of a table of drives is kept; a design that has a drive of it names none.
+/// The name of a table of drives is kept; a design with a chosen drive names none.
 #[test]
 fn a_table_of_drives_is_named() {
     let text = GOOD.replacen("max_leg_force = 500", "max_leg_force = 500\ndrives = \"struts.csv\"", 1);
@@ -850,8 +850,8 @@ fn a_table_of_drives_is_named() {
     assert_eq!(parse(&wrong, Format::Toml).unwrap_err()[0].code, Code::WrongType);
 }
 
-/// Designs whose legs weigh something, with a payload, with a plate alone and with neither: `assess` and `motion` have
-/// the same forces at rest, in all units.
+/// `assess` and `motion` have the same forces at rest, in all units. The designs have heavy legs, with a payload, with
+/// a plate alone and with neither.
 #[test]
 fn the_weight_of_all_that_moves_is_one_load() {
     let design = |text: &str| parse(text, Format::Toml).unwrap().0;
@@ -871,7 +871,7 @@ fn the_weight_of_all_that_moves_is_one_load() {
             let loads = design.all_loads();
             assert_eq!((loads.len(), loads[0].name.as_str()), (3, *name));
             assert!(loads[0].legs.is_some() && loads[1..].iter().all(|load| load.legs.is_none()));
-            // legs alone stand on a platform without mass
+            // legs alone: the platform has no mass
             let nothing = || design.assumed_bodies(0.0, 1e-3);
             let bodies = design.moving_bodies(1e-3).unwrap_or_else(nothing);
             let in_unit = design.force_unit().newtons() / bodies.metres;
@@ -916,7 +916,7 @@ fn assumptions_name_what_has_no_mass() {
     let of_legs = said(&plain, true, false);
     assert!(of_legs[0].contains("platform is taken as massless"), "{of_legs:?}");
     assert!(of_legs.len() == 3 && of_legs.iter().all(|s| !s.contains("legs have no masses")), "{of_legs:?}");
-    // nothing weighs anything: no unit of mass is needed
+    // nothing has weight, so no unit of mass is needed
     let nothing = said(&without(&plain), true, false);
     assert!(nothing.len() == 2 && nothing[1].contains("legs have no masses"), "{nothing:?}");
     let whole = format!("{}{payload}", without(&plain));

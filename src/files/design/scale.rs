@@ -10,35 +10,35 @@ use super::{DesignModel, Format, WrittenNumber, parse_with_cranks};
 const UNITS: [(&str, u64); 6] =
     [("um", 1), ("mm", 1000), ("cm", 10_000), ("m", 1_000_000), ("in", 25_400), ("ft", 304_800)];
 
-/// Micrometres of the unit of a label.
+/// Micrometres per unit of a label.
 pub fn micrometres(label: &str) -> Option<u64> {
     UNITS.iter().find(|(known, _)| *known == label.trim()).map(|(_, length)| *length)
 }
 
-/// The label of the unit of so many millimetres, and its exact length in them.
+/// The label of the unit with this length in millimetres, and its exact length.
 pub fn unit_of_millimetres(length: f64) -> Option<(&'static str, f64)> {
     let known = UNITS.into_iter().map(|(label, micrometres)| (label, micrometres as f64 / 1000.0));
     known.into_iter().find(|(_, known)| (length - known).abs() <= 1e-9 * known)
 }
 
-/// Why a design has no form in another unit.
+/// Reasons why a design cannot change to another unit.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NotScaled {
     /// A label that names no known length unit.
     #[error("`{0}` is not a known unit of length; the known units are {known}", known = UNITS.map(|(label, _)| label).join(", "))]
     Unit(String),
-    /// The poses of its trajectory stand in a file of their own.
+    /// The poses of its trajectory are in a separate file.
     #[error("the trajectory {0} is a file of its own, which would keep the old unit")]
     Trajectory(String),
     /// A construction that is too long with the factor.
     #[error("a construction cannot be scaled: {0}")]
     Construction(String),
-    /// The scaled numbers make no design: they are too large or too small for doubles.
+    /// The scaled numbers form no design: they are too large or too small for doubles.
     #[error("{0}")]
     Design(String),
 }
 
-/// The fraction by which lengths are multiplied, in lowest terms.
+/// The factor of lengths as a fraction in lowest terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct LengthRatio {
     times: u64,
@@ -80,7 +80,7 @@ impl LengthRatio {
         }
     }
 
-    /// The same number with the fraction written behind it: what was exact stays exact.
+    /// The number with the fraction as a factor, so that exact values stay exact.
     fn written(self, number: &Json) -> Result<Json, NotScaled> {
         let text = match number {
             Json::String(text) => text.clone(),
@@ -149,7 +149,7 @@ fn fits(value: &Json, kind: &KeyKind) -> bool {
 
 impl DesignModel {
     /// The same design with its lengths in another unit. Parameters stay, since they may be angles; the constructions
-    /// that use them get the factor.
+    /// that use them are scaled.
     ///
     /// # Errors
     /// [`NotScaled`].
@@ -165,7 +165,7 @@ impl DesignModel {
         let text = Json::Object(keys).to_string();
         let (mut out, _) = parse_with_cranks(&text, Format::Json)
             .map_err(|list| NotScaled::Design(list.first().map_or_else(String::new, ToString::to_string)))?;
-        // nothing in these two has a length, and a name of both bodies may stand for the joint of one
+        // these two tables have no lengths, and a name in both bodies may mean one joint only
         (out.written, out.search) = (self.written.clone(), self.search.clone());
         Ok(out)
     }
@@ -199,7 +199,7 @@ mod tests {
         assert!(near(mm.lengths.unwrap().get()[3], inches.lengths.unwrap().get()[3]));
         assert!(near(mm.workspace.translation.x, inches.workspace.translation.x));
         assert!(near(mm.hardware.joint_diameter.unwrap(), inches.hardware.joint_diameter.unwrap()));
-        // the file says the same, and back again it is the same design
+        // the file states the same design, which converts back to equal bits
         let back = design(&inches.to_toml()).in_units("mm").unwrap();
         assert_eq!(back.exact_joints(Body::Base), mm.exact_joints(Body::Base));
     }

@@ -1,9 +1,8 @@
-//! Symmetry that joints typed as decimals have but for their rounding: found, measured, and written as constructions.
+//! Symmetry of joints typed as rounded decimals: found, measured, and written as constructions.
 //!
-//! A hexapod whose joints are rounded cosines is another machine than the one that was meant, with poses far out that
-//! the other does not have. Joints are compared with those before them: at the same place, mirrored in a plane of two
-//! axes, turned by a third of a turn about z; and with planes of the axes. What agrees to a few millionths of the size
-//! is taken to be meant.
+//! A hexapod with rounded cosines differs from the intended machine: it has additional poses far away. Joints are
+//! compared with earlier ones: equal place, mirrored in a plane of two axes, or rotated by a third of a turn about z.
+//! They are also compared with planes of the axes. Agreement within a few millionths of the size counts as intended.
 
 use std::collections::BTreeMap;
 
@@ -13,16 +12,16 @@ use serde_json::{Value as Json, json};
 use super::{DesignModel, Format, parse_with_cranks};
 use platform::manipulator::Body;
 
-/// What differs by less than this, over the size of the design, is taken for the same: coordinates of a machine are
-/// written to a thousandth of a millimetre and better.
+/// Differences below this, over the size of the design, count as rounding: machine coordinates are written to a
+/// thousandth of a millimetre or better.
 const TOLERANCE: f64 = 2e-6;
 
-/// How a joint is related to one before it, or to the axes.
+/// The relation of a joint to an earlier one, or to the axes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JointRelation {
     /// At the place of this joint.
     Same(String),
-    /// This joint turned about z, degrees.
+    /// This joint rotated about z, degrees.
     Turned(String, u16),
     /// This joint mirrored in a plane of two axes.
     Mirrored(String, &'static str),
@@ -32,20 +31,20 @@ pub enum JointRelation {
     Level,
 }
 
-/// A relation that joints of a body have but for rounding.
+/// A relation that joints of a body have up to rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FoundRelation {
     /// The body.
     pub body: Body,
     /// The joint.
     pub joint: String,
-    /// What it is.
+    /// The relation.
     pub relation: JointRelation,
-    /// How far the joint is from it, design units.
+    /// Distance of the joint from the related place, design units.
     pub off: f64,
 }
 
-/// A design with the symmetry that its joints have but for rounding.
+/// A design with the symmetry that its joints have up to rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SnappedDesign {
     /// The relations, base first.
@@ -54,15 +53,15 @@ pub struct SnappedDesign {
     pub design: DesignModel,
 }
 
-/// A joint with what it becomes.
+/// A joint with its new definition.
 struct Snapped {
     relation: Option<JointRelation>,
-    /// Its place where it is written as numbers.
+    /// Its place if it is written as numbers.
     at: Point3<f64>,
 }
 
 impl SnappedDesign {
-    /// Up to three sentences a body: joints at one place, joints that follow from others, joints in planes.
+    /// Up to three sentences for each body: coincident joints, joints related to others, joints in planes.
     #[must_use]
     pub fn sentences(&self, units: &str) -> Vec<String> {
         let mut out = Vec::new();
@@ -93,7 +92,7 @@ impl SnappedDesign {
 }
 
 impl JointRelation {
-    /// 0: the place of a joint, 1: what follows from a joint, 2: planes.
+    /// 0: equal places; 1: joints rotated or mirrored from another; 2: joints in a plane.
     fn kind(&self) -> u8 {
         match self {
             Self::Same(_) => 0,
@@ -104,8 +103,8 @@ impl JointRelation {
 }
 
 impl DesignModel {
-    /// The design with the symmetry that its joints have but for rounding; `None` where none was found that they do not
-    /// have exactly, or where joints are constructed already.
+    /// The design with the symmetry that its joints have up to rounding. `None` if only exact relations were found, or
+    /// if joints are constructed already.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_files::design; } }
@@ -159,7 +158,7 @@ impl DesignModel {
                 }
             }
         }
-        // a joint that is exactly in a plane has moved nowhere
+        // a joint exactly in a plane has not moved
         found.retain(|relation: &FoundRelation| {
             relation.off > 0.0
                 || !matches!(relation.relation, JointRelation::Level | JointRelation::InPlane(_))
@@ -174,7 +173,7 @@ impl DesignModel {
     }
 }
 
-/// What the joints of a body become, one after the other.
+/// The new definitions of the joints of a body, in order.
 fn snapped_body(
     body: Body,
     joints: &[Point3<f64>],
@@ -186,7 +185,7 @@ fn snapped_body(
     let height = joints.first().map_or(0.0, |p| if p.z.abs() <= tolerance { 0.0 } else { p.z });
     let level = joints.iter().all(|p| (p.z - height).abs() <= tolerance);
     for (j, p) in joints.iter().enumerate() {
-        // relations to joints before it, the simplest first; of one kind the nearest
+        // relations to earlier joints, the simplest first; of one kind the nearest
         let mut relation: Option<(JointRelation, f64, Point3<f64>)> = None;
         for kind in 0..3 {
             let candidates = (0..j).filter(|i| !matches!(out[*i].relation, Some(JointRelation::Same(_))));
@@ -224,7 +223,7 @@ fn snapped_body(
     out
 }
 
-/// Where a joint is that has a relation of this kind to one at `p`.
+/// Places of a joint that has a relation of this kind to a joint at `p`.
 fn images(kind: u8, p: &Point3<f64>, of: &str) -> Vec<(JointRelation, Point3<f64>)> {
     let mirrored = |x: f64, y: f64, plane| {
         (
@@ -269,7 +268,7 @@ mod tests {
         for (decimals, off) in [(12, 1e-11), (6, 2e-6), (3, 2e-3)] {
             let snapped = design(&rings(decimals, 0.0)).snapped().unwrap();
             assert!(snapped.found.iter().all(|f| f.off <= off), "{:?}", snapped.found);
-            // one joint a body is left as numbers
+            // one joint of each body keeps its numbers
             let text = snapped.design.to_toml();
             assert_eq!(text.matches("mirror").count() + text.matches("turn").count(), 10, "{text}");
             assert_eq!(
@@ -278,7 +277,7 @@ mod tests {
                 "{text}"
             );
         }
-        // without a mirror plane through the axes the turns are left
+        // without a mirror plane through the axes only the rotations are found
         let turned = design(&rings(12, 7.0)).snapped().unwrap();
         let text = turned.design.to_toml();
         assert_eq!((text.matches("mirror").count(), text.matches("turn").count()), (0, 8), "{text}");
@@ -308,7 +307,7 @@ mod tests {
         let off = rings(12, 0.0).replacen("492.403876506104", "492.9", 1);
         let snapped = design(&off).snapped().unwrap();
         assert!(snapped.design.to_toml().contains("492.9"));
-        // what is exact already is left
+        // exact relations are left unchanged
         let exact = snapped.design.snapped();
         assert_eq!(exact, None);
     }

@@ -1,5 +1,5 @@
-//! The tree with places that designs are read through, for other files in the same two notations: they are refused with
-//! the same lines, columns and nearest keys.
+//! The tree with places behind the design reader, for other files in the same two notations. Their errors have the same
+//! lines, columns and suggestions.
 
 pub use super::keys::{check_keys, nearest_help, number, shown, table, text};
 pub use super::tree::{Entry, Node, Span, Value, find, read};

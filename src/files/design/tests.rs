@@ -1,4 +1,4 @@
-//! Every violation with its line and help; reading back what was written; nothing panics.
+//! Every violation has its line and help; written designs are read back; no input panics.
 #![allow(clippy::format_collect, clippy::float_cmp, reason = "short texts; exact values are read")]
 
 use super::fixtures::PLAIN as GOOD;
@@ -17,7 +17,7 @@ fn refusals(text: &str, format: Format) -> String {
     }
 }
 
-/// What the good design says after one replacement.
+/// Refusals of the good design after one replacement.
 fn after(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from}");
     refusals(&GOOD.replacen(from, to, 1), Format::Toml)
@@ -219,7 +219,7 @@ fn legs_below_a_table_header_are_taken_with_a_warning() {
     let (design, warnings) = parse(&moved, Format::Toml).unwrap();
     assert_eq!(design.platform_names(), ["P4", "P5", "P6"]);
     assert_eq!(warnings, [Warning::LegsInsideTable { table: "platform", line: 12 }]);
-    // a joint may be named "legs", and then it is one
+    // a joint may be named "legs", and is then a joint
     let joint = GOOD.replace("P6", "legs");
     let (design, warnings) = parse(&joint, Format::Toml).unwrap();
     assert_eq!((design.platform_names()[2].as_str(), warnings.len()), ("legs", 0));
@@ -268,7 +268,7 @@ fn bom_and_windows_line_ends_are_read() {
     assert!(slip.iter().any(|v| v.code == Code::UnknownKey && (v.line, v.column) == (2, 1)));
 }
 
-/// A name that is shown otherwise than it is written, plainly and by an escape.
+/// Names that display differently from their text, plainly and by an escape.
 #[test]
 fn text_that_changes_its_direction_is_refused_where_it_stands() {
     for (text, format, place) in [

@@ -7,10 +7,10 @@ use super::Code;
 use super::tree::{Entry, MAX_DEPTH, Node, Value};
 use super::violation::Findings;
 
-/// Reads the text; syntax errors go to the report and make this `None`.
+/// Reads the text; `None` after syntax errors, which go to the report.
 ///
-/// After a fault the parser goes on where it can, and an open bracket then makes every later line wrong. Of
-/// neighbouring faulty lines only the first is therefore reported; a fault after good lines is reported again.
+/// After a fault the parser continues where possible; an open bracket then makes every later line wrong. Therefore only
+/// the first of neighbouring faulty lines is reported; a fault after good lines is reported again.
 pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut faults = Vec::new();
@@ -43,7 +43,7 @@ pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     Some(Node { span: span.start..span.start, value })
 }
 
-/// Whether a line is more than blank or a comment.
+/// Whether a line holds more than blanks or a comment.
 fn holds_toml(line: &str) -> bool {
     !line.trim().is_empty() && !line.trim_start().starts_with('#')
 }
@@ -85,7 +85,7 @@ fn node(value: &Spanned<DeValue<'_>>, report: &mut Findings<'_>, depth: usize) -
     Some(Node { span, value })
 }
 
-/// Rust rounds decimal text to the nearest double, and reads `inf` and `nan` as TOML writes them.
+/// Rust rounds decimal text to the nearest double, and reads TOML's `inf` and `nan`.
 fn number(text: &str) -> Value {
     text.parse().map_or(Value::Other("a number that cannot be read"), Value::Number)
 }

@@ -1,4 +1,4 @@
-//! The small spanned tree both file formats are read into.
+//! The small spanned tree that both file formats are read into.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ pub type Span = Range<usize>;
 /// Values nested deeper than this are refused; a design needs three levels.
 pub(crate) const MAX_DEPTH: usize = 32;
 
-/// A value with the place it stands at.
+/// A value with its place in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
     /// Its place.
@@ -21,7 +21,7 @@ pub struct Node {
     pub value: Value,
 }
 
-/// What a design file can be made of.
+/// The kinds of values in a design file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// A string.
@@ -32,7 +32,7 @@ pub enum Value {
     Array(Vec<Node>),
     /// Entries in the order of the file.
     Table(Vec<Entry>),
-    /// Anything a design never holds, by name: "boolean", "null", "datetime".
+    /// A value that a design never contains, by name: "boolean", "null", "datetime".
     Other(&'static str),
 }
 
@@ -65,7 +65,7 @@ pub fn find<'a>(entries: &'a [Entry], key: &str) -> Option<&'a Entry> {
     entries.iter().find(|e| e.key == key)
 }
 
-/// Reads a text; `None` where it is not TOML or not JSON, with the reasons in the report.
+/// Reads a text; `None` if it is not TOML or not JSON, with the reasons in the report.
 pub fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Node> {
     let root = match format {
         Format::Toml => toml_text::read(text, report),
@@ -77,8 +77,8 @@ pub fn read(text: &str, format: Format, report: &mut Findings<'_>) -> Option<Nod
     root
 }
 
-/// Names and texts with characters that change the direction of text: on a drawing, in a table or on a page something
-/// else would be shown than what is written.
+/// Refuses names and texts with characters that change the direction of text. A drawing, table or page would display
+/// something other than the written text.
 fn refuse_directions(node: &Node, report: &mut Findings<'_>) {
     let mut refuse = |text: &str, span: &Span| {
         if let Some(c) = text.chars().find(|c| changes_direction(*c)) {

@@ -1,27 +1,27 @@
-//! What is wrong with a design file, and where: violations are collected with their line and column.
+//! The violations of a design file, collected with their line and column.
 
 use std::fmt;
 
 use super::tree::Span;
 use platform::manipulator::Body;
 
-/// What kind of violation; the name in [`Code::name`] is stable.
+/// The kind of a violation; the name in [`Code::name`] is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Code {
     /// The text is not TOML or not JSON.
     Syntax,
-    /// There is nothing in the file.
+    /// The file is empty.
     Empty,
-    /// A key stands twice in one table.
+    /// A key occurs twice in one table.
     DuplicateKey,
     /// Values are nested deeper than any design needs.
     NestingTooDeep,
-    /// A key no version of the format knows.
+    /// A key that no version of the format has.
     UnknownKey,
     /// A required key is absent.
     MissingKey,
-    /// A value of another kind than the key takes.
+    /// A value of another kind than the key requires.
     WrongType,
     /// A name, unit or joint name without a character.
     EmptyName,
@@ -31,7 +31,7 @@ pub enum Code {
     CoordinateCount,
     /// NaN or infinite.
     NonFinite,
-    /// So large or so small that squares leave the range of doubles.
+    /// The number or its square is outside the range of doubles.
     OutOfRange,
     /// Other than six legs.
     LegCount,
@@ -41,7 +41,7 @@ pub enum Code {
     MissingJoint,
     /// Two legs join the same pair of joints.
     IdenticalLegs,
-    /// A body with exactly three joints in use has them on one line.
+    /// A body with exactly three joints in use, all on one line.
     CollinearTriangle,
     /// All joints of each body coincide.
     NoSize,
@@ -49,40 +49,40 @@ pub enum Code {
     LengthCount,
     /// A leg length below zero.
     NegativeLength,
-    /// A quantity that must be above zero (or not below) is not.
+    /// A quantity with the wrong sign: it must be positive, or not negative.
     NotPositive,
-    /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or numbers that are not a rotation.
+    /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or invalid numbers of a rotation.
     Rotation,
-    /// A workspace box without the `[home]` it lies around.
+    /// A workspace box without the `[home]` at its centre.
     MissingHome,
-    /// Two keys that say the same thing in different ways.
+    /// Two keys that state the same thing in different ways.
     ConflictingKeys,
     /// A grid with other than 1 to 5 points an axis.
     Grid,
-    /// A text that is no arithmetic expression.
+    /// A text that is not an arithmetic expression.
     Expression,
-    /// An expression or a construction names what does not exist.
+    /// An expression or a construction names something that does not exist.
     UnknownName,
-    /// Parameters or joints that follow from one another in a circle.
+    /// Parameters or joints with circular dependencies.
     Cycle,
-    /// An expression divides by zero, or by what cannot be told from it.
+    /// An expression divides by zero, or by a value indistinguishable from it.
     DivisionByZero,
-    /// A square root of a number that is negative, or may be.
+    /// A square root of a number that is or may be negative.
     NegativeRoot,
     /// The line through two joints that are the same point.
     NoLine,
-    /// Rods on cranks where legs that change their lengths are asked for.
+    /// Rods on cranks, where the command needs legs of variable length.
     Rotary,
-    /// Joints that are not ideal where the length of a drive is taken for the distance of its joints.
+    /// Joint offsets, where the command takes the length of a drive for the distance of its joints.
     NotIdeal,
     /// Expressions or constructions longer or more than any design needs.
     TooComplex,
-    /// More violations than are worth listing.
+    /// More violations than the list holds.
     TooMany,
 }
 
 impl Code {
-    /// The stable name, `design::unknown_key` for example.
+    /// The stable name, for example `design::unknown_key`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -131,10 +131,10 @@ impl fmt::Display for Code {
     }
 }
 
-/// One thing wrong with a design file.
+/// A violation of the format in a design file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Violation {
-    /// What kind.
+    /// The kind.
     pub code: Code,
     /// Line, 1-based.
     pub line: usize,
@@ -142,9 +142,9 @@ pub struct Violation {
     pub column: usize,
     /// Number of characters of the text at fault on that line, at least 1.
     pub width: usize,
-    /// What is wrong.
+    /// The description of the fault.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: String,
 }
 
@@ -154,11 +154,11 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Something that is allowed but is often a slip.
+/// A valid entry that is often a mistake.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// A joint no leg is attached to.
+    /// A joint without a leg.
     UnusedJoint {
         /// The body.
         body: Body,
@@ -171,9 +171,9 @@ pub enum Warning {
     CoincidentJoints {
         /// The body.
         body: Body,
-        /// The name that comes first.
+        /// The first name.
         first: String,
-        /// The name that comes later.
+        /// The later name.
         second: String,
         /// Line of the later one, 1-based.
         line: usize,
@@ -185,7 +185,7 @@ pub enum Warning {
         /// Line of the later one, 1-based.
         line: usize,
     },
-    /// `legs` was written below a table header, so that TOML counts it to that table.
+    /// `legs` below a table header, so that TOML assigns it to that table.
     LegsInsideTable {
         /// The table.
         table: &'static str,
@@ -206,7 +206,7 @@ impl Warning {
         }
     }
 
-    /// The line it is about, 1-based.
+    /// The line of the warning, 1-based.
     #[must_use]
     pub fn line(&self) -> usize {
         match self {
@@ -217,7 +217,7 @@ impl Warning {
         }
     }
 
-    /// What to do about it.
+    /// The remedy.
     #[must_use]
     pub fn advice(&self) -> String {
         match self {
@@ -251,7 +251,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// After this many violations the rest is only counted.
+/// Greatest number of listed violations; the rest is only counted.
 const MAX_VIOLATIONS: usize = 100;
 
 /// Violations and warnings found so far in one text.
@@ -311,7 +311,7 @@ impl<'t> Findings<'t> {
         self.violations.len() >= MAX_VIOLATIONS
     }
 
-    /// How many violations there are so far.
+    /// The number of violations so far.
     pub fn count(&self) -> usize {
         self.violations.len() + self.unlisted
     }

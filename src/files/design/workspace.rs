@@ -26,20 +26,20 @@ pub struct Workspace {
     pub grid: usize,
     /// Box or ellipsoids with these half axes.
     pub region: Region,
-    /// Single poses, as they are listed.
+    /// Single poses, as listed.
     pub poses: Vec<Pose>,
-    /// Poses passed one after the other.
+    /// Poses of a path, in order.
     pub trajectory: Option<Trajectory>,
-    /// What single poses and those of the trajectory are measured from.
+    /// The reference of single poses and those of the trajectory.
     pub listed_from: ListedFrom,
 }
 
-/// A trajectory in a table of its own.
+/// A trajectory from a separate table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    /// The table, as the design names it.
+    /// The file name of the table, as in the design.
     pub file: String,
-    /// Its poses, as they are listed. A design that was only parsed has none: reading files is for the program.
+    /// Its poses, as listed. The parser leaves them empty: the program reads files.
     pub poses: Vec<Pose>,
 }
 
@@ -59,13 +59,13 @@ impl Default for Workspace {
 }
 
 impl Workspace {
-    /// `true` when some half width is not zero.
+    /// `true` if some half width is not zero.
     #[must_use]
     pub fn has_box(&self) -> bool {
         self.translation.iter().chain(self.rotation_deg.iter()).any(|w| *w > 0.0)
     }
 
-    /// `true` when nothing is said about poses.
+    /// `true` if nothing is stated about poses.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.has_box() && self.poses.is_empty() && self.trajectory.is_none()
@@ -90,10 +90,10 @@ impl Workspace {
         }
     }
 
-    /// All sampled poses: the home pose (the centre) first, then the grid with the last axis fastest, then the single
-    /// poses, then those of the trajectory. `grid` points are spread evenly from -1 to 1 on each axis of the cube
-    /// ([`PoseSpace::pose`]) that has a half width above 0; two points are the corners, one point is the centre alone.
-    /// The centre is not repeated.
+    /// All sampled poses. The home pose (the centre) is first, then the grid with the last axis fastest, the single
+    /// poses, and those of the trajectory. On each axis of the cube ([`PoseSpace::pose`]) with a half width above 0,
+    /// `grid` points are evenly spaced from -1 to 1. Two points are the corners; one point is the centre alone. The
+    /// centre is not repeated.
     #[must_use]
     pub fn sample(&self, home: &Pose) -> Vec<Pose> {
         let space = self.space(home);
@@ -106,7 +106,7 @@ impl Workspace {
 
     /// Grid points of the cube, without the centre.
     fn grid_points(&self, axes: &[usize]) -> Vec<Vector6<f64>> {
-        // 2k - (n-1) is exactly zero in the middle, so that the centre can be told
+        // 2k - (n-1) is exactly zero in the middle, so that the centre is recognised
         let last = self.grid as f64 - 1.0;
         let steps: Vec<f64> = match self.grid {
             0 | 1 => vec![0.0],
@@ -130,13 +130,13 @@ impl Workspace {
 }
 
 impl DesignModel {
-    /// The home pose of the design, [`default_home`] where it gives none.
+    /// The home pose of the design, or [`default_home`] without one.
     #[must_use]
     pub fn home_or_default(&self) -> Pose {
         self.home.unwrap_or_else(|| default_home(self.manipulator()))
     }
 
-    /// The workspace of the design; where it has none a box about home, 15 % of the size to each side and 10 degrees
+    /// The workspace of the design. Without one it is a box about home, 15 % of the size to each side and 10 degrees
     /// about each axis.
     #[must_use]
     pub fn workspace_or_default(&self) -> Workspace {

@@ -38,7 +38,7 @@ impl Writer for Csv {
     }
 }
 
-/// Comment lines, which most readers skip when told that `#` begins a comment.
+/// Comment lines, which most readers skip if `#` marks a comment.
 fn comments(export: &Export, more: &str) -> String {
     commented("#", export.heading("mm").into_iter().chain([more.to_string()]))
 }
@@ -59,7 +59,7 @@ fn joints(export: &Export) -> String {
     out
 }
 
-/// Both ends of each leg: a table that `new --points` makes the design of again, shared joints and home too.
+/// Both ends of each leg, in a table from which `new --points` recreates the design with its shared joints and home.
 fn legs(export: &Export) -> String {
     let mm = export.unit.millimetres;
     let mut out = comments(

@@ -14,7 +14,7 @@ use platform::geom::any_across;
 #[derive(Debug)]
 pub(super) struct Drawing;
 
-/// Chords in a full circle: extents are exact to 3e-6 of a radius; the picture keeps only corners that can be seen.
+/// Chords in a full circle: extents are exact to 3e-6 of a radius; the picture keeps only visible corners.
 const CHORDS: usize = 1440;
 
 impl Writer for Drawing {
@@ -53,7 +53,7 @@ fn circle(at: &Point2<f64>, diameter: f64) -> Vec<Point2<f64>> {
     (0..CHORDS).map(|k| on_circle(at, 0.5 * diameter, TAU * k as f64 / CHORDS as f64)).collect()
 }
 
-/// Plate, posts, holes, balls and names of a body that `place` puts into the base frame.
+/// Plate, posts, holes, balls and names of a body; `place` maps them to the base frame.
 fn drawn(
     body: &ExportBody,
     mm: f64,

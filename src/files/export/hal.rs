@@ -28,7 +28,7 @@ impl Writer for Hal {
     }
 }
 
-/// The home pose as the reader of tables knows it: position in millimetres, angles of `R = Rz(C) Ry(B) Rx(A)` in
+/// The home pose in the form of the table reader: position in millimetres, angles of `R = Rz(C) Ry(B) Rx(A)` in
 /// degrees.
 pub(super) fn home_words(export: &Export) -> String {
     let (roll, pitch, yaw) = export.home.rotation.euler_angles();

@@ -22,16 +22,16 @@ impl Writer for Json {
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        // texts, numbers, lists and fields can be written
+        // texts, numbers, lists and fields always serialise
         let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();
         text.push('\n');
         Ok(vec![ExportedFile::new("platform.json", text)])
     }
 }
 
-/// What frames the numbers are in.
+/// The frames of the numbers.
 const FRAMES: &str = "right-handed; a pose (R, p) takes platform to base coordinates: x_base = R x_platform + p; quat_wxyz is R, scalar first";
-/// What frame those of a plate are in.
+/// The frame of the numbers of a plate.
 const PLATE_FRAME: &str = "plate coordinates (u, v, w) are origin + u*axes[0] + v*axes[1] + w*axes[2] in the frame of the body; the plate is 0 <= w <= thickness";
 
 #[derive(Debug, Serialize)]
@@ -47,7 +47,7 @@ struct ExportedDocument<'a> {
     base: BodyRecord<'a>,
     platform: BodyRecord<'a>,
     legs: Vec<ExportedLeg<'a>>,
-    /// Absent where the design has no standard deviations of a calibration.
+    /// Absent if the design has no standard deviations of a calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     calibration: Option<UncertaintyRecord<'a>>,
     workspace: Vec<LengthsRecord>,
@@ -78,7 +78,7 @@ struct LengthsRecord {
 struct BodyRecord<'a> {
     ball_diameter: f64,
     joints: Vec<JointRecord<'a>>,
-    /// Null where its holes overlap.
+    /// Null if its holes overlap.
     plate: Option<PlateRecord<'a>>,
 }
 
@@ -98,9 +98,9 @@ struct PlateRecord<'a> {
     margin: f64,
     hole_diameter: f64,
     volume: f64,
-    /// Null where the design does not say what it is made of.
+    /// Null if the design names no material.
     material: Option<&'a str>,
-    /// Kilograms; null where the density is not known.
+    /// Kilograms; null if the density is unknown.
     mass: Option<f64>,
     /// 0 without bolts.
     bolt_hole_diameter: f64,
@@ -121,18 +121,18 @@ struct ExportedLeg<'a> {
     base_joint: &'a str,
     platform_joint: &'a str,
     home_length: f64,
-    /// Length shown less distance of the joints; absent where the design was not calibrated.
+    /// Shown length minus distance of the joints, millimetres; absent without a calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<f64>,
     cylinder_diameter: f64,
     rod_diameter: f64,
     cylinder_length: f64,
-    /// Null where the cylinder leaves it no room at home.
+    /// Null if the cylinder leaves no space for the rod at home.
     rod_length: Option<f64>,
 }
 
-/// How uncertain calibrated joints and leg offsets are. Two numbers with deviations `d`, `e` and correlation `r` have
-/// the covariance `r d e`.
+/// Uncertainty of calibrated joints and leg offsets. Two numbers with deviations `d`, `e` and correlation `r` have the
+/// covariance `r d e`.
 #[derive(Debug, Serialize)]
 struct UncertaintyRecord<'a> {
     unknowns: &'a [String],

@@ -1,17 +1,16 @@
-//! How the masses of the design are shared out among bodies that a simulator can move.
+//! Distribution of the masses of the design over bodies that a simulator can move.
 //!
-//! Legs without masses, or with little, are more than a solver of constraints can hold: the drive of a leg acts on a
-//! body that weighs nothing. But a point mass in the joint of a leg and the platform moves as well with the platform as
-//! with the rod. So each rod carries a share `m` of the mass of the platform in that joint, `b`, and the platform the
-//! rest:
+//! Legs with little or no mass make a constraint solver unstable, since the drive of a leg acts on a body without mass.
+//! But a point mass in the joint of a leg and the platform moves equally with the platform and with the rod. So each
+//! rod carries a share `m` of the platform mass in that joint, `b`, and the platform has the rest:
 //!
 //! ```text
 //! M' = M - 6 m,   M' c' = M c - m sum b,   S' = S - m sum b b^T,
 //! ```
 //!
-//! with the second moments `S = tr(I) / 2 - I + M c c^T` about the platform origin. The model then moves as the
-//! platform, payload and legs of the design do, and its drives push as much. `m` is as great as leaves `S'` about `c'`
-//! positive, since `MuJoCo` takes no other bodies.
+//! with the second moments `S = tr(I) / 2 - I + M c c^T` about the platform origin. The model then has the motion and
+//! drive forces of the platform, payload and legs of the design. `m` is as great as possible with positive `S'` about
+//! `c'`, which `MuJoCo` requires.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
@@ -19,19 +18,19 @@ use super::Export;
 use super::text::real;
 use machine::requirements::{LegMasses, LegPart};
 
-/// Each rod has this share of the mass of the platform moving along it where the platform can spare it.
+/// Wanted share of the platform mass that moves along each rod, if the platform can spare it.
 const WANTED: f64 = 0.05;
-/// The same at which the time step is that of the size; with less it is shorter in proportion. `MuJoCo` followed a
-/// bench with this share, and lost it with a quarter of it.
+/// Least share with the time step of the size; below it the step shrinks in proportion. `MuJoCo` simulated a bench with
+/// this share, and failed with a quarter of it.
 const ENOUGH: f64 = 0.02;
-/// The least share that is looked for.
+/// The least share of the search.
 const LEAST: f64 = 5e-4;
-/// How much of the least second moment of the platform remains.
+/// Least remaining part of the smallest second moment of the platform.
 const REMAINS: f64 = 0.25;
-/// Mass of a body over that of the rods, and moment of inertia over mass times squared size, where the design says
-/// none: bodies without any are refused, and these change no force by a millionth.
+/// Mass of a body over that of the rods, and inertia over mass times squared size, if the design gives none. `MuJoCo`
+/// refuses bodies without mass; these change forces by less than a millionth.
 const NEARLY_NONE: f64 = 1e-9;
-/// `MuJoCo` refuses less (`mjMINVAL` is 1e-15).
+/// Least accepted value of `MuJoCo` (`mjMINVAL` is 1e-15).
 const ACCEPTED: f64 = 2e-15;
 
 /// A rigid body in SI units.
@@ -40,12 +39,12 @@ pub(super) struct Solid {
     pub(super) mass: f64,
     /// The centre of mass in the frame of the body.
     pub(super) center: Vector3<f64>,
-    /// About the centre of mass.
+    /// Inertia about the centre of mass.
     pub(super) inertia: Matrix3<f64>,
 }
 
 impl Solid {
-    /// About the centre of mass.
+    /// The second moments about the centre of mass.
     fn second_moments(&self) -> Matrix3<f64> {
         Matrix3::identity() * (0.5 * self.inertia.trace()) - self.inertia
     }
@@ -54,7 +53,7 @@ impl Solid {
         SymmetricEigen::new(self.second_moments()).eigenvalues.min()
     }
 
-    /// Without a point mass at each of six points; `None` where that leaves too little.
+    /// The body without a point mass at each of six points; `None` if too little remains.
     fn without(&self, share: f64, points: &[Vector3<f64>; 6]) -> Option<Self> {
         let mass = self.mass - 6.0 * share;
         let center = (self.center * self.mass - points.iter().sum::<Vector3<f64>>() * share) / mass;
@@ -75,11 +74,11 @@ impl Solid {
 pub(super) struct ModelMasses {
     platform: Solid,
     leg: LegMasses,
-    /// What each rod carries of the mass of the platform in its joint.
+    /// The share of the platform mass that each rod carries in its joint.
     share: f64,
-    /// Whether the platform cannot spare it, so that it comes on top.
+    /// Whether the platform cannot spare it, so that it is added.
     added: bool,
-    /// The time step over that which the size allows.
+    /// The time step over that of the size.
     pub(super) step: f64,
     size: f64,
 }
@@ -113,7 +112,7 @@ impl ModelMasses {
         Self { platform: rest, leg, share, added, step, size }
     }
 
-    /// Mass that moves along the leg in place of what turns in its drive.
+    /// Equivalent mass along the leg of the rotating parts of its drive.
     pub(super) fn armature(&self) -> f64 {
         self.leg.reflected
     }
@@ -122,7 +121,7 @@ impl ModelMasses {
         self.platform
     }
 
-    /// A body that has next to no mass: a yoke, a crank.
+    /// A body of nearly no mass: a yoke, a crank.
     pub(super) fn nothing(&self) -> Solid {
         self.thin(&LegPart::default(), 0.0)
     }
@@ -131,8 +130,8 @@ impl ModelMasses {
         self.thin(&self.leg.cylinder, self.leg.cylinder.center)
     }
 
-    /// The rod with its share, in a frame whose third axis leads along it and in which the joint of the platform is so
-    /// many metres from the origin.
+    /// The rod with its share, in a frame with the third axis along it. The joint of the platform is at the distance
+    /// `tip`, metres, from the origin.
     pub(super) fn rod(&self, tip: f64) -> Solid {
         let (own, share) = (&self.leg.rod, self.share);
         let mass = own.mass + share;
@@ -142,7 +141,8 @@ impl ModelMasses {
         self.thin(&whole, tip - center)
     }
 
-    /// A part of a leg, its centre so many metres from the origin of its body along the third axis.
+    /// A part of a leg, with its centre at the distance `center`, metres, from the origin of its body along the third
+    /// axis.
     fn thin(&self, part: &LegPart, center: f64) -> Solid {
         let mass = part.mass.max(NEARLY_NONE * (self.leg.lengthwise() + self.share)).max(ACCEPTED);
         let least = (NEARLY_NONE * mass * self.size * self.size).max(ACCEPTED);
@@ -176,8 +176,7 @@ impl ModelMasses {
 }
 
 impl Export {
-    /// What each rod of the simulator's model weighs that the design doesn't have, kilograms; `None` where the platform
-    /// can spare it.
+    /// Mass that each rod has only in the simulator's model, kilograms; `None` if the platform can spare it.
     #[must_use]
     pub fn added_rod_mass(&self) -> Option<f64> {
         let masses = ModelMasses::of(self);

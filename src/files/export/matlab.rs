@@ -37,7 +37,7 @@ fn matrix(out: &mut String, name: &str, rows: &[Vec<f64>]) {
     out.push_str("];\n");
 }
 
-/// What a calibration found beside the joints: offsets, and how uncertain the unknowns are, together.
+/// Results of a calibration besides the joints: offsets, and the joint uncertainty of the unknowns.
 fn calibration(out: &mut String, export: &Export) {
     let m = export.unit.metres;
     let column = |values: &[f64]| values.iter().map(|x| vec![x * m]).collect::<Vec<_>>();

@@ -1,13 +1,13 @@
-//! Writes a design as files for the programs that come next: CAD, simulators, machine controls, tables, drawings.
+//! Writes a design as files for other programs: CAD, simulators, machine controls, tables, drawings.
 //!
-//! [`Export`] holds everything the formats need, worked out once: plates around the joints, legs at home, the length
-//! unit. A [`Writer`] turns it into the text of one or more files; it is pure, and the same input gives the same bytes.
-//! Every file states its frames and its unit.
+//! [`Export`] holds all data of the formats, computed once: plates around the joints, legs at home, the length unit. A
+//! [`Writer`] converts it to the text of one or more files, without input or output; equal data give equal bytes. Every
+//! file states its frames and its unit.
 //!
 //! Frames, all right-handed. *Base*: the frame of the base joints of the design. *Platform*: that of the platform
-//! joints; at the pose `(R, p)` a point is `x_base = R x_platform + p`. *Plate*: origin on the lower face of the plate,
-//! in the foot of the body's origin; third axis along the normal of the plate, which points to positive z of the body;
-//! where the plate is parallel to the x-y plane of the body, plate coordinates `(u, v)` are the body's `(x, y)`.
+//! joints; at the pose `(R, p)` a point is `x_base = R x_platform + p`. *Plate*: the origin is the foot of the body's
+//! origin on the lower face of the plate. The third axis is the normal of the plate towards positive z of the body. If
+//! the plate is parallel to the x-y plane of the body, plate coordinates `(u, v)` are the body's `(x, y)`.
 
 mod controller;
 mod csv;
@@ -51,9 +51,9 @@ pub use units::{LengthUnit, UnknownUnit};
 /// A file: its name and its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExportedFile {
-    /// Name, after `linuxcnc/` for files of the folder of that name.
+    /// Name, with `linuxcnc/` before it for files in that folder.
     pub name: String,
-    /// All of it.
+    /// Its whole text.
     pub text: String,
 }
 
@@ -63,18 +63,18 @@ impl ExportedFile {
     }
 }
 
-/// Why a format cannot hold a design.
+/// Reasons why a format cannot hold a design.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Unsupported {
-    /// Two seats of a plate run into each other.
+    /// Two seats of a plate overlap.
     #[error(
         "the {parts} of the joints {first} and {second} of the {body} overlap: their axes are {distance} apart and {parts} are {diameter} wide (design units)"
     )]
     SeatsOverlap {
         /// The body.
         body: Body,
-        /// `"holes"`, or `"posts"` where a joint stands on one.
+        /// `"holes"`, or `"posts"` if a joint stands on one.
         parts: &'static str,
         /// Name of a joint.
         first: String,
@@ -82,10 +82,10 @@ pub enum Unsupported {
         second: String,
         /// Distance of the axes, design units.
         distance: f64,
-        /// What they are wide, design units.
+        /// Their diameter, design units.
         diameter: f64,
     },
-    /// A hole of a plate runs into another one or into the outline.
+    /// A hole of a plate overlaps another one or the outline.
     #[error("in the plate of the {body} {first} runs into {second} by {by} (design units)")]
     HolesMeet {
         /// The body.
@@ -94,10 +94,10 @@ pub enum Unsupported {
         first: String,
         /// Another hole, or the outline.
         second: String,
-        /// How far, design units.
+        /// The overlap, design units.
         by: f64,
     },
-    /// A leg has no room for a body between its joints.
+    /// A leg has no space for a body between its joints.
     #[error(
         "leg {leg} is {length} long at home and its joints take {taken} (design units), which leaves no room for a cylinder and a rod"
     )]
@@ -106,18 +106,18 @@ pub enum Unsupported {
         leg: usize,
         /// Length at home, design units.
         length: f64,
-        /// What the balls and the cylinder take, design units.
+        /// The length of the balls and the cylinder, design units.
         taken: f64,
     },
-    /// The format is about legs that change their lengths.
+    /// The format requires legs of variable length.
     #[error("the format holds legs that change their lengths, and those of the design are rods on cranks")]
     Cranks,
-    /// The format takes drives to be as long as the distances of their joints.
+    /// The format takes the drive lengths for the distances of the joints.
     #[error(
         "the joints are not ideal (`offset` of universal joints or `screw_lead` in [hardware]), and the format has drives as long as the distances of their joints"
     )]
     NotIdeal,
-    /// The format has one greatest swing for all joints of a body.
+    /// The format has one greatest angle for all joints of a body.
     #[error(
         "the joints of the {0} have different greatest angles (`swing_deg`), and the format has one for all joints of a body"
     )]
@@ -141,28 +141,28 @@ pub trait Writer: std::fmt::Debug + Sync {
     /// Its name on the command line.
     fn name(&self) -> &'static str;
 
-    /// What it is for, in a few words.
+    /// Its purpose, in a few words.
     fn purpose(&self) -> &'static str;
 
-    /// What of a design the format leaves out; empty when nothing worth a word.
+    /// The parts of a design that the format leaves out; empty if nothing important.
     fn leaves_out(&self) -> &'static str {
         ""
     }
 
-    /// Whether it holds rods on cranks too.
+    /// Whether it supports rods on cranks.
     fn takes_cranks(&self) -> bool {
         false
     }
 
-    /// Whether it holds drives that are not as long as the distances of their joints.
+    /// Whether it supports drives with joint offsets or leads.
     fn takes_coupled(&self) -> bool {
         false
     }
 
-    /// The files. Where the legs are rods on cranks only formats that [take them](Self::takes_cranks) are asked.
+    /// The files. For rods on cranks only formats that [support them](Self::takes_cranks) are asked.
     ///
     /// # Errors
-    /// What the format cannot express.
+    /// The design has parts that the format cannot express.
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported>;
 }
 
@@ -178,7 +178,7 @@ pub enum ExportFormat {
     Dxf,
     /// Geometry for `genhexkins` of `LinuxCNC`.
     Hal,
-    /// Everything, for programs.
+    /// All data, for programs.
     Json,
     /// MATLAB and Octave.
     Matlab,
@@ -213,7 +213,7 @@ impl ExportFormat {
         Self::Urdf,
     ];
 
-    /// What writes it.
+    /// Its writer.
     #[must_use]
     pub fn writer(self) -> &'static dyn Writer {
         match self {

@@ -1,4 +1,4 @@
-//! What all formats need, worked out once.
+//! The common data of all formats, computed once.
 
 use nalgebra::{DMatrix, Matrix3, Point3, Rotation3, Vector3};
 
@@ -26,13 +26,13 @@ pub struct ExportedJoint {
 /// Base or platform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportBody {
-    /// Which of the two.
+    /// The body.
     pub body: Body,
     /// Its joints in the order of the design; a shared joint once.
     pub joints: Vec<ExportedJoint>,
     /// Diameter of the balls of its joints, design units.
     pub ball_diameter: f64,
-    /// Its plate. Formats that draw it ask [`ExportBody::plate`].
+    /// Its plate. Formats that draw it call [`ExportBody::plate`].
     plate: Plate,
 }
 
@@ -40,7 +40,7 @@ impl ExportBody {
     /// The plate.
     ///
     /// # Errors
-    /// Holes that run into each other.
+    /// Holes that overlap.
     pub fn plate(&self) -> Result<&Plate, Unsupported> {
         self.plate.made(self.body)
     }
@@ -61,7 +61,7 @@ pub struct ExportLeg {
     pub head: Point3<f64>,
     /// Diameter of the cylinder and of the rod, design units.
     pub diameters: (f64, f64),
-    /// Where the cylinder ends, from the base joint, design units.
+    /// End of the cylinder, distance from the base joint, design units.
     pub cylinder: f64,
 }
 
@@ -89,25 +89,23 @@ pub(super) fn frame_along(direction: &Vector3<f64>, origin: Vector3<f64>) -> Pos
     Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin }
 }
 
-/// The cranks of a design whose legs are rods on cranks.
+/// The cranks of a rotary design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportCranks {
     /// Cranks and rods, design units.
     pub platform: RotaryPlatform,
     /// Angles at home, radians.
     pub home_angles: [f64; 6],
-    /// Greatest torque of a crank, newton metres, where the design limits it.
+    /// Greatest torque of a crank, newton metres, if the design limits it.
     pub greatest_torque: Option<f64>,
-    /// How far the joints at the tips let rods lean out of the planes of their cranks, radians, where the design limits
-    /// it.
+    /// Cone angle of the joints at the tips, out of the planes of the cranks, radians, if the design limits it.
     pub tip_swing: Option<f64>,
-    /// How far the joints at the platform let rods swing from their directions at home, radians, where the design
-    /// limits it.
+    /// Cone angle of the joints at the platform, from the rod directions at home, radians, if the design limits it.
     pub platform_swing: Option<f64>,
 }
 
 impl ExportCranks {
-    /// `None` for a design whose legs change their lengths.
+    /// `None` for a design with legs of variable length.
     fn of(design: &DesignModel, home: &Pose, torque_unit: f64) -> Result<Option<Self>, NoExport> {
         let unfit = |why: &dyn std::fmt::Display| NoExport::Cranks(why.to_string());
         let Some(platform) = design.rotary().map_err(|why| unfit(&why))? else { return Ok(None) };
@@ -125,16 +123,16 @@ impl ExportCranks {
     }
 }
 
-/// How uncertain the joints and leg offsets of a calibrated machine are, and together.
+/// Uncertainty of the joints and leg offsets of a calibrated machine, with correlations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportCalibration {
-    /// The numbers of which the design says a standard deviation: coordinates of joints, then leg offsets.
+    /// The numbers with a standard deviation in the design: coordinates of joints, then leg offsets.
     pub numbers: Vec<CalibratedNumber>,
-    /// What each is called: `base.A1.x`, `offset.3`.
+    /// Their names: `base.A1.x`, `offset.3`.
     pub names: Vec<String>,
-    /// What each is, design units.
+    /// Their values, design units.
     pub values: Vec<f64>,
-    /// Its standard deviation, design units.
+    /// Their standard deviations, design units.
     pub deviations: Vec<f64>,
     /// Correlations of these numbers.
     pub correlations: DMatrix<f64>,
@@ -171,8 +169,8 @@ impl ExportCalibration {
         })
     }
 
-    /// The covariance of all legs, design units squared: rows and columns by legs, of each the base joint, the platform
-    /// joint and the offset. What is not uncertain has zeros.
+    /// The covariance of all legs, design units squared. Rows and columns are ordered by legs: the base joint, the
+    /// platform joint and the offset of each. Numbers without uncertainty have zeros.
     #[must_use]
     pub fn of_legs(&self, pairs: &[(usize, usize); 6]) -> DMatrix<f64> {
         let numbers = (0..6).flat_map(|leg| {
@@ -193,22 +191,22 @@ impl ExportCalibration {
     }
 }
 
-/// Everything the formats need.
+/// The data of all formats.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Export {
     /// Name of the design.
     pub name: String,
-    /// Where its numbers come from.
+    /// Source of its numbers.
     pub source: Option<String>,
     /// Program and version.
     pub program: String,
-    /// What one design unit is.
+    /// The length of a design unit.
     pub unit: LengthUnit,
     /// The platform, design units.
     pub manipulator: Manipulator,
     /// Limits of its joints, legs and drives.
     pub hardware: Hardware,
-    /// The octahedral platform it is equivalent to, where one is known that is not the platform itself.
+    /// The equivalent octahedral platform, if one other than the platform itself is known.
     pub octahedral: Option<EquivalentOctahedral>,
     /// Size of the manipulator, design units.
     pub size: f64,
@@ -216,39 +214,38 @@ pub struct Export {
     pub home: Pose,
     /// Base and platform.
     pub bodies: [ExportBody; 2],
-    /// Legs in leg order; where they are rods on cranks, the rods at home from the tips of the cranks, whose centres
-    /// are the joints of the base.
+    /// Legs in leg order. For rods on cranks, the rods at home from the tips of the cranks; the base joints are the
+    /// centres of the cranks.
     pub legs: [ExportLeg; 6],
-    /// The cranks of the legs; `None` where these change their lengths.
+    /// The cranks of the legs; `None` for legs of variable length.
     pub cranks: Option<ExportCranks>,
-    /// Legs whose joints are not ideal; `None` where drives are as long as the distances of their joints.
+    /// Legs with joint offsets or leads; `None` if the drive lengths are the distances of the joints.
     pub coupled: Option<CoupledLegs>,
-    /// What the length that each leg shows is longer than the distance of its joints, design units, where the design
-    /// was calibrated.
+    /// Shown length of each leg minus the distance of its joints, design units, if the design was calibrated.
     pub leg_offsets: Option<[f64; 6]>,
-    /// What a calibration does not know, where the design says it.
+    /// Uncertainty after a calibration, if the design states it.
     pub calibration: Option<ExportCalibration>,
-    /// Least and greatest length of a leg, design units, where the design limits them.
+    /// Least and greatest length of a leg, design units, if the design limits them.
     pub leg_range: Option<(f64, f64)>,
     /// Poses of the workspace, home first.
     pub workspace: Vec<Pose>,
     /// Poses along the trajectory; empty without one.
     pub trajectory: Vec<Pose>,
-    /// What moves, kilograms and design units; what the design does not say is chosen by rule.
+    /// The moving bodies, kilograms and design units; values that the design omits follow rules.
     pub moving: MovingBodies,
-    /// Whether the design says what the platform carries.
+    /// Whether the design has a payload.
     pub payload: bool,
-    /// The room that the payload takes up, platform frame, design units, where the design says it.
+    /// The shape of the payload, platform frame, design units, if the design gives one.
     pub payload_shape: Option<KeepOutShape>,
     /// Gravity, base frame, m/s^2.
     pub gravity: Vector3<f64>,
-    /// Greatest force of a drive, newtons, where the design limits it.
+    /// Greatest force of a drive, newtons, if the design limits it.
     pub greatest_force: Option<f64>,
-    /// Whether simulators are told to carry the weight of all bodies.
+    /// Whether simulators compensate the weight of all bodies.
     pub gravity_compensation: bool,
-    /// Diameter of the circle in which the centre of each hole has to lie, design units, where it is known.
+    /// Diameter of the tolerance circle for the centre of each hole, design units, if known.
     pub hole_places: Option<f64>,
-    /// The sizes and where they come from.
+    /// The sizes and their sources.
     pub choices: Vec<SizeChoice>,
 }
 
@@ -256,10 +253,10 @@ pub struct Export {
 const STEPS: usize = 20;
 
 impl Export {
-    /// Works out plates, legs at home and sizes, with the home, the workspace and the trajectory of the design.
+    /// Computes plates, legs at home and sizes, with the home, the workspace and the trajectory of the design.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// The errors of [`new`](Self::new).
     pub fn of(design: &DesignModel, options: &ExportOptions) -> Result<Self, NoExport> {
         let (home, mut workspace) = (design.home_or_default(), design.workspace_or_default());
         let mut path = workspace.space(&home);
@@ -269,9 +266,9 @@ impl Export {
         Self::new(design, home, listed, options)
     }
 
-    /// Works out plates, legs at home and sizes.
+    /// Computes plates, legs at home and sizes.
     ///
-    /// `home` is in design units; `workspace` and `trajectory` are the poses whose leg lengths are listed.
+    /// `home` is in design units; `workspace` and `trajectory` are the poses with listed leg lengths.
     ///
     /// # Errors
     /// [`NoExport`]: an unknown unit, a size that is not positive or does not fit the others.
@@ -375,8 +372,8 @@ impl Export {
     /// The files of a format.
     ///
     /// # Errors
-    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take
-    /// them](Writer::takes_cranks), and [`Unsupported::NotIdeal`] for joints that are not ideal.
+    /// The format cannot express the design. [`Unsupported::Cranks`]: rods on cranks without
+    /// [support](Writer::takes_cranks). [`Unsupported::NotIdeal`]: joint offsets or leads.
     pub fn files(&self, writer: &dyn Writer) -> Result<Vec<ExportedFile>, Unsupported> {
         if self.cranks.is_some() && !writer.takes_cranks() {
             return Err(Unsupported::Cranks);
@@ -387,7 +384,7 @@ impl Export {
         writer.files(self)
     }
 
-    /// With the octahedral platform that controllers may compute poses of.
+    /// The export with an octahedral platform for controllers to compute poses.
     #[must_use]
     pub fn with_octahedral(self, octahedral: Option<EquivalentOctahedral>) -> Self {
         Self { octahedral, ..self }
@@ -399,13 +396,13 @@ impl Export {
         (&self.bodies[0].joints[leg.base].name, &self.bodies[1].joints[leg.platform].name)
     }
 
-    /// Leg lengths at a pose, design units; where the legs are rods on cranks, distances of the tips at home.
+    /// Leg lengths at a pose, design units; for rods on cranks, distances from the tips at home.
     #[must_use]
     pub fn lengths_at(&self, pose: &Pose) -> [f64; 6] {
         self.legs.map(|l| (pose.transform(&self.bodies[1].joints[l.platform].at) - l.foot).norm())
     }
 
-    /// Lengths that the legs show at a pose, design units: [`lengths_at`](Self::lengths_at) with the offsets of a
+    /// Lengths that the legs show at a pose, design units: [`lengths_at`](Self::lengths_at) plus the offsets of a
     /// calibration.
     #[must_use]
     pub fn shown_at(&self, pose: &Pose) -> [f64; 6] {
@@ -413,7 +410,7 @@ impl Export {
         std::array::from_fn(|i| lengths[i] + offsets[i])
     }
 
-    /// The heading every text file begins with: design, source, program, unit of the file, frames.
+    /// The heading of every text file: design, source, program, unit of the file, frames.
     pub(super) fn heading(&self, file_unit: &str) -> Vec<String> {
         let mut out = vec![format!("{}: written by {}", super::text::one_line(&self.name), self.program)];
         out.extend(self.source.iter().map(|s| format!("Source of the design: {}", super::text::one_line(s))));

@@ -1,4 +1,4 @@
-//! The parts of a machine: what has to be bought or made, how many of each, how long and how heavy.
+//! The bill of materials: bought and made parts, with their numbers, lengths and masses.
 
 use std::fmt::Write as _;
 
@@ -8,25 +8,25 @@ use super::{Export, ExportBody, Plate};
 use machine::requirements::Housing;
 use platform::manipulator::Body;
 
-/// Legs whose lengths differ by less than this share of the size are of one kind: above what searches leave of a
-/// symmetry, a hundredth of a micrometre in a metre.
+/// Legs whose lengths agree within this share of the size are of one kind. It is above the asymmetry after a search: a
+/// hundredth of a micrometre in a metre.
 pub(super) const SAME_LENGTH: f64 = 1e-8;
 /// Kinds of joint by body.
 const JOINTS: [&str; 2] = ["base joint", "platform joint"];
 
-/// What a joint is, for the list of parts.
+/// The kind of a joint, for the list of parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JointSort {
-    /// The word of the model, or the words of those about one centre.
+    /// The name of the model, or the names of several joints about one centre.
     pub(super) models: String,
-    /// Greatest swing, degrees; `None` where there is none, or where those about one centre differ.
+    /// Greatest joint angle, degrees; `None` without a limit, or if joints about one centre differ.
     pub(super) swing_deg: Option<f64>,
-    /// Its housing; the widest of those about one centre, `None` where the design says none.
+    /// Its housing, or the widest about one centre; `None` if the design gives none.
     pub(super) housing: Option<Housing>,
 }
 
 impl JointSort {
-    /// Housing and swing in words, where the design says them.
+    /// Housing and joint angle in words, if the design gives them.
     pub(super) fn description(&self, mm: f64) -> String {
         let housing = self.housing.map(|housing| match housing {
             Housing::Sphere(diameter) => format!("housing: ball of {} mm", rounded(diameter * mm)),
@@ -43,11 +43,11 @@ impl JointSort {
 /// A line of the bill of materials; millimetres and kilograms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartLine {
-    /// What it is.
+    /// The kind of part.
     pub part: String,
-    /// How many.
+    /// The number of these parts.
     pub count: usize,
-    /// Mass of one, kilograms, where the design says it.
+    /// Mass of one, kilograms, if the design gives it.
     pub mass: Option<f64>,
     /// Length at home of a leg, or that of a cylinder or rod, millimetres.
     pub length: Option<f64>,
@@ -57,7 +57,7 @@ pub struct PartLine {
     pub thickness: Option<f64>,
     /// Volume of one in cm^3, of plates.
     pub volume: Option<f64>,
-    /// Where it belongs and what it has to be able to do.
+    /// Its place and its required limits.
     pub remark: String,
 }
 
@@ -84,7 +84,7 @@ pub const PART_COLUMNS: [&str; 10] = [
 ];
 
 impl PartLine {
-    /// Its fields in the order of [`PART_COLUMNS`]; empty where the design says nothing.
+    /// Its fields in the order of [`PART_COLUMNS`]; empty if unknown.
     #[must_use]
     pub fn fields(&self) -> [String; 10] {
         let number = |x: Option<f64>| x.map_or_else(String::new, rounded);
@@ -106,8 +106,8 @@ impl PartLine {
 impl Export {
     /// The bill of materials: plates, joints, drives by kind, payload.
     ///
-    /// Legs are of one kind where their lengths at home agree; the least and greatest lengths are those at the poses of
-    /// the workspace that are listed, of all legs of the kind.
+    /// Legs are of one kind if their lengths at home agree. The least and greatest lengths are those at the listed
+    /// poses of the workspace, over all legs of the kind.
     #[must_use]
     pub fn parts(&self) -> Vec<PartLine> {
         let mm = self.unit.millimetres;
@@ -125,7 +125,7 @@ impl Export {
                 let swing =
                     kind.swing_deg.map_or_else(String::new, |deg| format!("swings by {} deg; ", real(deg)));
                 let line = PartLine::new(name, names.len(), format!("{swing}{}", names.join(" ")));
-                // the body has one ball, which fits into each of its housings
+                // the body has one ball size, which fits into each of its housings
                 let differ = kinds.iter().any(|(other, _)| other.housing != kind.housing);
                 let own = kind.housing.filter(|_| differ).map(|h| h.least_width());
                 out.push(PartLine { thickness: Some(own.unwrap_or(body.ball_diameter) * mm), ..line });
@@ -151,7 +151,7 @@ impl Export {
             });
         }
         if self.payload {
-            // the plate of the platform has a line and a mass of its own
+            // the plate of the platform has a separate line and mass
             let plate = self.bodies[1].plate().ok().and_then(|plate| plate.mass(self.unit.metres));
             let what = if plate.is_some() { "payload" } else { "payload with platform" };
             let mass = (self.moving.mass - plate.unwrap_or(0.0)).max(0.0);
@@ -160,8 +160,8 @@ impl Export {
         out
     }
 
-    /// Rods by length, and how many of each; without a length where cylinders leave them no room at home, or legs are
-    /// rods on cranks.
+    /// Rods by length, with their numbers. The length is missing if cylinders leave no space for the rods at home, or
+    /// for rods on cranks.
     fn rods(&self) -> Vec<(Option<f64>, usize)> {
         let mut out: Vec<(Option<f64>, usize)> = Vec::new();
         for kind in self.leg_kinds() {
@@ -194,8 +194,8 @@ impl Export {
         Body::BOTH.map(|body| self.joint_of(body, leg))
     }
 
-    /// The joints of a body by what they are, with their names; legs that share a joint may have different ones about
-    /// one centre.
+    /// The joints of a body by kind, with their names; legs that share a joint may have different ones about one
+    /// centre.
     pub(super) fn joint_kinds<'b>(&self, body: &'b ExportBody) -> Vec<(JointSort, Vec<&'b str>)> {
         let mut kinds: Vec<(JointSort, Vec<&'b str>)> = Vec::new();
         for (k, joint) in body.joints.iter().enumerate() {

@@ -18,18 +18,18 @@ pub struct PlateHole {
     pub joints: Vec<String>,
     /// Its axis in the plate, plate frame.
     pub at: Point2<f64>,
-    /// Height of a post between plate and ball, design units; 0 where the ball sits on the edge of the hole.
+    /// Height of a post between plate and ball, design units; 0 if the ball sits on the edge of the hole.
     pub post: f64,
     /// The middles of the bolt holes around it, plate frame.
     pub bolts: Vec<Point2<f64>>,
 }
 
-/// A plate with parallel faces around the joints of a body, on the far side of the joints from the legs.
+/// A plate with parallel faces around the joints of a body, on the side of the joints away from the legs.
 ///
-/// Where the design says how high the joints stand, the face is that far from the lowest of them. Otherwise each ball
-/// of diameter `D` sits on the edge of a hole of diameter `d`: its centre, exactly the joint centre, is
-/// `sqrt(D^2 - d^2)/2` above the face. Where the joints do not lie in a plane, the plate is parallel to the largest
-/// triangle of joints and posts carry the higher ones.
+/// If the design gives the joint height, the face is at that distance from the lowest joint. Otherwise each ball of
+/// diameter `D` sits on the edge of a hole of diameter `d`. Its centre, exactly the joint centre, is
+/// `sqrt(D^2 - d^2)/2` above the face. If the joints are not coplanar, the plate is parallel to the largest triangle of
+/// joints, and posts carry the higher ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plate {
     /// Origin of the plate frame in the frame of the body.
@@ -42,15 +42,15 @@ pub struct Plate {
     pub thickness: f64,
     /// Diameter of the holes, design units.
     pub hole_diameter: f64,
-    /// Diameter of the posts, that of the balls, design units.
+    /// Diameter of the posts, equal to that of the balls, design units.
     pub post_diameter: f64,
     /// The holes.
     pub holes: Vec<PlateHole>,
     /// Diameter of the bolt holes, design units; 0 without bolts.
     pub bolt_diameter: f64,
-    /// What it is made of, where the design says it.
+    /// Its material, if the design names it.
     pub material: Option<String>,
-    /// Density, kg/m^3, where it is known.
+    /// Density, kg/m^3, if known.
     pub density: Option<f64>,
     /// The outline in the plate frame.
     pub outline: Outline,
@@ -75,7 +75,7 @@ const CLEARANCE_HOLES: [(f64, [f64; 3]); 14] = [
     (24.0, [25.0, 26.0, 28.0]),
 ];
 
-/// A metric thread whose clearance hole a hole is.
+/// A metric thread with a given clearance hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ClearanceHole {
     /// Nominal diameter of the thread, millimetres.
@@ -84,7 +84,7 @@ pub(super) struct ClearanceHole {
 }
 
 impl ClearanceHole {
-    /// Finds the thread for a hole of this diameter, millimetres; `None` where no series has it.
+    /// Finds the thread for a hole of this diameter, millimetres; `None` if no series has it.
     pub(super) fn of(diameter: f64) -> Option<Self> {
         CLEARANCE_HOLES.iter().find_map(|(thread, holes)| {
             let series = holes.iter().position(|hole| (hole - diameter).abs() < 1e-6)?;
@@ -125,7 +125,7 @@ impl Plate {
         for joint in joints {
             let local = axes.transpose() * joint.at.coords;
             let (at, above) = (Point2::new(local.x, local.y), height(&joint.at) - lowest);
-            // a joint that stands higher than its ball reaches down stands on a post
+            // a joint higher than the reach of its ball stands on a post
             let raised = above > tolerance || seat - 0.5 * sizes.ball > tolerance;
             let post = if raised { (seat + above - 0.5 * sizes.ball).max(0.0) } else { 0.0 };
             let same =
@@ -166,7 +166,7 @@ impl Plate {
         (self.outline.area() - holes) * self.thickness
     }
 
-    /// Mass, kilograms, where a design unit is so many metres; `None` where the density is not known.
+    /// Mass, kilograms, with the length of a design unit in metres; `None` if the density is unknown.
     #[must_use]
     pub fn mass(&self, metres: f64) -> Option<f64> {
         self.density.map(|density| density * self.volume() * metres.powi(3))
@@ -184,14 +184,14 @@ impl Plate {
         self.holes.iter().map(|h| h.bolts.len()).sum()
     }
 
-    /// Where the post of a hole begins and ends along the normal.
+    /// Start and end of the post of a hole along the normal.
     #[must_use]
     pub fn post_span(&self, hole: &PlateHole) -> (f64, f64) {
         if self.legs_above { (self.thickness, self.thickness + hole.post) } else { (-hole.post, 0.0) }
     }
 
-    /// `self` when its seats keep clear of each other, and its bolt holes of all holes and of the outline; seats keep
-    /// clear of the outline because no hole is wider than twice the margin.
+    /// `self` if no seats overlap and no bolt hole overlaps another hole or the outline. Seats keep clear of the
+    /// outline, because no hole is wider than twice the margin.
     ///
     /// # Errors
     /// [`Unsupported::SeatsOverlap`], [`Unsupported::HolesMeet`].

@@ -1,4 +1,4 @@
-//! Models that are exported and read again give the design.
+//! Exported models that are read again give the design.
 
 use nalgebra::Matrix3;
 use proptest::prelude::*;
@@ -19,7 +19,7 @@ fn design(text: &str) -> DesignModel {
     parse_with_cranks(text, Format::Toml).unwrap().0
 }
 
-/// The file of a format that has the legs, with the unit of the export.
+/// The file of a format with the legs, and the unit of the export.
 fn exported(design: &DesignModel, format: &str) -> (String, &'static str) {
     let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
     let options = ExportOptions { unit: Some(unit), ..ExportOptions::default() };
@@ -45,7 +45,7 @@ fn returns(design: &DesignModel, format: &str) {
     }
     let (home, meant) = (table.home.unwrap(), design.home_or_default());
     assert!((home.position - meant.position).norm() <= near, "{}: {format}: {home:?}", design.name);
-    // a rotation of a design is as orthonormal as the digits of its file make it, that of a model as a quaternion is
+    // a rotation of a design is orthonormal to the digits of its file, that of a model as a quaternion exactly
     let r = meant.rotation.matrix();
     let skew = (r.transpose() * r - Matrix3::identity()).amax();
     let turned = (r - home.rotation.matrix()).amax();
@@ -79,7 +79,7 @@ fn models_of_gazebo_and_ros_return() {
 fn tables_of_legs_return() {
     for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
         let mut given = design(text);
-        // the table is in millimetres; pure numbers are called so
+        // the table is in millimetres; pure numbers keep that label
         if LengthUnit::of(&given.units).is_err() {
             given.units = "mm".into();
         }

@@ -10,12 +10,12 @@ use crate::design::DesignModel;
 use machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
 use platform::manipulator::Body;
 
-/// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that
-/// [`Export::choices`](super::Export::choices) states.
+/// Choices of the user; lengths in design units. Absent sizes come from `[hardware]` or from a rule;
+/// [`Export::choices`](super::Export::choices) lists them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct ExportOptions {
-    /// What one unit of the design is, where its label does not say it.
+    /// The length of a design unit, if the label does not give it.
     pub unit: Option<LengthUnit>,
     /// Thickness of the plates.
     pub thickness: Option<f64>,
@@ -23,13 +23,13 @@ pub struct ExportOptions {
     pub margin: Option<f64>,
     /// Diameter of the holes in the plates.
     pub hole: Option<f64>,
-    /// Diameter of the circle in which the centre of each hole has to lie.
+    /// Diameter of the tolerance circle for the centre of each hole.
     pub hole_places: Option<f64>,
     /// Diameter of the balls of the joints.
     pub ball: Option<f64>,
     /// Mass of the platform with its payload, kilograms.
     pub mass: Option<f64>,
-    /// Whether simulators are told to carry the weight of all bodies.
+    /// Whether simulators compensate the weight of all bodies.
     pub gravity_compensation: bool,
 }
 
@@ -40,7 +40,7 @@ impl ExportOptions {
         Self::default()
     }
 
-    /// What one unit of the design is.
+    /// The length of a design unit.
     #[must_use]
     pub fn unit(mut self, unit: LengthUnit) -> Self {
         self.unit = Some(unit);
@@ -68,8 +68,8 @@ impl ExportOptions {
         self
     }
 
-    /// Diameter of the circle in which the centre of each hole has to lie, design units: twice the radius that
-    /// `build tolerances` allows all joints.
+    /// Diameter of the tolerance circle for the centre of each hole, design units: twice the radius from
+    /// `build tolerances` for all joints.
     #[must_use]
     pub fn hole_places(mut self, diameter: f64) -> Self {
         self.hole_places = Some(diameter);
@@ -90,7 +90,7 @@ impl ExportOptions {
         self
     }
 
-    /// Whether simulators are told to carry the weight of all bodies.
+    /// Whether simulators compensate the weight of all bodies.
     #[must_use]
     pub fn gravity_compensation(mut self, wanted: bool) -> Self {
         self.gravity_compensation = wanted;
@@ -105,7 +105,7 @@ pub(super) struct Sizes {
     pub(super) hole: f64,
     pub(super) thickness: f64,
     pub(super) margin: f64,
-    /// Of the lowest joint centre above the face.
+    /// Height of the lowest joint centre above the face.
     pub(super) height: f64,
 }
 
@@ -117,46 +117,46 @@ pub(super) struct LegSizes {
     pub(super) cylinder_length: f64,
 }
 
-/// A size and where it comes from.
+/// A size and its source.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "SizeRecord", transform = num::nullable)]
 pub struct SizeChoice {
-    /// What it is the size of.
+    /// The part and the dimension.
     pub what: String,
     /// Its value in `unit`.
     pub value: f64,
     /// Design units, or kilograms.
     pub unit: &'static str,
-    /// Option, table or rule.
+    /// The source: option, table or rule.
     pub from: &'static str,
 }
 
-/// Why there is nothing to export.
+/// Reasons why there is nothing to export.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoExport {
     /// The unit of the design is not a length unit.
     #[error(transparent)]
     Unit(#[from] UnknownUnit),
-    /// The legs are rods on cranks, which hold no pose at home, or make no platform.
+    /// The legs are rods on cranks that cannot hold the home pose, or that form no platform.
     #[error("{0}")]
     Cranks(String),
-    /// Joints that are not ideal and hold no pose at home.
+    /// Joints with offsets that cannot hold the home pose.
     #[error("{0}")]
     Joints(String),
-    /// A size that nothing can be made of.
+    /// A size that allows no valid part.
     #[error("{what} is {value}: {why}")]
     BadSize {
-        /// What has the size.
+        /// The part with this size.
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is wrong with it.
+        /// The fault of the value.
         why: &'static str,
     },
 }
 
-/// Where sizes of plates are stated.
+/// The table for sizes of plates.
 const PLATES: &str = "[plates]";
 
 const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
@@ -164,12 +164,12 @@ const RULE_STROKE: &str = "rule: what holds a rod over the stroke, but no more t
 
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 
-/// Edge of the housing that a ball can have; where joints have different ones, the ball that fits into each.
+/// Edge of the housing as a ball diameter; with different housings, the ball that fits into each.
 fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {
     hardware.joint_widths(body).map(|[least, _]| least)
 }
 
-/// Least distance of the axes of two seats, lines along `normal` through the joints, that do not coincide.
+/// Least distance between the axes of two seats, lines along `normal` through the joints; coincident axes are ignored.
 pub(super) fn least_distance(joints: &[ExportedJoint], normal: &Vector3<f64>, size: f64) -> f64 {
     let apart = |a: &Point3<f64>, b: &Point3<f64>| {
         let d = b - a;
@@ -180,7 +180,7 @@ pub(super) fn least_distance(joints: &[ExportedJoint], normal: &Vector3<f64>, si
     pairs.filter(|d| *d > 1e-9 * size).fold(f64::INFINITY, f64::min)
 }
 
-/// The first value there is, with its origin, noted in `choices`.
+/// The first available value, with its source, noted in `choices`.
 fn choose<const N: usize>(
     choices: &mut Vec<SizeChoice>,
     what: &str,
@@ -284,11 +284,11 @@ impl LegSizes {
         let by_rule = hardware.leg_length.map_or(half, |limits| {
             let (least, greatest) = limits.range();
             let (foot, tip) = (0.5 * base_ball, 0.5 * platform_ball);
-            // floor, stroke and a guide of two rods; the platform joint has to stay outside at the least length
+            // floor, stroke and a guide of two rod diameters; the platform joint must stay outside at the least length
             let deep =
                 foot + 0.5 * (cylinder_diameter - rod_diameter) + (greatest - least) + 2.0 * rod_diameter;
             let bounded = half.max(deep).min(least - tip);
-            // a machine that is in at home, or whose joints take nearly all of its least length, has no room for that
+            // a machine retracted at home, or with joints nearly as long as its least length, has no space for that
             if has_room(foot, bounded, shortest - tip) { bounded } else { half }
         });
         let cylinder_length = choose(
@@ -301,9 +301,9 @@ impl LegSizes {
     }
 }
 
-/// What moves: as the design says, its platform as heavy as `given` with the same shape where that is said. Without a
-/// mass, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move
-/// alike.
+/// The moving bodies as in the design. A mass `given` replaces that of the platform, with the same mass distribution if
+/// the design has one. Without a mass, Froude scaling applies: with masses as lengths cubed and times as their square
+/// roots, platforms of all sizes move alike.
 ///
 /// # Errors
 /// [`NoExport::BadSize`].

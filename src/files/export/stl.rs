@@ -14,8 +14,8 @@ use machine::requirements::on_circle;
 #[derive(Debug)]
 pub(super) struct Stl;
 
-/// Chords in a full circle: the outline is off by less than 0.03 % of its corner radius, a hole by less than 0.13 % of
-/// its radius.
+/// Number of chords in a full circle. The outline is off by less than 0.03 % of its corner radius, a hole by less than
+/// 0.13 % of its radius.
 const OUTLINE_CHORDS: usize = 128;
 const HOLE_CHORDS: usize = 64;
 
@@ -57,7 +57,7 @@ fn triangles(plate: &Plate) -> Vec<[Point3<f64>; 3]> {
     out
 }
 
-/// What lies between two heights over a polygon with holes.
+/// The prism between two heights over a polygon with holes.
 fn prism(
     plate: &Plate,
     outer: &[Point2<f64>],

@@ -1,48 +1,48 @@
-//! Rods that run in their cylinders, and legs by kind.
+//! Rods in their cylinders, and legs by kind.
 
 use super::parts::SAME_LENGTH;
 use super::{Export, ExportLeg, Unsupported};
 
 /// Cylinder and rod along the line of a leg, from the centre of its base joint, design units.
 ///
-/// The cylinder begins at the ball of the base joint, is hollow from `floor` to its end, the `mouth`, and its bore is
-/// as wide as the rod, which ends at the ball of the platform joint. The rod is the longest one that fits when the leg
-/// is in: it reaches the floor at the least length, or fills the bore where the leg may be shorter than cylinder and
-/// joint are. A rod that is not thinner than its cylinder cannot run in it: there is no bore, and the rod begins at the
-/// mouth at home.
+/// The cylinder begins at the ball of the base joint and is hollow from `floor` to its end, the `mouth`. Its bore is as
+/// wide as the rod, which ends at the ball of the platform joint. The rod is the longest one that fits into the
+/// retracted leg. It reaches the floor at the least length, or fills the bore if the leg may be shorter than cylinder
+/// and joint. A rod at least as thick as its cylinder cannot move in it. There is then no bore, and the rod begins at
+/// the mouth at home.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Telescope {
-    /// Where the cylinder begins.
+    /// Start of the cylinder.
     pub(super) foot: f64,
-    /// Where its bore begins.
+    /// Start of its bore.
     pub(super) floor: f64,
-    /// Where the cylinder ends.
+    /// End of the cylinder.
     pub(super) mouth: f64,
     /// Length of the rod.
     pub(super) rod: f64,
     /// From the end of the rod to the centre of the platform joint.
     pub(super) tip: f64,
-    /// Least and greatest length of the leg: the limits of the design, else those over the poses of workspace and
-    /// trajectory that are listed; home is among them.
+    /// Least and greatest length of the leg: the limits of the design, otherwise those over the listed poses of
+    /// workspace and trajectory. They include home.
     pub(super) range: [f64; 2],
-    /// Lengths closer than this are the same.
+    /// Lengths within this distance are equal.
     same: f64,
 }
 
 impl Telescope {
-    /// Where the rod begins when the leg has a length.
+    /// Start of the rod at a given leg length.
     pub(super) fn tail(&self, length: f64) -> f64 {
         length - self.tip - self.rod
     }
 
-    /// How much of the rod is inside the cylinder at the greatest length; negative where the rod would leave it, zero
-    /// where that is less than legs of a kind may differ.
+    /// Length of the rod inside the cylinder at the greatest leg length. It is negative if the rod would leave the
+    /// cylinder, and zero below the length tolerance of legs of a kind.
     pub(super) fn held(&self) -> f64 {
         self.settled(self.mouth - self.tail(self.range[1]))
     }
 
-    /// Room between the cylinder and the ball of the platform joint at the least length; negative where they would
-    /// meet, zero as for [`Telescope::held`].
+    /// Space between the cylinder and the ball of the platform joint at the least length; negative for a collision,
+    /// zero as for [`Telescope::held`].
     pub(super) fn room(&self) -> f64 {
         self.settled(self.range[0] - self.tip - self.mouth)
     }
@@ -55,7 +55,7 @@ impl Telescope {
 /// Legs with the same joints and the same length at home.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LegKind {
-    /// What comes after the names of its parts: nothing where all legs are of one kind.
+    /// The suffix of the names of its parts: empty if all legs are of one kind.
     pub(super) suffix: String,
     /// Length at home, design units.
     pub(super) length: f64,
@@ -78,18 +78,17 @@ impl LegKind {
     }
 }
 
-/// What tells the names of things of one kind out of `count` from those of the others.
+/// The suffix that distinguishes the names of one kind out of `count`.
 pub(super) fn kind_suffix(k: usize, count: usize) -> String {
     if count == 1 { String::new() } else { format!(", kind {}", k + 1) }
 }
 
-/// Whether there is something of a cylinder between the balls of a leg, and of its rod: `head` is where the ball of the
-/// platform joint begins.
+/// Whether the balls of a leg leave space for a cylinder and a rod; `head` is the start of the platform ball.
 pub(super) fn has_room(foot: f64, mouth: f64, head: f64) -> bool {
     foot < mouth && mouth < head
 }
 
-/// Where the bore of a cylinder begins: its floor is as thick as its wall, and at most half of the cylinder.
+/// Start of the bore of a cylinder: its floor is as thick as its wall, and at most half of the cylinder.
 pub(super) fn floor(foot: f64, mouth: f64, (thick, thin): (f64, f64)) -> f64 {
     if thin < thick { foot + (0.5 * (thick - thin)).min(0.5 * (mouth - foot)) } else { mouth }
 }
@@ -134,7 +133,7 @@ impl Export {
     /// Cylinder and rod of the legs of a kind.
     ///
     /// # Errors
-    /// [`Unsupported::LegTooShort`] where there is no room for a rod at home.
+    /// [`Unsupported::LegTooShort`] if there is no space for a rod at home.
     pub(super) fn telescope(&self, kind: &LegKind) -> Result<Telescope, Unsupported> {
         let leg: &ExportLeg = &self.legs[kind.legs[0]];
         let [foot, tip] = [0, 1].map(|k: usize| 0.5 * self.bodies[k].ball_diameter);
@@ -144,7 +143,7 @@ impl Export {
             return Err(Unsupported::LegTooShort { leg: leg.number, length, taken });
         }
         let floor = floor(foot, mouth, leg.diameters);
-        // limits of all legs give all of them one rod
+        // common limits give all legs the same rod
         let range = self.leg_range.map_or(kind.lengths, |(least, greatest)| {
             let homes = self.legs.iter().map(ExportLeg::length);
             [homes.clone().fold(least, f64::min), homes.fold(greatest, f64::max)]

@@ -57,7 +57,7 @@ fn outlines_of_a_point_a_line_and_a_square() {
         let outline = Outline::around(&points, 1.0, 1e-9);
         assert_eq!(outline.parts().len(), parts);
         assert!((outline.area() - area).abs() < 1e-12, "{}", outline.area());
-        // the polygon is another way to the area
+        // the area by a separate method, from a polygon
         let polygon = polygon_area(&outline.polygon(720));
         assert!(polygon < area && polygon > area * (1.0 - 1e-4), "{polygon} {area}");
         let turned: f64 = outline
@@ -277,7 +277,7 @@ fn rods_carry_a_part_of_the_platform_and_nothing_moves_otherwise() {
     let stated = Matrix3::from_diagonal(&Vector3::new(0.9, 0.8, 0.7));
     assert!((all - 40.0).abs() < 1e-12 && (first - centre * 40.0).norm() < 1e-12);
     assert!((second - moments(40.0, centre, stated)).norm() < 1e-12);
-    // a lamina above the joints has nothing to spare
+    // a lamina above the joints has no mass to spare
     let export = carrying(&payload.replace("[9.0e5, 8.0e5, 7.0e5]", "[4.0e5, 3.0e5, 7.0e5]"));
     let text = text_of(&export, "mjcf", "platform.xml");
     assert_eq!(export.added_rod_mass(), Some(inertial(&text, "rod1", "mass")[0]));
@@ -307,11 +307,12 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     let text = text_of(&limited, "mjcf", "platform.xml");
     let home = limited.legs[0].length();
     let range = format!(" range=\"{} {}\"/>", real((198.0 - home) * 1e-3), real((298.0 - home) * 1e-3));
-    // six slides, the twelve hinges of base joints that swing by so much from the leg at home, and six tendons for the
-    // swing at the platform
+    // six slides, and the twelve hinges of the base joints with this range relative to home; six tendons for the angle
+    // at the platform
     assert_eq!((text.matches(" range=").count(), text.contains(&range)), (24, true));
     assert_eq!(text.matches("<spatial name=\"swing").count(), 6);
-    // what is seen and measured: a camera on the platform, ground below it, three sensors a drive and the pose
+    // visible and measured elements: a camera on the platform, ground below it, three sensors for each drive and the
+    // pose
     assert_eq!(
         ["<camera ", "type=\"plane\"", "<jointpos ", "<jointvel ", "<actuatorfrc "]
             .map(|s| text.matches(s).count()),
@@ -376,18 +377,18 @@ fn legs_that_are_equal_are_places_of_one_part_and_joints_say_what_they_are() {
     assert_eq!(equal.leg_kinds().len(), 1, "{:?}", equal.leg_kinds());
     let step = text_of(&equal, "step", "platform.step");
     assert_eq!((step.matches("PRODUCT('leg'").count(), step.matches("PRODUCT('rod'").count()), (1, 1));
-    // limits of all legs give all of them one rod, and sizes of cylinders are those of the machine
+    // common limits give all legs the same rod, and cylinder sizes are those of the machine
     let products = |text: &str, name: &str| text.matches(&format!("PRODUCT('{name}")).count();
     assert_eq!(
         (products(&text, "leg, kind"), products(&text, "cylinder"), products(&text, "rod")),
         (6, 1, 1)
     );
-    // without limits the rods are as long as their legs let them be
+    // without limits the rods are as long as the legs allow
     let free = self::export(GENERAL);
     let (kinds, text) = (free.leg_kinds().len(), text_of(&free, "step", "platform.step"));
     assert!(kinds > 1);
     assert_eq!((products(&text, "cylinder"), products(&text, "rod, kind")), (1, kinds));
-    // other joints at one leg: two parts at that body
+    // other joints at one leg: that body has two parts
     let mut mixed = design(SYMMETRIC);
     mixed.hardware.base_swing = Some(Swing::of_all(20.0, JointAxes::Home));
     if let Some(swing) = &mut mixed.hardware.base_swing {
@@ -456,13 +457,13 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
                 let tail = t.tail(length);
                 assert!(tail >= t.floor - near, "{file}: through the floor at {length}: {t:?}");
                 assert!(tail < t.mouth, "{file}: out of the cylinder at {length}: {t:?}");
-                // what is seen of the rod, and all of the leg
+                // the visible part of the rod, and the whole leg
                 assert!((tail + t.rod + t.tip - length).abs() < near);
             }
             assert!(t.room() >= -near, "{file}: {t:?}");
         }
     }
-    // in at home, hardly longer than that at the least, and joints that take nearly all of the least length
+    // retracted at home, hardly longer than that at the least, and with joints nearly as long as the least length
     let at_home = self::export(SYMMETRIC).legs.iter().map(ExportLeg::length).fold(f64::INFINITY, f64::min);
     for least in [at_home, 1.06 * at_home, 28.0, 20.0, 10.0] {
         let mut near = design(SYMMETRIC);
@@ -474,15 +475,14 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
         }
         assert!(text_of(&export, "step", "platform.step").contains("'rod'"));
     }
-    // a stroke that no rod in one piece has, and a rod as wide as its cylinder: both are said, and the files are
-    // written
+    // a stroke too long for a rod in one piece, and a rod as wide as its cylinder: both are reported and exported
     let mut long = design(SYMMETRIC);
     long.hardware.leg_length = Some(LengthLimits::Range(200.0, 900.0));
     let export = export_with(&long, &ExportOptions::default());
     let t = export.telescope(&export.leg_kinds()[0]).unwrap();
     assert!(t.held() < 0.0);
     assert!(text_of(&export, "step", "platform.step").contains("out of its cylinder by up to"));
-    // a rod that ends at the mouth is not said to leave by nothing
+    // a rod that ends at the mouth is not reported as leaving it
     let mut just = design(SYMMETRIC);
     just.hardware.leg_body = Some(LegBody { diameter: 10.0, rod: Some((200.0, 6.0)) });
     let mut up_to = |greatest: f64| {
@@ -505,7 +505,7 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
     assert!(text_of(&export, "step", "platform.step").contains("'rod'"));
 }
 
-/// Texts of a drawing that are read (not their outlines) with their places, of a class that holds `class`.
+/// The main texts of a drawing (without their outlines) and their places, for classes that contain `class`.
 fn labels(svg: &str, class: &str) -> Vec<(f64, f64, String)> {
     let field = |line: &str, name: &str| -> String {
         line.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap().to_string()
@@ -520,8 +520,8 @@ fn labels(svg: &str, class: &str) -> Vec<(f64, f64, String)> {
         .collect()
 }
 
-/// Two labels that meet, by the mean width of the fonts: 0.6 of the size of nine pixels, from 0.72 of it above the line
-/// to 0.22 below.
+/// Two overlapping labels. Letters have a mean width of 0.6 of the font size of nine pixels, from 0.72 of it above the
+/// line to 0.22 below.
 fn meeting(labels: &[(f64, f64, String)]) -> Option<(String, String)> {
     let span = |l: &(f64, f64, String)| {
         [l.0, l.0 + 0.6 * 9.0 * l.2.chars().count() as f64, l.1 - 0.72 * 9.0, l.1 + 0.22 * 9.0]
@@ -582,7 +582,7 @@ fn what_a_format_cannot_hold_is_said() {
             "{format} has no plates"
         );
     }
-    // joints above one another, and a post beside a joint
+    // coincident joints in a view, and a post beside a joint
     for x in [20.0, 21.0] {
         let text = format!(
             "name = 'seats'\nunits = 'mm'\n\
@@ -632,8 +632,7 @@ fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
     for format in ExportFormat::ALL.map(ExportFormat::writer) {
         let (one, two) = (export(OCTAHEDRAL), export(OCTAHEDRAL));
         assert_eq!(format.files(&one), format.files(&two), "{}", format.name());
-        // of the C for controllers one file says what the numbers of the design are in; the others have no place of
-        // their own
+        // one file of the C code for controllers states the unit; the others have no numbers of the design
         let says_it = |name: &str| format.name() != "c" || name == "equipod_design.h";
         for file in format.files(&one).unwrap().iter().filter(|file| says_it(&file.name)) {
             assert!(file.text.contains("mm") || file.text.contains(" m;"), "{}", file.name);
@@ -670,7 +669,7 @@ fn stated_plates_are_what_is_drawn_weighed_and_listed() {
     let plate = base.plate().unwrap();
     assert!((plate.thickness - 12.0).abs() < 1e-12 && (plate.outline.margin - 40.0).abs() < 1e-12);
     assert_eq!((plate.bolt_count(), plate.all_holes().count()), (24, 30));
-    // what is judged is what is drawn
+    // the judged plate is the drawn one
     let solid = design.plate(Body::Base).unwrap();
     assert_eq!(solid.outline, plate.outline);
     for (hole, seat) in plate.holes.iter().zip(&solid.seats) {
@@ -694,7 +693,7 @@ fn stated_plates_are_what_is_drawn_weighed_and_listed() {
             && dxf.contains("material aluminium")
     );
     assert_eq!(text_of(&export, "dxf", "platform-plate.dxf").matches("CIRCLE").count(), 6);
-    // STEP: each hole is a cylinder of its own
+    // STEP: each hole is a separate cylinder
     let step = text_of(&export, "step", "platform.step");
     let cylinders = step.lines().filter(|l| l.contains("CYLINDRICAL_SURFACE") && l.contains(",2.75)"));
     assert_eq!(cylinders.count(), 24, "cylinders of bolt holes");

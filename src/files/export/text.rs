@@ -1,4 +1,4 @@
-//! Writes numbers and names as the formats want them.
+//! Numbers and names in the notations of the formats.
 
 use nalgebra::Vector3;
 
@@ -34,12 +34,12 @@ pub(super) fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// Text on one line in ASCII: what is not becomes what `write` makes of it.
+/// Text on one line in ASCII; `write` replaces other characters.
 pub(super) fn ascii(text: &str, write: impl Fn(char) -> String) -> String {
     one_line(text).chars().map(|c| if c.is_ascii() { c.to_string() } else { write(c) }).collect()
 }
 
-/// To a thousandth, which is what is meant in millimetres and kilograms.
+/// Rounded to a thousandth, the precision of millimetres and kilograms in texts.
 pub(super) fn rounded(x: f64) -> String {
     real((x * 1e3).round() / 1e3)
 }
@@ -68,8 +68,8 @@ pub(super) fn xml_comment(text: &str) -> String {
     out
 }
 
-/// A field of a CSV table (RFC 4180) on one line. A text that a spreadsheet would take for a formula begins with an
-/// apostrophe, which makes it a text there.
+/// A field of a CSV table (RFC 4180) on one line. A leading apostrophe keeps a spreadsheet from reading the text as a
+/// formula.
 pub fn csv_field(text: &str) -> String {
     let mut text: String = one_line(text).chars().filter(|c| !changes_direction(*c)).collect();
     if text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err() {

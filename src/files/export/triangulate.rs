@@ -15,7 +15,7 @@ fn meet(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>, d: &Point2<f64>) -> b
     !apart(a, b, c, d) && !apart(c, d, a, b)
 }
 
-/// Joins the holes to the outer polygon by pairs of edges there and back; returns one closed walk over the indices of
+/// Joins the holes to the outer polygon by pairs of opposite edges; returns one closed walk over the indices of
 /// `points`.
 fn bridged(points: &[Point2<f64>], loops: &[Vec<usize>]) -> Vec<usize> {
     let mut walk = loops.first().cloned().unwrap_or_default();
@@ -27,7 +27,7 @@ fn bridged(points: &[Point2<f64>], loops: &[Vec<usize>]) -> Vec<usize> {
     for (k, hole) in holes.iter().enumerate() {
         let start = rightmost(hole);
         let from = hole[start];
-        // a point where bridges end already has two sides: no further one there
+        // a point where bridges end already has two sides, so it takes no further bridge
         let mut ends: Vec<usize> =
             (0..walk.len()).filter(|i| walk.iter().filter(|w| **w == walk[*i]).count() == 1).collect();
         let distance = |i: usize| (points[walk[i]] - points[from]).norm();
@@ -51,8 +51,8 @@ fn bridged(points: &[Point2<f64>], loops: &[Vec<usize>]) -> Vec<usize> {
     walk
 }
 
-/// Triangles that fill `outer` (counter-clockwise) without `holes` (clockwise), counter-clockwise, by cutting ears;
-/// indices count the points of `outer`, then those of the holes.
+/// Triangles that fill `outer` (counter-clockwise) without `holes` (clockwise), counter-clockwise, by ear clipping.
+/// Indices count the points of `outer`, then those of the holes.
 pub(super) fn triangulate(outer: &[Point2<f64>], holes: &[Vec<Point2<f64>>]) -> Vec<[usize; 3]> {
     let mut points = outer.to_vec();
     let mut loops = vec![(0..outer.len()).collect::<Vec<_>>()];
@@ -73,7 +73,7 @@ pub(super) fn triangulate(outer: &[Point2<f64>], holes: &[Vec<Point2<f64>>]) -> 
             let foreign = |k: &&usize| !corner(*i).contains(*k);
             cross(&a, &b, &c) > 0.0 && !walk.iter().filter(foreign).any(|k| inside(&points[*k]))
         };
-        // where rounding leaves no ear the flattest corner goes, so that the mesh stays closed
+        // if rounding leaves no ear, cut the flattest corner, so that the mesh stays closed
         let flatness = |i: usize| {
             let [a, b, c] = corner(i).map(|k| points[k]);
             cross(&a, &b, &c).abs()

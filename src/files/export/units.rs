@@ -17,7 +17,7 @@ pub struct LengthUnit {
     pub millimetres: f64,
 }
 
-/// A label that names no known length unit.
+/// A label that is not a known length unit.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{label}` is not a known unit of length; the known units are {}", LengthUnit::labels())]
 pub struct UnknownUnit {

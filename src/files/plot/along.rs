@@ -1,4 +1,4 @@
-//! A quantity with a sign along a path, with the pieces where the sign is proved.
+//! A signed quantity along a path, with the pieces of proved sign.
 
 use super::style::{PixelAxis, Svg};
 
@@ -7,11 +7,11 @@ use super::style::{PixelAxis, Svg};
 pub struct AlongPart {
     /// Parameter in `[0, 1]` and value, in order.
     pub values: Vec<(f64, f64)>,
-    /// Pieces `(from, to, sign)`: `+1`, `-1`, or 0 where no sign is proved.
+    /// Pieces `(from, to, sign)`: `+1`, `-1`, or 0 without a proved sign.
     pub pieces: Vec<(f64, f64, i8)>,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlongFigure {
     /// Title.
@@ -24,13 +24,13 @@ pub struct AlongFigure {
     pub parts: Vec<AlongPart>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const PANEL: (f64, f64) = (720.0, 340.0);
 const LEFT: f64 = 84.0;
 const TOP: f64 = 60.0;
 const HEIGHT: f64 = 480.0;
 
-/// The quantity over the path: a curve on grounds that tell its proved sign, a line where none is proved.
+/// The quantity over the path: a curve on backgrounds that show its proved sign, with a line for pieces without one.
 #[must_use]
 pub fn sign_along(figure: &AlongFigure) -> String {
     let parts = figure.parts.len().max(1) as f64;
@@ -69,7 +69,7 @@ fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, figure: &AlongFigure) {
         svg.line("tick", (x.at(value), bottom), (x.at(value), bottom + 5.0));
         svg.text("mid", (x.at(value), bottom + 20.0), &label);
     }
-    // powers of ten go into the label: det J of small platforms is tiny
+    // powers of ten go into the label, since det J of small platforms is tiny
     let power = y.high.abs().max(y.low.abs()).log10().floor();
     let scaled = PixelAxis { low: y.low / 10f64.powf(power), high: y.high / 10f64.powf(power), ..*y };
     for (value, label) in scaled.ticks(8) {

@@ -8,7 +8,7 @@ use super::style::Svg;
 pub struct CurveMark {
     /// Plane coordinates, design units.
     pub at: [f64; 2],
-    /// What stands beside it.
+    /// The label beside it.
     pub label: String,
     /// A joint of the design (filled) or a corresponding point (hollow).
     pub joint: bool,
@@ -40,20 +40,20 @@ pub struct CurveFigure {
     pub panels: Vec<[CurvePanel; 2]>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const SIDE: f64 = 400.0;
 const MARGIN: f64 = 30.0;
 const TOP: f64 = 84.0;
-/// From one pair to the next below it.
+/// Distance from one pair to the next below it.
 const ROW: f64 = SIDE + 64.0;
-/// Grid points a side for the curves.
+/// Grid points per side for the curves.
 const GRID: usize = 181;
 
 /// The curves of replaceable joints in two planes, one pair below the other.
 ///
-/// A point of the curve on the left (base) and the point of the curve on the right (platform) with the same letter are
-/// the ends of a leg that may replace one of the design's. Joints are filled and carry their leg numbers, corresponding
-/// points are hollow. Seen from the positive side of each plane's axes; one scale for both directions of a panel.
+/// Points with the same letter on the left curve (base) and the right curve (platform) are the ends of a possible
+/// replacement leg. Joints are filled and carry their leg numbers, corresponding points are hollow. The view is from
+/// the positive side of each plane's axes, with one scale for both directions of a panel.
 #[must_use]
 pub fn component_curves(figure: &CurveFigure) -> String {
     let width = 2.0 * SIDE + 3.0 * MARGIN;
@@ -78,7 +78,7 @@ pub fn component_curves(figure: &CurveFigure) -> String {
     svg.finish()
 }
 
-/// The part of the plane shown: a square around all marks.
+/// The visible part of the plane: a square around all marks.
 struct Window {
     left: f64,
     low: f64,
@@ -142,7 +142,7 @@ fn draw(svg: &mut Svg, panel: &CurvePanel, corner: (f64, f64)) {
         }
     }
     svg.rect("frame", corner, (SIDE, SIDE));
-    // joints last: a replaceable leg often ends in one
+    // joints last, since a replaceable leg often ends in one
     let (joints, others): (Vec<&CurveMark>, Vec<&CurveMark>) = panel.marks.iter().partition(|m| m.joint);
     for mark in others.into_iter().chain(joints) {
         let at = window.at(corner, mark.at);

@@ -1,8 +1,8 @@
 //! Contour lines by marching squares.
 //!
-//! Each cell of a grid is crossed by no, one or two segments of the line `f = level`; crossings are interpolated
-//! linearly on the grid edges and chained into polylines by the edge they lie on, so that nothing depends on
-//! comparing coordinates. In a saddle cell the mean of the corners decides which corners are joined.
+//! The line `f = level` crosses each cell of a grid in no, one or two segments. Crossings are interpolated linearly on
+//! the grid edges. Their edges chain them into polylines, so nothing depends on comparing coordinates. In a saddle cell
+//! the mean of the corners decides which corners are joined.
 //!
 //! Source: W. Lorensen, H. Cline, Marching cubes (1987), in two dimensions.
 
@@ -69,7 +69,7 @@ impl ValueGrid {
         }
         let mut used = vec![false; segments.len()];
         let mut lines = Vec::new();
-        // open lines first, from their ends; what is left is closed
+        // open lines first, from their ends; the remaining lines are closed
         let open: Vec<Edge> = ends.iter().filter(|(_, s)| s.len() == 1).map(|(e, _)| *e).collect();
         let closed: Vec<Edge> = segments.iter().map(|s| s[0]).collect();
         for start in open.into_iter().chain(closed) {

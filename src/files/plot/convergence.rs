@@ -7,16 +7,17 @@ use super::style::{PixelAxis, Svg};
 pub struct ConvergenceCurve {
     /// Name.
     pub label: String,
-    /// Seconds and best value from then on, by growing time; points without a positive time are left out.
+    /// Pairs of seconds and the best value from then on, by increasing time; points without a positive time are left
+    /// out.
     pub points: Vec<(f64, f64)>,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvergenceFigure {
     /// Title.
     pub title: String,
-    /// What the values are; larger ones are better.
+    /// The quantity of the values; larger ones are better.
     pub quantity: String,
     /// A line of text below.
     pub note: String,
@@ -25,13 +26,13 @@ pub struct ConvergenceFigure {
 }
 
 impl ConvergenceFigure {
-    /// As many as can be told apart without colour.
+    /// Greatest number of curves that are distinguishable without colour.
     pub const MOST_CURVES: usize = 4;
-    /// Shortfalls below this are drawn at it.
+    /// Smaller shortfalls are drawn at this value.
     pub const LEAST_SHORTFALL: f64 = 1e-10;
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const PANEL: (f64, f64) = (360.0, 300.0);
 const LEFT: f64 = 74.0;
 const TOP: f64 = 92.0;
@@ -40,8 +41,8 @@ const HEIGHT: f64 = 496.0;
 /// Lines of the curves; their marks differ too.
 const LINES: [&str; ConvergenceFigure::MOST_CURVES] = ["level", "below", "virtual", "leg"];
 
-/// Two panels over the logarithm of the time: the value itself, and by how much (relative, logarithmic) it falls short
-/// of the best of all curves.
+/// Two panels over the logarithm of the time: the value itself, and its relative shortfall from the best of all curves,
+/// logarithmic.
 #[must_use]
 pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
     let width = LEFT + 2.0 * PANEL.0 + BETWEEN + 24.0;
@@ -52,7 +53,7 @@ pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
         names.join(", ")
     );
     let mut svg = Svg::new(width, HEIGHT, &figure.title, &description);
-    // curves have corners of their own; the shared classes are for straight lines
+    // curves have their own joins; the shared classes are for straight lines
     svg.style("polyline{fill:none;stroke-linejoin:round}");
     svg.text("title", (LEFT, 30.0), &figure.title);
     legend(&mut svg, figure);

@@ -19,11 +19,11 @@ pub struct PlanePoint {
     pub base: f64,
     /// Offset on the platform edge.
     pub platform: f64,
-    /// What stands beside the mark.
+    /// The label beside the mark.
     pub label: String,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OffsetPlane {
     /// Title.
@@ -40,24 +40,24 @@ pub struct OffsetPlane {
     pub points: Vec<PlanePoint>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 80.0;
 const RIGHT: f64 = 700.0;
 const TOP: f64 = 78.0;
 const BOTTOM: f64 = 536.0;
-/// Grid points a side for the contour lines.
+/// Grid points per side for the contour lines.
 const GRID: usize = 141;
 const LEVELS: [f64; 9] = [0.01, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0];
-/// Labels keep this distance from the frame, from each other and from marks, pixels.
+/// Distance of labels from the frame, from each other and from marks, pixels.
 const CLEARANCE: f64 = 30.0;
 
-/// `det A = (1 - t1)^3 (1 - t2)^3 - t1^3 t2^3` with offset `t1` on the three base edges and `t2` on the three
-/// platform edges (fractions of the edges), as contour lines, with the line `t1 + t2 = 1` on which it vanishes.
+/// Contour lines of `det A = (1 - t1)^3 (1 - t2)^3 - t1^3 t2^3`, with the line `t1 + t2 = 1` of its zeros. The offsets
+/// are `t1` on the three base edges and `t2` on the three platform edges, as fractions of the edges.
 ///
-/// The zero set is this line only: the two cubes are equal where `(1 - t1)(1 - t2) = t1 t2`. The range holds the
-/// edges and all marked points. Source: Rojas, Borras, Thomas (2010), Fig. 8.
+/// The zero set is only this line: the two cubes are equal if `(1 - t1)(1 - t2) = t1 t2`. The range includes the edges
+/// and all marked points. Source: Rojas, Borras, Thomas (2010), Fig. 8.
 #[must_use]
 pub fn determinant_plane(plane: &OffsetPlane) -> String {
     let (x, y) = ranges(&plane.points);
@@ -113,7 +113,7 @@ fn ranges(points: &[PlanePoint]) -> (PixelAxis, PixelAxis) {
     )
 }
 
-/// Where `t1 + t2 = 1` enters and leaves the plot, from left to right on the page.
+/// Intersections of `t1 + t2 = 1` with the frame, from left to right on the page.
 fn singular_ends(x: &PixelAxis, y: &PixelAxis) -> Option<[(f64, f64); 2]> {
     let (from, to) = (x.low.max(1.0 - y.high), x.high.min(1.0 - y.low));
     (from < to).then(|| [from, to].map(|t| (x.at(t), y.at(1.0 - t))))
@@ -146,7 +146,7 @@ fn edges(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis) {
     }
 }
 
-/// Points labels stay away from: the marks with their labels, and the label of the singular line.
+/// Points that labels avoid: the marks with their labels, and the label of the singular line.
 fn singular_obstacles(line: Option<[(f64, f64); 2]>, marks: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut out: Vec<(f64, f64)> =
         marks.iter().flat_map(|m| (-5..=5).map(|k| (m.0 + 30.0 * f64::from(k), m.1))).collect();
@@ -186,7 +186,7 @@ fn contours(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, mut taken: Vec<(f64, f6
     }
 }
 
-/// The vertex of the lines that is farthest from everything taken; none when all are too close.
+/// The vertex of the lines that is farthest from all taken points; none if all are too close.
 fn free_place(lines: &[Vec<(f64, f64)>], taken: &[(f64, f64)]) -> Option<(f64, f64)> {
     let clearance = |p: &(f64, f64)| {
         let frame = (p.0 - LEFT).min(RIGHT - p.0).min((p.1 - TOP).min(BOTTOM - p.1) * 1.6);

@@ -1,4 +1,4 @@
-//! Platforms of which none is better in every objective.
+//! Platforms of which none is better than another in every objective.
 
 use super::style::{PixelAxis, Svg, frame};
 
@@ -7,11 +7,11 @@ use super::style::{PixelAxis, Svg, frame};
 pub struct FrontAxis {
     /// Label, with the unit.
     pub label: String,
-    /// Whether large values are good.
+    /// Whether large values are better.
     pub is_gain: bool,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrontFigure {
     /// Title.
@@ -24,15 +24,15 @@ pub struct FrontFigure {
     pub members: Vec<Vec<f64>>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const SIDE: f64 = 400.0;
 const LEFT: f64 = 84.0;
 const TOP: f64 = 62.0;
 const GAP: f64 = 110.0;
 const BELOW: f64 = 92.0;
 
-/// One panel for each pair of objectives, members numbered from 1 in their order. The arrows at the axes point to what
-/// is better; a stepped line bounds what the members of a front of two objectives dominate.
+/// One panel for each pair of objectives, members numbered from 1 in their order. The arrows at the axes point to
+/// better values; a stepped line bounds the region that the members of a front of two objectives dominate.
 #[must_use]
 pub fn pareto_front(figure: &FrontFigure) -> String {
     let n = figure.axes.len();
@@ -56,7 +56,7 @@ pub fn pareto_front(figure: &FrontFigure) -> String {
     svg.finish()
 }
 
-/// The values with a margin; a single value gets room around it.
+/// The range of the values with a margin, also around a single value.
 fn range(figure: &FrontFigure, k: usize) -> (f64, f64) {
     let values = figure.members.iter().map(|m| m[k]).filter(|x| x.is_finite());
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |r, x| (r.0.min(x), r.1.max(x)));
@@ -68,7 +68,7 @@ fn range(figure: &FrontFigure, k: usize) -> (f64, f64) {
     (low - room, high + room)
 }
 
-/// The label with an arrow to what is better; turned labels run upwards.
+/// The label with an arrow towards better values; rotated labels run upwards.
 fn directed(axis: &FrontAxis) -> String {
     if axis.is_gain {
         format!("{}, better \u{2192}", axis.label)

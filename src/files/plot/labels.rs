@@ -1,4 +1,4 @@
-//! Places for labels beside what they name, so that none covers another.
+//! Places for labels beside the labelled points, so that no label covers another.
 
 /// A box on the page, pixels; y runs downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ impl PageBox {
             && other.top < self.bottom
     }
 
-    /// Whether a part of a segment is inside: the shares of it between the sides of either axis have a part in common.
+    /// Whether a part of a segment is inside: its shares within the two axis ranges overlap.
     fn is_crossed(&self, [from, to]: &Segment) -> bool {
         let sides = [(from.0, to.0, self.left, self.right), (from.1, to.1, self.top, self.bottom)];
         let mut inside = (0.0_f64, 1.0_f64);
@@ -46,8 +46,8 @@ impl PageBox {
 /// Two points on the page.
 type Segment = [(f64, f64); 2];
 
-/// What a text takes at most in the fonts of the style, as shares of their size: digits, small letters and capitals of
-/// the widest of them, and the rest as wide as high.
+/// Upper bound of the width of a text in the fonts of the style. Digits, small letters and capitals have the widest
+/// share of the font size; other characters are as wide as high.
 fn width(text: &str, size: f64) -> f64 {
     let share = |c: char| match c {
         'M' | 'W' | 'm' | 'w' | '@' | '%' => 1.0,
@@ -58,7 +58,7 @@ fn width(text: &str, size: f64) -> f64 {
     size * text.chars().map(share).sum::<f64>()
 }
 
-/// Above and below the line a text stands on, as shares of the size of the font.
+/// Height above and depth below the line of a text, as shares of the font size.
 const ASCENT: f64 = 0.8;
 const DESCENT: f64 = 0.25;
 
@@ -72,12 +72,12 @@ pub(super) fn text_box(at: (f64, f64), text: &str, size: f64) -> PageBox {
     }
 }
 
-/// The same for a text whose middle is above or below a point of its line.
+/// The same for a text centred at a point of its line.
 pub(super) fn centred_text_box(at: (f64, f64), text: &str, size: f64) -> PageBox {
     text_box((at.0 - 0.5 * width(text, size), at.1), text, size)
 }
 
-/// Directions from a point to its label: right above it first, then around it.
+/// Directions from a point to its label: directly above it first, then around it.
 const AROUND: [(f64, f64); 8] = [
     (0.75, -0.75),
     (1.0, 0.0),
@@ -88,20 +88,20 @@ const AROUND: [(f64, f64); 8] = [
     (-1.0, 0.0),
     (-0.75, 0.75),
 ];
-/// From one distance to the next, pixels.
+/// Step between tried distances, pixels.
 const STEP: f64 = 4.0;
-/// Distances that are tried.
+/// Number of tried distances.
 const RINGS: u32 = 60;
-/// Of these, those at which a label does not cover marks either.
+/// Number of the first distances, at which a label must not cover marks either.
 const NEAR: u32 = 4;
 
-/// A label and where it is.
+/// A label and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PlacedLabel {
     pub(super) text: String,
-    /// Where its line begins.
+    /// Start of its line.
     pub(super) at: (f64, f64),
-    /// From what it names to the label, where it is not beside it.
+    /// Line from the labelled point to the label, if the label is not beside it.
     pub(super) leader: Option<Segment>,
 }
 
@@ -127,7 +127,7 @@ impl Labels {
         self.texts.push(text);
     }
 
-    /// Keeps labels away from a mark where there is room beside what they name.
+    /// Keeps labels away from a mark if there is space beside the labelled points.
     pub(super) fn mark(&mut self, at: (f64, f64), radius: f64) {
         self.marks.push(PageBox {
             left: at.0 - radius,
@@ -137,7 +137,7 @@ impl Labels {
         });
     }
 
-    /// Whether a label covers no text there, and no mark or no leader either.
+    /// Whether a label covers no text there, and optionally no mark or no leader.
     fn is_free(&self, place: &PageBox, (marks, leaders): (bool, bool)) -> bool {
         let marks = if marks { &self.marks[..] } else { &[] };
         let mut drawn = self.placed.iter().filter(|_| leaders).filter_map(|label| label.leader.as_ref());
@@ -146,8 +146,8 @@ impl Labels {
             && !drawn.any(|leader| place.is_crossed(leader))
     }
 
-    /// Puts a label on the first of these points where it covers no text and no mark, its middle at the point; else
-    /// beside the first of them.
+    /// Puts a label centred on the first of these points where it covers no text and no mark; otherwise beside the
+    /// first of them.
     pub(super) fn put_on(&mut self, points: &[(f64, f64)], text: &str) {
         let wide = width(text, self.size);
         let start = |p: &(f64, f64)| (p.0 - 0.5 * wide, p.1 + 0.5 * (ASCENT - DESCENT) * self.size);
@@ -160,8 +160,9 @@ impl Labels {
         }
     }
 
-    /// Puts a label beside a point, beyond a radius around it: at the first distance and in the first direction where
-    /// it covers no text and no leader, and its own leader crosses no text; near the point no mark either.
+    /// Puts a label beside a point, beyond a radius around it. It takes the first distance and direction where the
+    /// label covers no text and no leader, and where its own leader crosses no text. Near the point it also avoids
+    /// marks.
     pub(super) fn put_beside(&mut self, point: (f64, f64), radius: f64, text: &str) {
         let (wide, size) = (width(text, self.size), self.size);
         let side = |d: f64| 0.5 * (d.signum() * f64::from(u8::from(d != 0.0)) - 1.0);
@@ -188,7 +189,7 @@ impl Labels {
         let found = near
             .or_else(|| tries(RINGS).find(|place| fits(place, false, true)))
             .or_else(|| tries(RINGS).find(|place| fits(place, false, false)));
-        // a page without room: where it would be by itself
+        // on a full page, the place it would have alone
         let (ring, at) = found.unwrap_or((0, candidate(0, AROUND[0])));
         let leader = leader(ring, at);
         self.put(at, text, leader);
@@ -199,7 +200,7 @@ impl Labels {
         self.placed.push(PlacedLabel { text: text.to_owned(), at, leader });
     }
 
-    /// The labels in the order in which they were put.
+    /// The labels in the order of placement.
     pub(super) fn finish(self) -> Vec<PlacedLabel> {
         self.placed
     }
@@ -220,10 +221,10 @@ mod tests {
         for (i, a) in boxes.iter().enumerate() {
             assert!(boxes[i + 1..].iter().all(|b| !a.meets(b)), "{placed:?}");
         }
-        // the first is right above the point, the last are further away and lead to it
+        // the first is directly above the point; the last are farther away and have leaders
         assert!(placed[0].at.0 > 100.0 && placed[0].at.1 < 100.0 && placed[0].leader.is_none());
         assert_eq!(placed[11].leader.unwrap()[0], (100.0, 100.0));
-        // and two at one place do meet
+        // and two at one place do overlap
         assert!(boxes[0].meets(&boxes[0]));
     }
 
@@ -242,7 +243,7 @@ mod tests {
         let (own, line) = (text_box(placed[0].at, "A1_B1", 9.0), placed[0].leader.unwrap());
         assert!(own.right <= 60.0 && own.top < 100.0 && own.bottom > 100.0, "{placed:?}");
         assert!(!kept.iter().any(|text| text.meets(&own) || text.is_crossed(&line)), "{placed:?}");
-        // right above, as far away, is room for it, but a leader would cross a text on the way
+        // directly above, at the same distance, there is space, but a leader would cross a text on the way
         let (height, away) = ((ASCENT + DESCENT) * 9.0, 100.0 - own.right);
         let wide = width("A1_B1", 9.0);
         let above = page(100.0 - 0.5 * wide, 100.0 + 0.5 * wide, 100.0 - away - height, 100.0 - away);
@@ -260,7 +261,7 @@ mod tests {
         };
         let line = [(20.0, 92.0), (250.0, 92.0)];
         assert!(!put(Some(line)).is_crossed(&line));
-        // where it would be without it is on the line
+        // without the line, the label would be on it
         assert!(put(None).is_crossed(&line));
     }
 

@@ -1,11 +1,11 @@
 //! All values of a squared virtual length in the complex plane while one leg length varies.
 //!
-//! Values are followed from step to step: what belongs together, and where values meet on the real axis. Pieces of
-//! curves are joined to strokes, so that the document is no longer than it must be.
+//! Values are tracked from step to step, to join values of one curve and to find meetings on the real axis. Pieces of
+//! curves are joined to strokes, which keeps the document short.
 
 use super::style::{PixelAxis, Svg};
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocusFigure {
     /// Title.
@@ -14,31 +14,32 @@ pub struct LocusFigure {
     pub note: String,
     /// The quantity in the plane, for the axes.
     pub quantity: String,
-    /// The length that varies, for the legend.
+    /// The varying length, for the legend.
     pub parameter: String,
     /// The values, in the order of the lengths.
     pub steps: Vec<LocusStep>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const LEFT: f64 = 74.0;
 const TOP: f64 = 116.0;
 const PANEL: (f64, f64) = (470.0, 440.0);
 const BETWEEN: f64 = 90.0;
 const HEIGHT: f64 = TOP + PANEL.1 + 84.0;
-/// Colours along the length; dark to light, so that their order shows without colour too.
+/// Colours along the length, from dark to light, so that their order is visible without colour.
 const CLASSES: usize = 8;
 const STYLE: &str = "\
 .along{fill:none;stroke-width:1.3;stroke-linejoin:round}.on{stroke-width:3}\
 .c0{stroke:#30123b}.c1{stroke:#3b2f8f}.c2{stroke:#2c5f9e}.c3{stroke:#1f8a8c}.c4{stroke:#37a866}.c5{stroke:#8fb93b}.c6{stroke:#dba520}.c7{stroke:#f06b22}\
 .zero{stroke:#1a1a1a;stroke-width:.8;stroke-dasharray:2 2}.met{fill:#fff;stroke:#b00020;stroke-width:1.6}";
-/// One in so many values may lie outside of the first panel on each side.
+/// At most one in this many values lies outside of the first panel on each side.
 const OUTLIERS: usize = 50;
-/// The second panel is wider by this part of the range of real poses on each side.
+/// Additional range of the second panel on each side, as a share of the range of real poses.
 const AROUND: f64 = 0.35;
 
-/// The plane with one curve a value, coloured by the length: heavy where the pose is real, start hollow, end filled,
-/// double values on the axis as diamonds. Two panels: nearly all values, and the neighbourhood of those of real poses.
+/// The plane with one curve per value, coloured by the length. Curves are heavy where the pose is real, with hollow
+/// starts, filled ends, and diamonds for double values on the axis. Two panels: nearly all values, and the
+/// neighbourhood of those of real poses.
 #[must_use]
 pub fn locus_chart(figure: &LocusFigure) -> String {
     let steps: Vec<SidesOfAxis> = figure.steps.iter().map(sides).collect();
@@ -101,7 +102,7 @@ fn points(s: &SidesOfAxis) -> Vec<(f64, f64)> {
     s.axis.iter().map(|a| (a.0, 0.0)).chain(above).collect()
 }
 
-/// One that holds all but a few values; one about those of real poses, when that is much less.
+/// A panel with all but a few values, and one of those of real poses if that range is much smaller.
 fn panels(steps: &[SidesOfAxis]) -> Vec<Panel> {
     let all: Vec<(f64, f64)> = steps.iter().flat_map(points).collect();
     let real: Vec<f64> = steps.iter().flat_map(|s| &s.axis).filter(|a| a.1).map(|a| a.0).collect();
@@ -120,7 +121,7 @@ fn panels(steps: &[SidesOfAxis]) -> Vec<Panel> {
         0.06,
     );
     let up = wider(middle(all.iter().map(|p| p.1).collect()), 0.06);
-    // never flat
+    // greater than zero in height
     let high = |up: f64, across: (f64, f64)| up.max(0.02 * (across.1 - across.0));
     let mut out = vec![Panel::new(0, across, high(up.1.max(-up.0), across))];
     let ends = real.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |r, v| (r.0.min(*v), r.1.max(*v)));
@@ -243,9 +244,9 @@ fn frame(svg: &mut Svg, panel: &Panel, quantity: &str) {
 /// The values at one length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocusStep {
-    /// The length that is varied, design units.
+    /// The varied length, design units.
     pub length: f64,
-    /// Squared virtual lengths, one a pose; those not finite are passed over.
+    /// Squared virtual lengths, one per pose; those not finite are skipped.
     pub values: Vec<LocusValue>,
 }
 
@@ -256,35 +257,35 @@ pub struct LocusValue {
     pub re: f64,
     /// Imaginary part.
     pub im: f64,
-    /// The pose is real.
+    /// Whether the pose is real.
     pub real: bool,
 }
 
-/// Where two real values meet.
+/// A meeting of two real values.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "LocusMeetingRecord", transform = num::nullable)]
 pub struct LocusMeeting {
-    // they leave the real axis, or the other way round: a double root in between
-    /// After this row, from 0.
+    // they leave the real axis or arrive on it: a double root in between
+    /// Index of the row before the meeting, from 0.
     #[serde(rename = "after_step")]
     pub after: usize,
-    /// About this length.
+    /// Interpolated length, design units.
     pub length: f64,
-    /// About this value.
+    /// Interpolated value.
     pub value: f64,
 }
 
-/// Values this close, relative to the largest of the step, are one for the picture (poses that are mirror images).
+/// Values within this share of the largest of the step are one for the picture (poses that are mirror images).
 const SAME: f64 = 1e-9;
-/// The nearest value is the next one on the curve when every other is this much farther.
+/// The nearest value is the next one on the curve if every other is this much farther.
 const CLEAR: f64 = 1.5;
 
-/// One step with values told apart by the side of the real axis.
+/// One step with its values grouped by the side of the real axis.
 struct SidesOfAxis {
     length: f64,
-    /// On the real axis, ascending, with whether a pose is real.
+    /// Values on the real axis, ascending, with whether a pose is real.
     axis: Vec<(f64, bool)>,
-    /// Above it; the conjugates below are left out.
+    /// Values above it; the conjugates below are left out.
     above: Vec<(f64, f64)>,
 }
 
@@ -308,13 +309,13 @@ fn sides(step: &LocusStep) -> SidesOfAxis {
     out
 }
 
-/// What becomes of the values between two steps.
+/// The continuation of the values between two steps.
 struct Links {
     /// Indices on the axis, before and after.
     axis: Vec<(usize, usize)>,
     /// Indices above the axis.
     above: Vec<(usize, usize)>,
-    /// Two on the axis, one above; `before` tells on which side of the meeting the two are.
+    /// Two on the axis, one above; `before` tells whether the two are before the meeting.
     meetings: Vec<Met>,
 }
 
@@ -344,7 +345,7 @@ fn turned(pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
     pairs.iter().map(|p| (p.1, p.0)).collect()
 }
 
-/// Pairs each of which is the other's nearest by far.
+/// Pairs of values, each the other's nearest by far.
 fn mutual(before: &[(f64, f64)], after: &[(f64, f64)]) -> Vec<(usize, usize)> {
     let to: Vec<Option<usize>> = before.iter().map(|p| nearest(p, after)).collect();
     let back: Vec<Option<usize>> = after.iter().map(|p| nearest(p, before)).collect();
@@ -361,7 +362,7 @@ fn nearest(p: &(f64, f64), others: &[(f64, f64)]) -> Option<usize> {
 }
 
 /// Values without a partner: two neighbours on the axis of one step and one above in the other. The square of half
-/// their difference is smooth through the meeting and changes sign there, so that it is found by interpolation.
+/// their difference is smooth through the meeting and changes sign there, so interpolation finds it.
 fn meet(
     two: &SidesOfAxis,
     one: &SidesOfAxis,
@@ -379,7 +380,7 @@ fn meet(
             break;
         };
         let half = 0.5 * (two.axis[free[i + 1]].0 - two.axis[free[i]].0);
-        // farther apart than they can have come in one step: they belong to something else
+        // too far apart for one step, so they belong to other curves
         if off(&i) > 2.0 * (half + im) {
             continue;
         }
@@ -396,7 +397,7 @@ fn meet(
     out
 }
 
-/// Where values meet on the real axis, by interpolation between steps; meetings that are not clear are not reported.
+/// Meetings of values on the real axis, by interpolation between steps; unclear ones are left out.
 #[must_use]
 pub fn locus_meetings(steps: &[LocusStep]) -> Vec<LocusMeeting> {
     let sides: Vec<SidesOfAxis> = steps.iter().map(sides).collect();
@@ -415,21 +416,21 @@ struct Stroke {
     points: Vec<(f64, f64)>,
 }
 
-/// Strokes in the order of their beginnings.
+/// Strokes in the order of their starts.
 #[derive(Default)]
 struct Pen {
     strokes: Vec<Stroke>,
-    /// Strokes that ended at the last step and may go on, and those of this step.
+    /// Strokes that ended at the last step and may continue, and those of this step.
     open: [Vec<usize>; 2],
 }
 
 impl Pen {
-    /// The pieces that follow belong to the next step.
+    /// Begins the next step.
     fn next_step(&mut self) {
         self.open[0] = std::mem::take(&mut self.open[1]);
     }
 
-    /// Adds a piece: to the stroke that ends where it begins, else as a new one.
+    /// Adds a piece to the stroke that ends at its start, or as a new one.
     fn piece(&mut self, class: usize, heavy: bool, points: &[(f64, f64)]) {
         let [first, _, ..] = points else { return };
         let same = |p: (f64, f64), q: (f64, f64)| (p.0 - q.0).abs() + (p.1 - q.1).abs() < 1e-9;
@@ -439,7 +440,7 @@ impl Pen {
         };
         let k = if let Some(k) = self.open[0].iter().copied().find(goes_on) {
             let stroke = &mut self.strokes[k].points;
-            // what is not seen is not drawn, but the end stays where it is
+            // invisible pieces are skipped, but the end keeps its place
             if let [.., p, q] = stroke[..]
                 && (p.0 - q.0).hypot(p.1 - q.1) < 0.7
             {

@@ -1,7 +1,7 @@
 //! Draws pictures as SVG text, by pure functions that give the same bytes for the same input.
 //!
-//! Line widths, fonts and colours are in one place (`style`); what is told by colour is told by line pattern,
-//! shape or text as well.
+//! The module `style` has line widths, fonts and colours. Every distinction by colour is also one by line pattern,
+//! shape or text.
 
 mod along;
 mod components;

@@ -7,26 +7,26 @@ use super::style::Svg;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModesFigure {
     /// Title.
     pub title: String,
     /// A line of text below the panels.
     pub note: String,
-    /// Poses with the number each is known by.
+    /// Poses with their numbers.
     pub poses: Vec<(usize, Pose)>,
-    /// Two poses are mirror images when their joints agree within this, design units.
+    /// Two poses are mirror images if their joints agree within this, design units.
     pub tolerance: f64,
 }
 
-/// Greatest width and height of what is drawn in a panel, pixels.
+/// Greatest width and height of a drawn platform in a panel, pixels.
 const PANEL: (f64, f64) = (112.0, 250.0);
 const GAP: f64 = 10.0;
 const MARGIN: f64 = 24.0;
 const TOP: f64 = 66.0;
 const CAPTION: f64 = 22.0;
-/// Mirror pairs in a row, and poses in a row when none has a mirror image.
+/// Mirror pairs per row, and poses per row if none has a mirror image.
 const PAIRS: usize = 3;
 const SINGLES: usize = 6;
 
@@ -188,7 +188,7 @@ mod tests {
             let (y, x) = (1.047 * k as f64 + off).sin_cos();
             Point3::new(r * x, r * y, 0.0)
         };
-        // platform joints in another order than around the body: the outline does not cross itself
+        // platform joints in another order than around the body: the outline has no crossings
         let m = Manipulator::from_legs(std::array::from_fn(|k| platform::manipulator::Leg {
             base: at(k, 2.0, 0.0),
             platform: at((k + 3) % 6, 1.0, 0.2),

@@ -5,24 +5,24 @@ use super::style::{Svg, px};
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionFigure {
     /// Title.
     pub title: String,
     /// A line of text below the picture.
     pub note: String,
-    /// Poses with the length along the curve at which they stand, not decreasing.
+    /// Poses with their length along the curve, not decreasing.
     pub poses: Vec<(f64, Pose)>,
-    /// The last pose is followed by the first; otherwise the motion goes back and forth.
+    /// Whether the last pose is followed by the first; otherwise the motion goes back and forth.
     pub closed: bool,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 520.0;
 const MARGIN: f64 = 40.0;
-/// Pictures of one run.
+/// Number of pictures per run.
 const FRAMES: usize = 120;
 /// Seconds of one run.
 const SECONDS: usize = 12;
@@ -45,7 +45,7 @@ fn frames(figure: &MotionFigure) -> Vec<Pose> {
     out
 }
 
-/// An animated picture; viewers without animation, and readers who ask for less motion, see the first pose and faint
+/// An animated picture. Viewers without animation, and readers who ask for less motion, see the first pose and faint
 /// others.
 #[must_use]
 pub fn motion(m: &Manipulator, figure: &MotionFigure) -> String {

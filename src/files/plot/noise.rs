@@ -16,11 +16,11 @@ pub struct NoisePoint {
 pub struct NoiseCurve {
     /// Name.
     pub label: String,
-    /// Points by growing `sigma`; what is not positive has no place on the axes and is left out.
+    /// Points by increasing `sigma`; values that are not positive are left out of the logarithmic axes.
     pub points: Vec<NoisePoint>,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoiseFigure {
     /// Title.
@@ -29,18 +29,18 @@ pub struct NoiseFigure {
     pub note: String,
     /// Titles of the two panels.
     pub panels: [String; 2],
-    /// Range of `sigma` to be set off, with words for it.
+    /// Highlighted range of `sigma`, with its label.
     pub marked: (f64, f64, String),
     /// The curves, at most [`NoiseFigure::MOST_CURVES`]; the rest are not drawn.
     pub curves: Vec<NoiseCurve>,
 }
 
 impl NoiseFigure {
-    /// As many as can be told apart without colour.
+    /// Greatest number of curves that are distinguishable without colour.
     pub const MOST_CURVES: usize = 4;
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const PANEL: (f64, f64) = (360.0, 400.0);
 const LEFT: f64 = 74.0;
 const TOP: f64 = 92.0;
@@ -48,7 +48,7 @@ const BETWEEN: f64 = 76.0;
 const HEIGHT: f64 = 596.0;
 /// Lines of the curves; their marks differ too.
 const LINES: [&str; NoiseFigure::MOST_CURVES] = ["level", "below", "virtual", "leg"];
-/// Curves lie upon each other; each is moved sideways by this much, pixels.
+/// Sideways shift between overlapping curves, pixels.
 const APART: f64 = 4.0;
 
 /// Two panels: medians as marks on a line, quartiles as bars.
@@ -83,7 +83,7 @@ fn drawable(p: &NoisePoint, panel: usize) -> bool {
     p.sigma > 0.0 && p.quartiles[panel].iter().all(|v| *v > 0.0 && v.is_finite())
 }
 
-/// Axes in decades, whole ones vertically; the horizontal one ends half a decade beyond the points.
+/// Axes in decades, whole ones on the vertical axis; the horizontal one ends half a decade beyond the points.
 fn axes(figure: &NoiseFigure, panel: usize, left: f64) -> (PixelAxis, PixelAxis) {
     let points = || figure.curves.iter().flat_map(|c| &c.points).filter(|p| drawable(p, panel));
     let range = |values: &mut dyn Iterator<Item = f64>| {
@@ -103,7 +103,7 @@ fn axes(figure: &NoiseFigure, panel: usize, left: f64) -> (PixelAxis, PixelAxis)
     )
 }
 
-/// The range that is set off, with its words at the foot.
+/// The highlighted range, with its label at the foot.
 fn band(svg: &mut Svg, figure: &NoiseFigure, x: &PixelAxis) {
     let (from, to, label) = &figure.marked;
     if !(*from > 0.0 && x.low < from.log10() && to.log10() < x.high && from < to) {
@@ -131,7 +131,7 @@ fn places(
 
 fn draw(svg: &mut Svg, kind: usize, places: &[[(f64, f64); 3]]) {
     let medians: Vec<(f64, f64)> = places.iter().map(|p| p[1]).collect();
-    // not one polyline: some of these classes would fill it
+    // not one polyline: the style of some of these classes would fill it
     for pair in medians.windows(2) {
         svg.line(LINES[kind], pair[0], pair[1]);
     }
@@ -208,7 +208,7 @@ mod tests {
             let rest = part.split(&format!(" {name}=\"")).nth(1).unwrap();
             rest.split('"').next().unwrap().parse().unwrap()
         };
-        // the first is the legend's, then three a panel
+        // the first is the legend's, then three for each panel
         let marks = text.split("<circle class=\"mark\"").skip(2).take(3);
         let numbers: Vec<f64> = marks.flat_map(|m| [after(m, "cx"), after(m, "cy")]).collect();
         assert!((numbers[2] - f64::midpoint(numbers[0], numbers[4])).abs() < 0.02);

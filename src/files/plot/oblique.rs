@@ -10,7 +10,7 @@ use platform::manipulator::{Manipulator, Octahedral};
 /// Depth is drawn along this direction (right, up): half size at about 35 degrees.
 const DEPTH: (f64, f64) = (0.41, 0.29);
 
-/// Right and up, design units.
+/// Coordinates to the right and up, design units.
 pub(super) fn oblique(c: &Vector3<f64>) -> (f64, f64) {
     (c.x + DEPTH.0 * c.y, c.z + DEPTH.1 * c.y)
 }
@@ -32,7 +32,7 @@ impl Extent {
         })
     }
 
-    /// Pixels a design unit that fit the points into a width and a height.
+    /// Pixels per design unit that fit the points into a width and a height.
     pub(super) fn scale(&self, (width, height): (f64, f64)) -> f64 {
         let room = |r: (f64, f64), pixels: f64| pixels / (r.1 - r.0).max(f64::MIN_POSITIVE);
         room(self.across, width).min(room(self.up, height))
@@ -49,7 +49,7 @@ pub(super) struct BaseFrame {
 }
 
 impl BaseFrame {
-    /// Of the base triangle of an octahedral platform, else of the largest one of base joints.
+    /// The frame of the base triangle of an octahedral platform, otherwise of the largest triangle of base joints.
     pub(super) fn of(m: &Manipulator) -> Self {
         Self::new(&base_triangle(m))
     }
@@ -69,7 +69,7 @@ impl BaseFrame {
         Vector3::new(self.u.dot(&d), self.v.dot(&d), self.w.dot(&d))
     }
 
-    /// Right and up, design units.
+    /// Coordinates to the right and up, design units.
     pub(super) fn on_page(&self, p: &Point3<f64>) -> (f64, f64) {
         oblique(&self.coordinates(p))
     }
@@ -140,8 +140,8 @@ impl Bodies {
         self.base.iter().chain(&self.platform).copied()
     }
 
-    /// Base first, then what is farther below it: the platform is drawn last, so that it never hides behind a leg.
-    /// `first` is the class of the first leg.
+    /// The base is drawn first, then parts farther below it; the platform is last, so that no leg hides it. `first` is
+    /// the class of the first leg.
     pub(super) fn draw(&self, svg: &mut Svg, first: &str, at: impl Fn((f64, f64)) -> (f64, f64)) {
         let place = |points: &[(f64, f64)]| points.iter().map(|p| at(*p)).collect::<Vec<_>>();
         svg.polygon("base", &place(&self.base));

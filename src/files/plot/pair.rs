@@ -1,4 +1,4 @@
-//! Two platforms at one pose, side by side: what equivalence means, in one picture.
+//! Two platforms at one pose, side by side: equivalence in one picture.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use super::style::Svg;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairFigure {
     /// Title.
@@ -25,11 +25,11 @@ pub struct PairFigure {
 /// Greatest width and height of a platform on the page, pixels.
 const PANEL: (f64, f64) = (330.0, 330.0);
 const MARGIN: f64 = 28.0;
-/// Room for the lines between the platforms.
+/// Width of the space for the lines of text between the platforms.
 const MIDDLE: f64 = 190.0;
 const TOP: f64 = 92.0;
 
-/// Both platforms in oblique projection in the base frame of the first, to the same scale. Joints that legs share are
+/// Both platforms in oblique projection in the base frame of the first, to the same scale. Joints shared by legs are
 /// rings.
 #[must_use]
 pub fn platform_pair(platforms: [&Manipulator; 2], figure: &PairFigure) -> String {
@@ -69,7 +69,7 @@ pub fn platform_pair(platforms: [&Manipulator; 2], figure: &PairFigure) -> Strin
     svg.finish()
 }
 
-/// A joint on the page and how many legs end there.
+/// A joint on the page, and the number of legs that end there.
 type DrawnJoint = ((f64, f64), usize);
 
 /// A platform on the page, right and up, design units.

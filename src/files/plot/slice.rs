@@ -1,4 +1,4 @@
-//! Where a determinant vanishes over two variables.
+//! The zero set of a determinant over two variables.
 
 use super::contour::ValueGrid;
 use super::style::{PixelAxis, Svg, frame};
@@ -14,28 +14,28 @@ pub struct SliceAxis {
     pub high: f64,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SliceFigure {
     /// Title.
     pub title: String,
-    /// What is shown, for instance `det J`.
+    /// The quantity, for instance `det J`.
     pub quantity: String,
     /// A line of text below the plot.
     pub note: String,
-    /// To the right.
+    /// The axis to the right.
     pub across: SliceAxis,
-    /// Upwards.
+    /// The axis upwards.
     pub up: SliceAxis,
-    /// Points of the grid a side, two or more.
+    /// Points of the grid per side, two or more.
     pub side: usize,
     /// The quantity at the grid points, row by row from the lowest, any positive scale.
     pub values: Vec<f64>,
-    /// A pose to mark and its label.
+    /// A marked pose and its label.
     pub mark: Option<((f64, f64), String)>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const WIDTH: f64 = 700.0;
 const HEIGHT: f64 = 660.0;
 const LEFT: f64 = 84.0;

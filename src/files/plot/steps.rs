@@ -13,22 +13,22 @@ pub struct SearchStep {
     pub accepted: bool,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepsFigure {
     /// Title.
     pub title: String,
-    /// What the values are.
+    /// The quantity of the values.
     pub quantity: String,
     /// A line of text below.
     pub note: String,
-    /// In the order in which they were made.
+    /// The steps, in order.
     pub steps: Vec<SearchStep>,
 }
 
-/// Violations below this are drawn at it.
+/// Smaller violations are drawn at this value.
 const LEAST_VIOLATION: f64 = 1e-10;
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const PANEL: (f64, f64) = (360.0, 280.0);
 const LEFT: f64 = 74.0;
 const TOP: f64 = 84.0;

@@ -1,4 +1,4 @@
-//! The style all pictures share, and axes with round numbers.
+//! The common style of all pictures, and axes with round numbers.
 
 use std::fmt::Write as _;
 
@@ -31,12 +31,12 @@ text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font
 .pair{fill:none;stroke:#c4c4c4;stroke-width:1}\
 text.halo{fill:#fff;stroke:#fff;stroke-width:4px;stroke-linejoin:round}";
 
-/// The class of text that stands on a white outline of itself.
+/// The class of text on a white outline of itself.
 const HALO: &str = "halo";
 
-/// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones
-/// after a palette for colour-blind readers (P. Tol, 2021), dark and light by turns so that neighbours differ in grey
-/// print too.
+/// Fill colours of the limits of a workspace, one for each kind, by its code: the same in every picture. Pale tones
+/// after a palette for colour-blind readers (P. Tol, 2021). Dark and light tones alternate, so that neighbours differ
+/// in grey print too.
 pub const LIMIT_FILLS: [(&str, &str); 34] = [
     ("leg_too_short", "#4477aa"),
     ("leg_too_long", "#ee9988"),
@@ -74,7 +74,7 @@ pub const LIMIT_FILLS: [(&str, &str); 34] = [
     ("singular", "#777777"),
 ];
 
-/// Text of an XML node or attribute: the only door of foreign text to pictures.
+/// Text of an XML node or attribute; every foreign text in a picture passes through it.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in visible(text).chars() {
@@ -89,8 +89,7 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// The text as it is written: characters that XML 1.0 does not know, or that change the direction of a text, are
-/// replaced.
+/// The text as displayed: characters that XML 1.0 forbids, or that change the direction of a text, are replaced.
 pub fn visible(text: &str) -> String {
     let hides = |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r') || changes_direction(c);
     text.chars().map(|c| if hides(c) { '\u{fffd}' } else { c }).collect()
@@ -123,12 +122,12 @@ impl Svg {
         Self { out }
     }
 
-    /// Classes of one kind of picture.
+    /// Adds the classes of one kind of picture.
     pub(super) fn style(&mut self, css: &str) {
         let _ = writeln!(self.out, "<style>{css}</style>");
     }
 
-    /// Text; with the class `halo` on a white outline, which is a text of its own below it: some viewers do not know
+    /// Text. The class `halo` draws a white outline as a separate text below it, since some viewers do not know
     /// `paint-order`.
     pub(super) fn text(&mut self, class: &str, at: (f64, f64), text: &str) {
         self.placed_text(class, at, "", text);
@@ -145,13 +144,13 @@ impl Svg {
         }
     }
 
-    /// Text turned by `degrees` about its anchor, clockwise on the page.
+    /// Text rotated by `degrees` about its anchor, clockwise on the page.
     pub(super) fn turned_text(&mut self, class: &str, at: (f64, f64), degrees: f64, text: &str) {
         let turn = format!(" transform=\"rotate({} {} {})\"", px(degrees), px(at.0), px(at.1));
         self.placed_text(class, at, &turn, text);
     }
 
-    /// An element that is written out: its texts are escaped already.
+    /// An element as given, with its texts escaped.
     pub(super) fn raw(&mut self, element: &str) {
         let _ = writeln!(self.out, "{element}");
     }
@@ -191,7 +190,7 @@ impl Svg {
         let _ = writeln!(self.out, "<polyline class=\"{class}\" points=\"{}\"/>", list(points));
     }
 
-    /// A line with an id, by which programs find it.
+    /// A line with an id for programs.
     pub(super) fn named_line(&mut self, id: &str, class: &str, a: (f64, f64), b: (f64, f64)) {
         let _ = writeln!(
             self.out,
@@ -255,7 +254,7 @@ pub(super) struct PixelAxis {
 }
 
 impl PixelAxis {
-    /// Where `value` is on the page.
+    /// Position of `value` on the page, pixels.
     pub(super) fn at(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
@@ -271,7 +270,7 @@ impl PixelAxis {
     pub(super) fn ticks(&self, count: usize) -> Vec<(f64, String)> {
         let step = self.step(count);
         let decimals = (0..12usize).find(|k| step * 10f64.powf(*k as f64) > 0.999).unwrap_or(12);
-        // a hair beyond the ends, so that rounding loses no tick at an end
+        // slightly beyond the ends, so that rounding loses no tick there
         let (first, last) =
             ((self.low / step - 1e-9).ceil() as i64, (self.high / step + 1e-9).floor() as i64);
         (first..=last)
@@ -292,7 +291,7 @@ impl PixelAxis {
     }
 }
 
-/// The frame of a plot with about so many ticks on either axis; `x` runs to the right, `y` upwards.
+/// The frame of a plot with about this many ticks on either axis; `x` runs to the right, `y` upwards.
 pub(super) fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, (across, up): (usize, usize)) {
     svg.rect("frame", (x.from, y.to), (x.to - x.from, y.from - y.to));
     for (value, label) in x.ticks(across) {

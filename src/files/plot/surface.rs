@@ -1,9 +1,9 @@
 //! Surfaces by marching tetrahedra.
 //!
-//! Each cell of a grid in space is cut into the six tetrahedra about one of its diagonals, the same one in all cells,
-//! so that neighbours share their faces. A tetrahedron is crossed by the surface `f = level` in no piece, a triangle or
-//! a quadrangle; corners of the pieces are interpolated linearly on the edges of the tetrahedra and named by them, so
-//! that nothing depends on comparing coordinates.
+//! Each cell of a grid in space is cut into the six tetrahedra about one of its diagonals. All cells use the same
+//! diagonal, so that neighbours share their faces. The surface `f = level` crosses a tetrahedron in no piece, a
+//! triangle or a quadrangle. Corners of the pieces are interpolated linearly on the edges of the tetrahedra. The edges
+//! identify them, so nothing depends on comparing coordinates.
 //!
 //! Source: B. Payne, A. Toga, Surface mapping brain function on 3D models (1990), who cut cells into tetrahedra for
 //! this purpose.
@@ -22,22 +22,22 @@ pub struct ValueBox {
 /// A surface of triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriangleSurface {
-    /// In grid coordinates.
+    /// Vertices in grid coordinates.
     pub vertices: Vec<[f64; 3]>,
-    /// Three vertices each, in no particular sense of rotation.
+    /// Three vertices each, in no particular orientation.
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// The tetrahedra of a cell: the order in which the axes are gone along from its first corner to its last.
+/// The tetrahedra of a cell: the order of the axes on the path from its first corner to its last.
 const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 impl ValueBox {
-    /// How far apart in the list the neighbours along each axis are.
+    /// Distance in the list between neighbours along each axis.
     fn strides(&self) -> [usize; 3] {
         [1, self.points, self.points * self.points]
     }
 
-    /// Where a point of the list lies.
+    /// Grid coordinates of a point of the list.
     fn place(&self, point: usize) -> [f64; 3] {
         self.strides().map(|s| (point / s % self.points) as f64)
     }
@@ -61,8 +61,7 @@ impl ValueBox {
         out
     }
 
-    /// The surface `f = level`. A tetrahedron with a value that is not finite is passed over: there the surface has a
-    /// hole.
+    /// The surface `f = level`. A tetrahedron with a value that is not finite is skipped, which leaves a hole.
     pub fn surface(&self, level: f64) -> TriangleSurface {
         let mut out = TriangleSurface::default();
         let mut known: BTreeMap<(usize, usize), usize> = BTreeMap::new();
@@ -95,7 +94,7 @@ impl ValueBox {
         out
     }
 
-    /// Where the surface crosses the edge between two points.
+    /// Crossing of the surface with the edge between two points.
     fn crossing(&self, (a, b): (usize, usize), level: f64) -> [f64; 3] {
         let t = (level - self.values[a]) / (self.values[b] - self.values[a]);
         let (from, to) = (self.place(a), self.place(b));
@@ -119,7 +118,7 @@ mod tests {
         ValueBox { values, ..empty }
     }
 
-    /// How many triangles have each edge.
+    /// The number of triangles at each edge.
     fn edges(surface: &TriangleSurface) -> BTreeMap<(usize, usize), usize> {
         let mut out = BTreeMap::new();
         for t in &surface.triangles {

@@ -10,11 +10,11 @@ use super::style::{PixelAxis, Svg, escape, frame, px};
 pub struct SweptColumn {
     /// Its name, with the unit.
     pub label: String,
-    /// One value a row; NaN where there is none.
+    /// One value per row; NaN if missing.
     pub values: Vec<f64>,
 }
 
-/// What a picture of a table shows.
+/// The contents of a picture of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweptFigure {
     /// The title above.
@@ -23,25 +23,25 @@ pub struct SweptFigure {
     pub note: String,
     /// The number of the candidate of each row.
     pub candidates: Vec<i64>,
-    /// The columns shown.
+    /// The plotted columns.
     pub columns: Vec<SweptColumn>,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const LEFT: f64 = 92.0;
 const TOP: f64 = 62.0;
 const WIDE: f64 = 520.0;
 const HIGH: f64 = 420.0;
 const BELOW: f64 = 92.0;
 const SCALE: f64 = 120.0;
-/// Columns and rows of a field over values that lie on no grid.
+/// Number of columns and rows of a field over values without a grid.
 const BINS: usize = 48;
-/// Different values of a column, at most, that are taken for those of a grid.
+/// Greatest number of different values in a column of a grid.
 const GRID: usize = 200;
-/// Points and lines that a picture shows, at most: more would be one blot, and no viewer takes a million.
+/// Greatest number of points and lines in a picture: more would be unreadable and too much for viewers.
 const MOST_POINTS: usize = 20_000;
 const MOST_LINES: usize = 600;
-/// Lines of equal value.
+/// Number of lines of equal value.
 const LEVELS: usize = 9;
 
 /// Colours of a scale from low to high: viridis (van der Walt, Smith 2015), even in lightness and safe for colour-blind
@@ -63,8 +63,8 @@ fn colour(share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(0).round() as u8, mix(1).round() as u8, mix(2).round() as u8)
 }
 
-/// At most so many of `n` things, one of each of equal parts. Which one changes from part to part: every second point
-/// of a sequence that fills a cube fills half of it.
+/// At most `most` of `n` items, one from each of equal parts. The position in the part varies, since every second point
+/// of a space-filling sequence fills only half of the cube.
 fn thinned(n: usize, most: usize) -> Vec<usize> {
     if n <= most {
         return (0..n).collect();
@@ -74,7 +74,7 @@ fn thinned(n: usize, most: usize) -> Vec<usize> {
     (0..most).map(|i| at(i).min(n - 1)).collect()
 }
 
-/// Least and greatest finite value; a single one gets room around it.
+/// Least and greatest finite value, with a range also around a single value.
 fn range(values: &[f64]) -> (f64, f64) {
     let finite = values.iter().copied().filter(|x| x.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |r, x| (r.0.min(x), r.1.max(x)));
@@ -88,14 +88,14 @@ fn range(values: &[f64]) -> (f64, f64) {
     }
 }
 
-/// The same with some room.
+/// The range with a margin.
 fn roomy(values: &[f64]) -> (f64, f64) {
     let (low, high) = range(values);
     let room = 0.04 * (high - low);
     (low - room, high + room)
 }
 
-/// What stands behind a point or a line: the candidate of the row, and its values to five digits.
+/// The title of a point or a line: the candidate of the row, and its values to five digits.
 fn behind(figure: &SweptFigure, k: usize) -> String {
     let value = |c: &SweptColumn| {
         let rounded = format!("{:.4e}", c.values[k]).parse().ok().filter(|x: &f64| x.is_finite());
@@ -162,7 +162,7 @@ struct Cells {
 }
 
 impl Cells {
-    /// The cells of a grid where the values lie on one, else equal ones over their range.
+    /// The cells of the grid if the values have one, otherwise equal ones over their range.
     fn of(values: &[f64]) -> Self {
         let mut different: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
         different.sort_by(f64::total_cmp);
@@ -187,8 +187,8 @@ impl Cells {
     }
 }
 
-/// The mean of the third column over the cells of the first two, as colours and, when asked for, lines of equal value;
-/// without a third column the number of rows.
+/// The mean of the third column over the cells of the first two, as colours, and on request with lines of equal value.
+/// Without a third column it is the number of rows.
 pub fn swept_field(figure: &SweptFigure, lines: bool) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (across, up) = (Cells::of(&x.values), Cells::of(&y.values));
@@ -243,13 +243,13 @@ pub fn swept_field(figure: &SweptFigure, lines: bool) -> String {
     svg.finish()
 }
 
-/// How many rows have which values of the first column.
+/// Histogram of the first column: the number of rows for each value.
 pub fn swept_histogram(figure: &SweptFigure) -> String {
     let column = &figure.columns[0];
     let (low, high) = range(&column.values);
     let finite = column.values.iter().filter(|x| x.is_finite());
     let whole = finite.clone().all(|x| x.fract() == 0.0) && high - low <= 60.0;
-    // whole numbers have a bar each
+    // each whole number has a bar
     let (low, high, bars) = if whole {
         (low.floor() - 0.5, high.ceil() + 0.5, (high.ceil() - low.floor()) as usize + 1)
     } else {
@@ -273,8 +273,8 @@ pub fn swept_histogram(figure: &SweptFigure) -> String {
     svg.finish()
 }
 
-/// Rows of which none is better in both of the first two columns; `gain`: whether large values are good. In the order
-/// of the first column.
+/// Rows of which none is better in both of the first two columns; `gain`: whether large values are better. They are in
+/// the order of the first column.
 pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
     let worth =
         |k: usize, c: usize| if gain[c] { figure.columns[c].values[k] } else { -figure.columns[c].values[k] };
@@ -293,8 +293,8 @@ pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
     rows
 }
 
-/// Points over the first two columns, coloured by the third; with `gain` the front of rows of which none is better in
-/// both. The title of a point is what stands behind it.
+/// Points over the first two columns, coloured by the third. With `gain` it adds the front of rows of which none is
+/// better in both. The title of each point has its candidate and values.
 pub fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
     let (rx, ry) = (roomy(&x.values), roomy(&y.values));
@@ -350,7 +350,7 @@ pub fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     svg.finish()
 }
 
-/// A line a row over parallel axes, one for each column, coloured by the last one.
+/// One line per row over parallel axes, one axis for each column, coloured by the last one.
 pub fn swept_parallel(figure: &SweptFigure) -> String {
     let n = figure.columns.len();
     let gap = (WIDE / (n - 1) as f64).max(110.0);
@@ -413,7 +413,7 @@ mod tests {
         assert!(drawn.contains("t &lt;1&gt;") && drawn.contains("candidate 35: 1225"));
         let lines = swept_field(&figure(3), true);
         assert!(lines.matches("class=\"isoline\"").count() > 3);
-        // rows are counted without a third column, and cells that are off the grid hold several
+        // without a third column rows are counted, and cells without a grid hold several
         let mut loose = figure(2);
         loose.columns[0].values[3] += 0.2;
         assert!(swept_field(&loose, false).contains("candidate"));
@@ -439,7 +439,7 @@ mod tests {
         assert_eq!(drawn.matches("class=\"best\"").count(), 6);
         let mut points = figure.clone();
         assert_eq!(swept_cloud(&points, None).matches("class=\"dot\"").count(), 36);
-        // what a point is of stands behind it
+        // the title of a point has its data
         points.columns[0] = SweptColumn { label: "r<s> [mm]".into(), values: vec![1.0 / 3.0; 36] };
         points.columns.push(SweptColumn { label: "c".into(), values: vec![f64::NAN; 36] });
         let drawn = swept_cloud(&points, None);

@@ -6,7 +6,7 @@ use super::labels::{Labels, PageBox, centred_text_box, text_box};
 use super::style::Svg;
 use platform::geom::convex_hull;
 
-/// Base or platform as it is drawn; points in the base frame, millimetres.
+/// Base or platform in the drawing; points in the base frame, millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThreeViewBody {
     /// Points whose convex hulls are the parts: plate, posts.
@@ -19,7 +19,7 @@ pub struct ThreeViewBody {
     pub ball: f64,
 }
 
-/// What the drawing shows; points in the base frame, millimetres.
+/// The contents of the drawing; points in the base frame, millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThreeViewFigure {
     /// Title.
@@ -40,7 +40,7 @@ pub struct ThreeViewFigure {
 
 /// Width and height of the largest view, pixels.
 const VIEW: f64 = 320.0;
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const MARGIN: f64 = 60.0;
 const TOP: f64 = 70.0;
 const CSS: &str = "\
@@ -54,14 +54,14 @@ const CSS: &str = "\
 const SMALL: f64 = 9.0;
 const TITLE: f64 = 15.0;
 const NOTE: f64 = 11.0;
-/// Places along a leg at which its number may stand: on the rod, on the cylinder, towards the ends.
+/// Possible places of its number along a leg: on the rod, on the cylinder, towards the ends.
 const ALONG: [f64; 9] = [0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2, 0.55, 0.45];
 
-/// Axes of the three views: right and up. The top view stands above the front view, the view from the right beside it.
+/// Axes of the three views: right and up. The top view is above the front view, the view from the right beside it.
 const VIEWS: [(&str, usize, usize); 3] =
     [("top (x right, y up)", 0, 1), ("front (x right, z up)", 0, 2), ("right (y right, z up)", 1, 2)];
 
-/// Least and greatest coordinates of all that is drawn.
+/// Least and greatest coordinates of all drawn parts.
 fn bounds(figure: &ThreeViewFigure) -> [(f64, f64); 3] {
     let bodies = [&figure.base, &figure.platform];
     let solids = bodies.into_iter().flat_map(|b| &b.solids).chain(&figure.leg_bodies).flatten();
@@ -75,9 +75,9 @@ fn bounds(figure: &ThreeViewFigure) -> [(f64, f64); 3] {
     out
 }
 
-/// The drawing: silhouettes of all parts, one over the other. All views have the same scale; the overall dimensions
-/// stand at each view. Joints, origins and legs have their names and numbers beside them, none over another text as
-/// long as the page has room.
+/// The drawing: silhouettes of all parts, one over the other. All views have the same scale and show the overall
+/// dimensions. Joints, origins and legs have their names and numbers beside them, without overlaps if the page has
+/// enough space.
 #[must_use]
 pub fn three_views(figure: &ThreeViewFigure) -> String {
     let bounds = bounds(figure);
@@ -151,14 +151,14 @@ pub fn three_views(figure: &ThreeViewFigure) -> String {
         svg.line("tick", (left, corner.1), (left, corner.1 + h));
         let dimension = format!("{:.3}", extent[up]);
         svg.turned_text("note mid", (left - 5.0, corner.1 + 0.5 * h), -90.0, &dimension);
-        // turned by a quarter: along the page is across the text
+        // rotated by a quarter: along the page is across the text
         let its = centred_text_box((corner.1 + 0.5 * h, left - 5.0), &dimension, NOTE);
         labels.keep(PageBox { left: its.top, right: its.bottom, top: its.left, bottom: its.right });
     }
     let note = (MARGIN, height - 12.0);
     svg.text("note", note, &figure.note);
     labels.keep(text_box(note, &figure.note, NOTE));
-    // over everything that is drawn
+    // above all drawn parts
     for (at, radius, label) in named {
         labels.put_beside(at, radius, label);
     }

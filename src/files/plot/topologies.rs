@@ -1,12 +1,12 @@
 //! Joint-sharing topologies as diagrams: base polygon below, platform polygon above, legs, virtual legs dashed.
 //!
-//! In the spirit of the tables of Porta and Thomas. Joints stand evenly on two circles seen at a slant, in the order of
-//! [`Topology::layout`]; nothing but the graph is shown.
+//! The diagrams follow the tables of Porta and Thomas. Joints are evenly spaced on two circles in oblique view, in the
+//! order of [`Topology::layout`]; only the graph is shown.
 
 use super::style::Svg;
 use platform::topology::{NamedTopology, Topology};
 
-/// A topology and what to write below it.
+/// A topology and its caption.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TopologyFigure {
     /// The topology.
@@ -15,18 +15,18 @@ pub struct TopologyFigure {
     pub caption: String,
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const CELL: (f64, f64) = (168.0, 200.0);
 const COLUMNS: usize = 6;
 const MARGIN: f64 = 20.0;
 const TOP: f64 = 70.0;
-/// Room for the sentence below the title.
+/// Least width, for the sentence below the title.
 const LEAST_WIDTH: f64 = 640.0;
-/// Half axes of the circles as drawn, and how far their centres are above and below the middle.
+/// Half axes of the drawn circles, and the distances of their centres above and below the middle.
 const BASE: (f64, f64) = (62.0, 20.0);
 const PLATFORM: (f64, f64) = (46.0, 15.0);
 const RISE: f64 = 40.0;
-/// Turns of the whole about the vertical among which the clearest is taken.
+/// Number of rotations about the vertical, of which the clearest is taken.
 const TURNS: u32 = 72;
 
 /// Places of the joints of one body, and of their labels outside the polygon.
@@ -46,7 +46,7 @@ fn drawn(angles: &[f64], centre: (f64, f64), axes: (f64, f64), turn: f64) -> Pol
     }
 }
 
-/// The corners in the order in which they stand on the circle.
+/// The corners in their order on the circle.
 fn outline(d: &PolygonPlaces, angles: &[f64]) -> Vec<(f64, f64)> {
     let turn = |i: &usize| angles[*i].rem_euclid(std::f64::consts::TAU);
     let mut order: Vec<usize> = (0..angles.len()).collect();
@@ -87,7 +87,7 @@ fn diagram(svg: &mut Svg, t: Topology, centre: (f64, f64)) {
     let lines: Vec<(usize, usize)> = t.legs().into_iter().chain(virtual_legs.iter().copied()).collect();
     let turns = (0..TURNS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(TURNS));
     let clearest = turns.map(at).map(|(b, p)| (clearness(&b, &p, &lines), b, p));
-    // of equally clear ones the first, whatever the rounding
+    // of equally clear ones the first, regardless of rounding
     let best = clearest.reduce(|x, y| if y.0 > x.0 + 1e-9 { y } else { x });
     let (base, platform) = best.map_or_else(|| at(0.0), |(_, b, p)| (b, p));
     svg.polygon("base", &outline(&base, &layout.base));
@@ -102,7 +102,7 @@ fn diagram(svg: &mut Svg, t: Topology, centre: (f64, f64)) {
     joints(svg, &platform, 'B', t.legs().map(|l| l.1));
 }
 
-/// Dots and labels of one body; `ends` holds the joint of each leg.
+/// Dots and labels of one body; `ends` is the joint of each leg.
 fn joints(svg: &mut Svg, body: &PolygonPlaces, letter: char, ends: [usize; 6]) {
     for (k, (joint, label)) in body.joints.iter().zip(&body.labels).enumerate() {
         let shared = ends.iter().filter(|end| **end == k).count() > 1;
@@ -171,7 +171,7 @@ mod tests {
         assert_eq!(sheet.matches("<circle").count(), joints);
         // 20 topologies with one virtual leg, three with two, one with three
         assert_eq!(sheet.matches("class=\"virtual\"").count(), 20 + 6 + 3);
-        // one alone stands in the middle, on a sheet that is as wide as its text
+        // a single one is centred, on a sheet as wide as its text
         let alone = topology_sheet("one", &figures[..1]);
         assert!(sheet.contains("viewBox=\"0 0 1048.00") && alone.contains("viewBox=\"0 0 640.00"));
         assert!(sheet.contains("a &lt; b") && topology_diagram(&figures[3]).contains("T04"));

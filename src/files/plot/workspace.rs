@@ -1,22 +1,22 @@
-//! A slice of the workspace, coloured by what ends it.
+//! A slice of the workspace, coloured by the limits around it.
 
 use super::contour::ValueGrid;
 use super::slice::SliceAxis;
 use super::style::{LIMIT_FILLS, PixelAxis, Svg};
 
-/// A limit that ends the workspace.
+/// A limit of the workspace.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WorkspaceLimit {
-    /// Its code, by which it has its colour ([`LIMIT_FILLS`]).
+    /// Its code, which determines its colour ([`LIMIT_FILLS`]).
     pub code: &'static str,
     /// Its name in the legend.
     pub name: String,
 }
 
-/// What of a required workspace lies in the slice.
+/// The part of a required workspace in the slice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RequiredSection {
-    /// The section of its region; absent where there is no region, or none in the slice.
+    /// The section of its region; absent without a region, or if the region misses the slice.
     pub outline: Option<SectionOutline>,
     /// Single poses that lie in the slice.
     pub poses: Vec<(f64, f64)>,
@@ -27,36 +27,36 @@ pub struct RequiredSection {
 pub enum SectionOutline {
     /// A closed line through these points, which may be a segment or one point.
     Through(Vec<(f64, f64)>),
-    /// Where a function with these values at the grid points is zero.
+    /// The zero set of a function with these values at the grid points.
     Zero(Vec<f64>),
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkspaceFigure {
     /// Title.
     pub title: String,
     /// Lines of text below the plot.
     pub notes: Vec<String>,
-    /// To the right.
+    /// The axis to the right.
     pub across: SliceAxis,
-    /// Upwards.
+    /// The axis upwards.
     pub up: SliceAxis,
-    /// Points of the grid a side, two or more.
+    /// Points of the grid per side, two or more.
     pub side: usize,
     /// Margins at the grid points, row by row from the lowest: positive inside the workspace.
     pub margins: Vec<f64>,
-    /// Which of the limits is met worst at the grid points.
+    /// The limit with the least margin at each grid point.
     pub worst: Vec<Option<usize>>,
-    /// The limits that are met worst somewhere.
+    /// The limits with the least margin somewhere.
     pub limits: Vec<WorkspaceLimit>,
-    /// The workspace that is required, where one is.
+    /// The required workspace, if there is one.
     pub required: Option<RequiredSection>,
     /// The pose in the middle of the workspace and its label.
     pub home: ((f64, f64), String),
 }
 
-// the layout in pixels: sizes, and where they are from the left and the top
+// the layout in pixels: sizes, and positions from the left and the top
 const WIDTH: f64 = 860.0;
 const HEIGHT: f64 = 690.0;
 const LEFT: f64 = 84.0;
@@ -64,9 +64,9 @@ const RIGHT: f64 = 604.0;
 const TOP: f64 = 56.0;
 const BOTTOM: f64 = 576.0;
 
-/// Regions beyond the workspace in the colour of the limit that is missed most, the workspace white, its boundary a
-/// heavy line. What lies inside all limits but does not hang together with home within the slice is dotted; the
-/// workspace required is a dashed line over it.
+/// The workspace is white with a heavy boundary line; regions beyond it have the colour of the limit with the greatest
+/// violation. Regions inside all limits that are not connected with home in the slice are dotted. A dashed line shows
+/// the required workspace.
 #[must_use]
 pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     let x = PixelAxis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
@@ -110,7 +110,7 @@ fn css() -> String {
         + ".under{fill:none;stroke:#fff;stroke-width:5;stroke-linejoin:round}.required{fill:none;stroke:#00429d;stroke-width:2.4;stroke-dasharray:8 4;stroke-linejoin:round}.asked{fill:#fff;stroke:#00429d;stroke-width:2}.boundary{fill:none;stroke:#1a1a1a;stroke-width:2.2;stroke-linejoin:round}.apart{fill:#8a8a8a}.sample{stroke:#555;stroke-width:.6}"
 }
 
-/// The section of the required workspace, on a white line so that it is seen on every colour.
+/// The section of the required workspace, with a white line below it so that it is visible on every colour.
 fn required(
     svg: &mut Svg,
     figure: &WorkspaceFigure,
@@ -174,7 +174,7 @@ fn cells(
     }
 }
 
-/// Which grid points inside all limits hang together with the one nearest to home.
+/// The grid points inside all limits that are connected with the one nearest to home.
 fn joined(figure: &WorkspaceFigure) -> Vec<bool> {
     let n = figure.side;
     let nearest = |axis: &SliceAxis, value: f64| {
@@ -204,7 +204,7 @@ fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, figure: &WorkspaceFigure) 
     }
 }
 
-/// Right of the plot: the limits that end the workspace somewhere in it.
+/// Right of the plot: the limits of the workspace in it.
 fn legend(svg: &mut Svg, figure: &WorkspaceFigure, joined: &[bool]) {
     let left = RIGHT + 22.0;
     let mut line = TOP + 12.0;

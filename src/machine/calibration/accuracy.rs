@@ -1,12 +1,12 @@
-//! How uncertain poses are that are computed with a calibrated machine.
+//! Uncertainty of poses computed with a calibrated machine.
 
 use nalgebra::DMatrix;
 
 use super::model::{LegModel, Unknowns};
 use platform::geom::Pose;
 
-/// Standard deviations of a pose that is computed from shown lengths, by what a calibration does not know of the
-/// machine. The noise of these lengths is not in them.
+/// Standard deviations of a pose computed from shown lengths, caused by the uncertainty of the calibrated parameters.
+/// The noise of the lengths is not included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseDeviation {
     /// Root mean square of the distance by which the platform origin is off, design units.
@@ -17,9 +17,9 @@ pub struct PoseDeviation {
 
 /// The deviations at a pose of a machine with the covariance `F F^T` of its unknowns; `None` at a singular pose.
 ///
-/// Lengths `l = f(x, X)` that are held make the pose `X` off by `-J^-1 W dx` when the unknowns `x` are off by `dx`,
-/// with the derivatives `J` by the pose and `W` by the unknowns: the covariance of the pose is that of `J^-1 W F`, with
-/// all correlations.
+/// With held lengths `l = f(x, X)`, an error `dx` of the unknowns moves the pose by `-J^-1 W dx`. `J` holds the
+/// derivatives by the pose and `W` those by the unknowns. The covariance of the pose is that of `J^-1 W F`, with all
+/// correlations.
 #[must_use]
 pub fn pose_deviation(
     model: &LegModel,

@@ -1,13 +1,12 @@
-//! The chi-square distribution: what sums of squares of standard normal numbers do.
+//! The chi-square distribution: sums of squares of standard normal numbers.
 
 use statrs::function::gamma::checked_gamma_ur;
 
 /// Halvings of an interval of quantiles: more than a double has digits.
 const HALVINGS: usize = 200;
 
-/// The probability that the sum of the squares of `freedoms` independent standard normal numbers exceeds `value`:
-/// `Q(freedoms / 2, value / 2)`, the upper incomplete gamma function over the complete one. 1 where there are no
-/// degrees of freedom and the value is at most zero.
+/// The probability that the sum of squares of `freedoms` independent standard normal numbers exceeds `value`. It is
+/// `Q(freedoms / 2, value / 2)`, the upper incomplete gamma function over the complete one.
 #[must_use]
 pub fn chi_square_exceeds(value: f64, freedoms: usize) -> f64 {
     if !(value > 0.0) {

@@ -1,19 +1,19 @@
-//! Columns of two legs that stand in each other's place.
+//! Detection of two legs whose columns of lengths are exchanged.
 
 use super::{LegModel, Measurement};
 
-/// How much nearer to the nominal machine two columns are after they changed places, root mean square: far more than
-/// joints off by what machines are built to can make.
+/// Required reduction of the root mean square residual when two columns are exchanged. Joint errors of built machines
+/// cannot cause a factor this large.
 const NEARER: f64 = 5.0;
 
-/// The legs whose measured lengths look exchanged: those that come nearest to the nominal machine when they change
-/// places, where they come nearer by a factor of five.
+/// The two legs whose measured lengths look exchanged. Exchanging them must bring the data nearest to the nominal
+/// machine, by a factor of at least five.
 ///
-/// What a column differs from a leg by is compared without its mean, so that offsets of encoders count for nothing.
+/// The mean of each difference between column and leg is removed, so encoder offsets have no influence.
 pub(super) fn exchanged(nominal: &LegModel, measurements: &[Measurement]) -> Option<[usize; 2]> {
     let count = measurements.len() as f64;
     let predicted: Vec<[f64; 6]> = measurements.iter().map(|m| nominal.lengths(&m.pose)).collect();
-    // sum of squares of what column `i` differs from leg `j` by
+    // sum of squares of the differences between column `i` and leg `j`
     let apart = |i: usize, j: usize| {
         let each = || measurements.iter().zip(&predicted).map(|(m, own)| m.lengths[i] - own[j]);
         let mean = each().sum::<f64>() / count;
@@ -50,7 +50,7 @@ mod tests {
                 assert_eq!(exchanged(&design, &wired), Some([i, j]));
             }
         }
-        // a single measurement says nothing
+        // a single measurement cannot show an exchange
         let one = measured(&nominal(), &poses(1, &mut rng), None, &mut rng);
         assert_eq!(exchanged(&nominal(), &one), None);
     }

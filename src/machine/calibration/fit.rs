@@ -12,33 +12,33 @@ use super::spectrum::FitSpectrum;
 const ROUNDS: usize = 100;
 /// Rounds with a convex loss before one that is not.
 const CONVEX_ROUNDS: usize = 8;
-/// A median distance of more than this many times that of the noise shows that the model is still wrong.
+/// Above this ratio of the median distance to that of the noise, the model is still wrong.
 const FAR: f64 = 2.0;
 /// Steps in a round at most.
 const STEPS: usize = 100;
-/// A step this small, as a share of the size of the machine, is none.
+/// Steps below this share of the size of the machine count as zero.
 const SMALLEST_STEP: f64 = 1e-13;
 /// Rounds end when the unknowns change by less than this share of the deviation of a length.
 const SETTLED: f64 = 1e-6;
 /// Residuals below this share of the size of the machine are rounding.
 const NOISE_OF_ROUNDING: f64 = 1e-13;
 
-/// What is to be fitted.
+/// The fitting problem.
 #[derive(Debug)]
 pub(super) struct FitProblem<'a> {
     pub(super) measurements: &'a [Measurement],
     pub(super) unknowns: &'a Unknowns,
-    /// Of the machine, design units.
+    /// Size of the machine, design units.
     pub(super) size: f64,
-    /// `None`: to be estimated.
+    /// Noise of the measurements; `None`: the fit estimates it.
     pub(super) noise: Option<MeasurementNoise>,
     pub(super) loss: Loss,
     pub(super) unit: LossUnit,
-    /// A direction with a larger standard deviation is not known, design units.
+    /// Greatest accepted standard deviation of a direction, design units; directions above it are unknown.
     pub(super) widest: f64,
 }
 
-/// The end of a fit.
+/// The result of a fit.
 #[derive(Debug, Clone)]
 pub(super) struct CalibrationFit {
     pub(super) model: LegModel,
@@ -79,13 +79,13 @@ impl FitProblem<'_> {
         (rows, right)
     }
 
-    /// Those of one pose.
+    /// Whitened equations of one pose.
     pub(super) fn block(&self, model: &LegModel, m: &Measurement, lower: &Matrix6<f64>) -> DMatrix<f64> {
         let sensitivity = model.sensitivity(self.unknowns, &m.pose);
         lower.solve_lower_triangular(&sensitivity).unwrap_or_else(|| DMatrix::zeros(6, self.unknowns.count()))
     }
 
-    /// What the equations say.
+    /// Spectrum of the whitened equations.
     pub(super) fn spectrum(&self, model: &LegModel, lower: &[Matrix6<f64>]) -> Option<FitSpectrum> {
         let (rows, right) = self.equations(model, lower);
         FitSpectrum::of(rows, right, self.widest)
@@ -99,9 +99,9 @@ impl FitProblem<'_> {
         self.measurements.iter().zip(lower).map(of).sum()
     }
 
-    /// The least sum of squares with fixed weights near `start` (Levenberg 1944, Marquardt 1963): a step is damped the
-    /// more, the less the last one kept what it promised. Unknown directions are left as they are. The model, steps,
-    /// and whether they ended where they must.
+    /// The least sum of squares with fixed weights near `start` (Levenberg 1944, Marquardt 1963). The damping grows
+    /// when the last step gained less than predicted. Unknown directions keep their values. Returns the model, the
+    /// number of steps, and whether they converged.
     fn minimise(&self, start: &LegModel, lower: &[Matrix6<f64>], most: usize) -> (LegModel, usize, bool) {
         let (mut model, mut cost) = (start.clone(), self.cost(start, lower));
         let mut damping = 0.0;
@@ -127,7 +127,7 @@ impl FitProblem<'_> {
                     damping = if damping < 1e-14 * top * top { 0.0 } else { damping };
                     taken = Some((next, after));
                 } else if promised <= 1e-12 * cost || step.amax() <= 10.0 * SMALLEST_STEP * self.size {
-                    // what is promised is lost in rounding
+                    // the predicted gain is below rounding
                     return (model, steps, true);
                 } else if damping > 1e12 * top * top {
                     return (model, steps, false);
@@ -155,7 +155,7 @@ impl FitProblem<'_> {
             steps: 0,
             merit: f64::INFINITY,
         };
-        // gross errors must not draw the first steps to where no later one finds back from
+        // gross errors must not lead the first steps to a point from which later steps cannot recover
         if self.loss != Loss::Squares {
             out.weights = self.weights(&out, &out.noise, 1);
         }
@@ -196,8 +196,8 @@ impl FitProblem<'_> {
         self.measurements.iter().zip(&lower).map(|(m, l)| Distances::new(&model.residual(m), l)).collect()
     }
 
-    /// The noise that the residuals show where none is given: by the sum of squares, or by the median distance with a
-    /// loss that takes gross errors for possible.
+    /// The noise estimated from the residuals where none is given. Robust losses use the median distance; the square
+    /// loss uses the sum of squares.
     fn noise_of(&self, fit: &CalibrationFit) -> (MeasurementNoise, NoiseSource) {
         if let Some(noise) = self.noise {
             return (noise, NoiseSource::Given);
@@ -220,14 +220,14 @@ impl FitProblem<'_> {
         (MeasurementNoise { length: noise.length.max(least), ..noise }, NoiseSource::Estimated)
     }
 
-    /// The usual distance where it shows that the model is still wrong; `None` also for a loss that knows no gross
-    /// errors.
+    /// The typical distance if it shows that the model is still wrong; `None` also for the square loss, which ignores
+    /// gross errors.
     fn far(&self, distances: &[Distances]) -> Option<f64> {
         Some(self.usual(distances)).filter(|usual| self.loss != Loss::Squares && *usual > FAR)
     }
 
-    /// The median distance over that of normal errors: of whole poses, or of single lengths where these are doubted.
-    /// Gross errors of less than half of them hardly change it.
+    /// The median distance divided by that of normal errors, over whole poses or single lengths according to the loss
+    /// unit. Gross errors of less than half of them hardly change it.
     fn usual(&self, distances: &[Distances]) -> f64 {
         let (mut squares, count): (Vec<f64>, usize) = match self.unit {
             LossUnit::Pose => (distances.iter().map(|d| d.pose * d.pose).collect(), 6),

@@ -7,7 +7,7 @@ use num::small::bounded_svd;
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
-/// Points whose spread across a line is below this share of that along it have no rotation of their own.
+/// Points whose spread across a line is below this share of the spread along it do not determine a rotation.
 const ON_A_LINE: f64 = 1e-6;
 
 /// The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at
@@ -29,16 +29,16 @@ pub struct FrameMotion {
     schemars(rename = "FrameMotionsRecord")
 )]
 pub struct CarriedFrames {
-    /// Of the base.
+    /// Motion of the base frame.
     pub base: FrameMotion,
-    /// Of the platform.
+    /// Motion of the platform frame.
     pub platform: FrameMotion,
 }
 
 /// The rotation and translation with the least sum of squared distances between `R from + p` and `to` (Umeyama 1991,
-/// without scale): no reflections, so that points in a plane are turned to their places.
+/// without scale). Reflections are excluded, so points in a plane also get a rotation.
 ///
-/// `None` where points are on a line, about which any turn is as good.
+/// `None` for collinear points, since the rotation about their line is undetermined.
 #[must_use]
 pub fn rigid_motion(from: &[Point3<f64>], to: &[Point3<f64>]) -> Option<FrameMotion> {
     let count = from.len().min(to.len());
@@ -93,8 +93,8 @@ impl CarriedFrames {
         }
     }
 
-    /// A root of the covariance of the unknowns, turned with the joints. The motions are taken as they are: their own
-    /// uncertainty is that of the joints.
+    /// A root of the covariance of the unknowns, rotated with the joints. The motions count as exact: their uncertainty
+    /// is already part of that of the joints.
     #[must_use]
     pub fn carry_root(&self, unknowns: &Unknowns, root: &DMatrix<f64>) -> DMatrix<f64> {
         let mut out = root.clone();

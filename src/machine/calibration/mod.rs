@@ -10,10 +10,10 @@
 //! are measured too, so that the six residuals of a pose have the covariance `sigma_l^2 I + J_k Sigma_pose J_k^T` to
 //! first order.
 //!
-//! * [`calibrate`]: the fit, how well each unknown is known, which changes of the machine the measurements do not see,
-//!   and whether the model agrees with them.
-//! * [`pose_deviation`]: how uncertain poses are that are computed with it.
-//! * [`next_poses`]: where to measure next.
+//! * [`calibrate`]: the fit, the uncertainty of each unknown, the unobservable changes of the machine, and the
+//!   agreement of model and measurements.
+//! * [`pose_deviation`]: the uncertainty of poses computed with the calibrated machine.
+//! * [`next_poses`]: the best poses to measure next.
 //! * [`CarriedFrames`]: from the frames of the measurements to those of a design.
 //!
 //! Theory: `docs/theory/calibration.md`.

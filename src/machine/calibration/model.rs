@@ -1,11 +1,11 @@
-//! Joints and offsets of a machine, the lengths that follow from them, and which of their coordinates are unknown.
+//! Joints and offsets of a machine, the lengths that follow from them, and the choice of unknown coordinates.
 
 use nalgebra::{DMatrix, DVector, Matrix6, Point3, Vector3, Vector6};
 
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Manipulator};
 
-/// What the lengths that a machine shows follow from: `l_i = |R b_i + p - a_i| + d_i`.
+/// The joints and offsets that determine the lengths a machine shows: `l_i = |R b_i + p - a_i| + d_i`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LegModel {
     /// Base joints `a`, base frame.
@@ -14,7 +14,7 @@ pub struct LegModel {
     pub platform: Vec<Point3<f64>>,
     /// Base and platform joint of each leg.
     pub pairs: [(usize, usize); 6],
-    /// `d_i`: what the length shown is longer than the distance of the joints.
+    /// `d_i`: the shown length minus the distance of the joints, design units.
     pub offsets: [f64; 6],
 }
 
@@ -50,8 +50,8 @@ impl LegModel {
         std::array::from_fn(|leg| self.line(leg, pose).norm() + self.offsets[leg])
     }
 
-    /// Rows `[u_i, (R b_i) x u_i]`: how the lengths change with a shift of the platform origin and a small turn about
-    /// it, base frame.
+    /// Rows `[u_i, (R b_i) x u_i]`: the derivatives of the lengths by a shift of the platform origin and a small
+    /// rotation about it, base frame.
     pub(super) fn pose_sensitivity(&self, pose: &Pose) -> Matrix6<f64> {
         let mut out = Matrix6::zeros();
         for leg in 0..6 {
@@ -68,7 +68,7 @@ impl LegModel {
         self.line(leg, pose).try_normalize(0.0).unwrap_or_default()
     }
 
-    /// How the six lengths change with the unknowns: `-u^T` for the base joint, `u^T R` for the platform joint, 1 for
+    /// Derivatives of the six lengths by the unknowns: `-u^T` for the base joint, `u^T R` for the platform joint, 1 for
     /// the offset.
     pub(super) fn sensitivity(&self, unknowns: &Unknowns, pose: &Pose) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(6, unknowns.count());
@@ -88,13 +88,13 @@ impl LegModel {
         out
     }
 
-    /// The lengths measured less those of the model.
+    /// The measured lengths minus those of the model.
     pub(super) fn residual(&self, measurement: &Measurement) -> Vector6<f64> {
         let lengths = self.lengths(&measurement.pose);
         Vector6::from_fn(|leg, _| measurement.lengths[leg] - lengths[leg])
     }
 
-    /// The same with the unknowns changed.
+    /// The model with the unknowns changed by `step`.
     pub(super) fn stepped(&self, unknowns: &Unknowns, step: &DVector<f64>) -> Self {
         let mut out = self.clone();
         for (joints, columns) in [(&mut out.base, &unknowns.base), (&mut out.platform, &unknowns.platform)] {
@@ -133,7 +133,7 @@ pub struct Measurement {
     pub lengths: [f64; 6],
 }
 
-/// What is known and not to be changed.
+/// Groups of parameters that the calibration keeps fixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct HeldParts {
     /// The joints of the base.
@@ -175,7 +175,7 @@ pub struct Unknowns {
 }
 
 impl Unknowns {
-    /// Those of a model, but for what is held.
+    /// The unknowns of a model, without the held parts.
     #[must_use]
     pub fn new(model: &LegModel, held: HeldParts) -> Self {
         let mut list = Vec::new();
@@ -202,13 +202,13 @@ impl Unknowns {
         Self { base, platform, offsets, list }
     }
 
-    /// How many.
+    /// The number of unknowns.
     #[must_use]
     pub fn count(&self) -> usize {
         self.list.len()
     }
 
-    /// All, in the order of their columns.
+    /// All unknowns, in the order of their columns.
     #[must_use]
     pub fn list(&self) -> &[Unknown] {
         &self.list

@@ -1,4 +1,4 @@
-//! The poses at which another measurement says most.
+//! The poses whose measurement adds most information.
 
 use nalgebra::{DMatrix, Matrix6};
 
@@ -12,16 +12,16 @@ use platform::geom::Pose;
 pub struct NextPose {
     /// Its index among the candidates.
     pub candidate: usize,
-    /// By what factor the geometric mean of the standard deviations along the axes of the error ellipsoid becomes
-    /// smaller with this pose, less than 1.
+    /// Factor by which this pose shrinks the geometric mean of the standard deviations along the axes of the error
+    /// ellipsoid, below 1.
     pub shrinks: f64,
-    /// The greatest standard deviation of a coordinate or offset after it and those before it, design units.
+    /// The greatest standard deviation of a coordinate or offset after this pose and those before it, design units.
     pub greatest_deviation: f64,
 }
 
-/// The `count` best of the candidates one after the other: each is the one that lowers the determinant of the
-/// covariance `F F^T` most when it is added to the measurements and the poses before it (D-optimal, one pose at a time;
-/// Fedorov 1972; for calibration Daney, Papegay, Madeline 2005).
+/// The `count` best candidates in greedy order. Each lowers the determinant of the covariance `F F^T` most, given the
+/// measurements and the poses before it. This is D-optimal design, one pose at a time (Fedorov 1972; for calibration
+/// Daney, Papegay, Madeline 2005).
 ///
 /// With the whitened rows `W` of a candidate the determinant is divided by `det(I + W F F^T W^T)`. The same pose may be
 /// taken more than once.

@@ -1,34 +1,33 @@
-//! How uncertain measurements are, and what that makes of residuals.
+//! Noise of the measurements and the resulting covariance of the residuals.
 
 use nalgebra::{Cholesky, Matrix6, Vector6};
 
 use super::robust::PoseWeight;
 
-/// Standard deviations of what was measured, independent of each other.
+/// Standard deviations of the measured quantities, whose errors are independent of each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasurementNoise {
-    /// Of each leg length, design units, positive.
+    /// Standard deviation of each leg length, design units, positive.
     pub length: f64,
-    /// Of each coordinate of the position of the platform origin, design units.
+    /// Standard deviation of each coordinate of the measured platform origin, design units.
     pub position: f64,
-    /// Of each component of the rotation vector by which the orientation is off, radians.
+    /// Standard deviation of each component of the rotation vector of the orientation error, radians.
     pub rotation: f64,
 }
 
-/// The noise of lengths taken before anything is known about it, as a share of the size of the machine.
+/// Assumed noise of lengths before any estimate, as a share of the size of the machine.
 const ASSUMED: f64 = 1e-4;
 
 impl MeasurementNoise {
-    /// What is taken where nothing is known: exact poses, and lengths as uncertain as a ten-thousandth of the size of
-    /// the machine.
+    /// Noise assumed without other knowledge: exact poses, and lengths with an uncertainty of a ten-thousandth of the
+    /// size of the machine.
     #[must_use]
     pub fn assumed(size: f64) -> Self {
         Self { length: ASSUMED * size, position: 0.0, rotation: 0.0 }
     }
 
-    /// `sigma_l^2 I + J Sigma_pose J^T`, the covariance of the residuals at a pose to first order; the variance of the
-    /// length of a leg of weight `w` is `sigma_l^2 / w`, and that of everything at a pose of weight `w` is divided by
-    /// it.
+    /// `sigma_l^2 I + J Sigma_pose J^T`, the covariance of the residuals at a pose to first order. A leg of weight `w`
+    /// has the length variance `sigma_l^2 / w`; a pose weight divides the whole covariance.
     pub(super) fn covariance(&self, sensitivity: &Matrix6<f64>, weight: &PoseWeight) -> Matrix6<f64> {
         let (p, w) = (self.position * self.position, self.rotation * self.rotation);
         let pose = Matrix6::from_diagonal(&Vector6::new(p, p, p, w, w, w));
@@ -40,7 +39,7 @@ impl MeasurementNoise {
     pub(super) fn whitening(&self, sensitivity: &Matrix6<f64>, weight: &PoseWeight) -> Matrix6<f64> {
         let covariance = self.covariance(sensitivity, weight);
         let exact = covariance.cholesky().map(Cholesky::unpack);
-        // lengths a million times as exact as poses: what rounding leaves of them is made up for
+        // if lengths are a million times as exact as poses, rounding can spoil the factor; a larger diagonal repairs it
         exact.unwrap_or_else(|| {
             let floor = covariance.diagonal().amax() * 1e-14;
             let lifted = covariance + Matrix6::identity() * floor;
@@ -58,7 +57,7 @@ impl MeasurementNoise {
     }
 }
 
-/// Where the noise comes from.
+/// Source of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -68,8 +67,8 @@ impl MeasurementNoise {
 pub enum NoiseSource {
     /// The caller knows it.
     Given,
-    /// All lengths are equally uncertain and poses exact; how much the residuals say.
+    /// All lengths are equally uncertain and poses exact; the residuals give the amount.
     Estimated,
-    /// The residuals cannot say: there are no more numbers than unknowns.
+    /// The default is assumed, since there are no more numbers than unknowns.
     Assumed,
 }

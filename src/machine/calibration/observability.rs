@@ -1,4 +1,4 @@
-//! Which changes of a machine the measurements see, and how well.
+//! Observability: the changes of a machine that the measurements determine, and their accuracy.
 
 use nalgebra::{DVector, Vector3};
 
@@ -12,23 +12,23 @@ const NAMED: f64 = 1e-3;
 /// Shifts that differ by less than this are equal.
 const ROUNDED: f64 = 1e-6;
 
-/// The singular values of the identification matrix and what is made of them.
+/// The singular values of the identification matrix and the indices derived from them.
 ///
-/// The matrix is that of the whitened residuals, multiplied by the standard deviation of a length: without noise of the
-/// poses it is the derivative of the lengths with respect to the unknowns, without unit. Small values are directions
-/// that are badly known.
+/// The matrix is that of the whitened residuals, multiplied by the standard deviation of a length. Without noise of the
+/// poses it is the derivative of the lengths by the unknowns, without unit. Small values belong to badly determined
+/// directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observability {
     /// Largest first.
     pub singular_values: Vec<f64>,
-    /// Directions with a value below this are not known: their standard deviation would exceed the greatest one
-    /// accepted, or rounding leaves nothing of them.
+    /// Directions with a value below this are unknown: their standard deviation exceeds the greatest accepted one, or
+    /// rounding hides them.
     pub tolerance: f64,
     /// Values at or above it.
     pub rank: usize,
     /// Poses measured.
     pub poses: usize,
-    /// Changes that the measurements do not see.
+    /// Changes that the measurements do not determine.
     pub unobservable: Vec<UnobservableChange>,
 }
 
@@ -55,7 +55,7 @@ impl Observability {
         self.singular_values.last().copied().unwrap_or(0.0)
     }
 
-    /// `(s_1 .. s_m)^(1/m) / sqrt(n)`, the volume of what `n` poses see (Borm, Menq 1991): greatest where the
+    /// `(s_1 .. s_m)^(1/m) / sqrt(n)`, the observability index of `n` poses (Borm, Menq 1991): greatest where the
     /// determinant of the covariance is least.
     #[must_use]
     pub fn volume_index(&self) -> f64 {
@@ -88,12 +88,13 @@ impl Observability {
     }
 }
 
-/// A change of joints and offsets that changes no measured length, or hardly: a vector of norm 1 over all unknowns.
+/// A change of joints and offsets that changes the measured lengths hardly or not at all: a vector of norm 1 over all
+/// unknowns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnobservableChange {
     /// Joints that move, with their shifts in the frame of their body, the farthest first.
     pub joints: Vec<(Body, usize, Vector3<f64>)>,
-    /// Legs whose offsets change, by how much.
+    /// Legs whose offsets change, each with its change.
     pub offsets: Vec<(usize, f64)>,
 }
 
@@ -116,7 +117,7 @@ impl UnobservableChange {
         }
         joints.retain(|(_, _, shift)| shift.norm() > NAMED);
         offsets.retain(|(_, change)| change.abs() > NAMED);
-        // those that are equal up to rounding stay in the order of the design
+        // shifts that are equal up to rounding stay in the order of the design
         let size = |shift: &Vector3<f64>| (shift.norm() / ROUNDED).round();
         joints.sort_by(|a, b| size(&b.2).total_cmp(&size(&a.2)));
         Self { joints, offsets }

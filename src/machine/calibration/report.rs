@@ -1,4 +1,4 @@
-//! The calibration of a machine, with everything that says how far to trust it.
+//! The calibration of a machine, with all measures of its reliability.
 
 use nalgebra::{DMatrix, Matrix6, Vector6};
 use thiserror::Error;
@@ -18,21 +18,22 @@ use platform::manipulator::InvalidManipulator;
 const REFUTED: f64 = 1e-3;
 /// Measurements of a right model have an outlier among them with this probability.
 const OUTLIER: f64 = 0.01;
-/// Two ends of a fit that differ by less than this share of the greatest standard deviation are the same.
+/// Two fits that differ by less than this share of the greatest standard deviation are the same.
 const SAME_END: f64 = 0.01;
 
-/// What is asked of a calibration.
+/// Options of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CalibrateOptions {
-    /// How uncertain measurements are; `None`: lengths equally, poses exact, and how much is estimated.
+    /// Noise of the measurements; `None`: equal for all lengths, zero for poses, with the amount estimated from the
+    /// residuals.
     pub noise: Option<MeasurementNoise>,
-    /// How much far measurements cost.
+    /// The loss function of the fit.
     pub loss: Loss,
-    /// Whether whole poses or single lengths are doubted.
+    /// Whether gross errors are expected in whole poses or in single lengths.
     pub loss_unit: LossUnit,
-    /// What is not to be changed.
+    /// Parameters that the fit keeps.
     pub held: HeldParts,
-    /// Where to begin.
+    /// The start of the fit.
     pub start: StartChoice,
     /// The greatest standard deviation, as a share of the size of the design, at which a direction counts as
     /// identified.
@@ -52,19 +53,19 @@ impl Default for CalibrateOptions {
     }
 }
 
-/// Where a fit begins.
+/// The start of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StartChoice {
-    /// At both, and the better end is taken.
+    /// Both starts; the better result is taken.
     #[default]
     Best,
-    /// At the nominal joints.
+    /// The nominal joints.
     Nominal,
-    /// At the solution of the linear equations.
+    /// The solution of the linear equations.
     ClosedForm,
 }
 
-/// Where the fit that was taken began.
+/// The start whose result was taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -72,29 +73,29 @@ pub enum StartChoice {
     serde(rename_all = "snake_case")
 )]
 pub enum StartName {
-    /// At the nominal joints.
+    /// The nominal joints.
     Nominal,
-    /// At the solution of the linear equations.
+    /// The solution of the linear equations.
     ClosedForm,
 }
 
-/// Where the fit began, and what came of the other start.
+/// The start that was taken, and the result of the other one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
 pub struct Starts {
-    /// The start whose end was taken.
+    /// The start whose result was taken.
     pub taken: StartName,
-    /// Whether both starts ended at the same machine; null: only one was tried.
+    /// Whether both starts led to the same machine; null: only one was tried.
     pub agree: Option<bool>,
-    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the better; null:
-    /// not tried.
+    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints; smaller is better; null: not
+    /// tried.
     pub nominal: Option<f64>,
-    /// The same from the linear equations for squared lengths, which need no design; null: not tried, or the poses do
-    /// not determine them.
+    /// The same measure from the linear equations for squared lengths, which need no design; null: not tried, or not
+    /// determined by the poses.
     pub closed_form: Option<f64>,
 }
 
-/// Why nothing can be calibrated.
+/// Reasons why a calibration is impossible.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CalibrationError {
@@ -107,16 +108,16 @@ pub enum CalibrationError {
         /// Its index.
         index: usize,
     },
-    /// A deviation that is none.
+    /// A standard deviation with a wrong sign or value.
     #[error(
         "the standard deviation of lengths has to be positive and those of poses not negative: {length}, {position}, {rotation}"
     )]
     BadNoise {
-        /// Of lengths.
+        /// Standard deviation of lengths.
         length: f64,
-        /// Of positions.
+        /// Standard deviation of positions.
         position: f64,
-        /// Of orientations, radians.
+        /// Standard deviation of orientations, radians.
         rotation: f64,
     },
     /// Joints and offsets are all held.
@@ -138,7 +139,7 @@ pub enum CalibrationError {
     Manipulator(#[from] InvalidManipulator),
 }
 
-/// How a calibration ended.
+/// The result of a calibration in a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -146,9 +147,9 @@ pub enum CalibrationError {
     serde(rename_all = "snake_case")
 )]
 pub enum CalibrationStatus {
-    /// All unknowns are identified, and nothing speaks against the model.
+    /// All unknowns are identified, and the data agree with the model.
     Calibrated,
-    /// Some changes of the machine are not seen by the measurements.
+    /// The measurements do not determine some changes of the machine.
     NotIdentifiable,
     /// The residuals are too large for the noise given: the model, the noise or a measurement is wrong.
     Refuted,
@@ -163,7 +164,7 @@ pub struct GreatestResidual {
     pub measurement: usize,
     /// Index of the leg.
     pub leg: usize,
-    /// Length measured less that of the model, design units.
+    /// Measured length minus that of the model, design units.
     pub value: f64,
 }
 
@@ -172,16 +173,16 @@ pub struct GreatestResidual {
 pub struct ResidualSpread {
     /// Root mean square.
     pub rms: f64,
-    /// Of each leg.
+    /// Root mean square of each leg, design units.
     pub legs: [f64; 6],
-    /// The one of the largest size; `None` where nothing was counted.
+    /// The residual of the largest size; `None` where nothing was counted.
     pub greatest: Option<GreatestResidual>,
     /// Numbers counted.
     pub count: usize,
 }
 
 impl ResidualSpread {
-    /// Of the residuals of measurements and legs that `counted` takes.
+    /// The spread of the residuals whose measurement and leg `counted` accepts.
     fn of(residuals: &[Option<Vector6<f64>>], counted: impl Fn(usize, usize) -> bool) -> Self {
         let (mut sums, mut counts) = ([0.0; 6], [0_usize; 6]);
         let mut greatest: Option<GreatestResidual> = None;
@@ -212,35 +213,35 @@ impl ResidualSpread {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
 pub struct ChiSquare {
     /// Sum of the squares of whitened residuals.
-    // without outliers where a loss takes them for possible
+    // outliers are left out if the loss allows for gross errors
     pub value: f64,
-    /// Numbers less unknowns identified.
+    /// Number of residuals minus number of identified unknowns.
     #[cfg_attr(feature = "serde", serde(rename = "degrees_of_freedom"))]
     pub freedoms: usize,
-    /// The probability of a larger value, were model and noise right; null: the noise is estimated from the same
+    /// The probability of a larger value if model and noise are right; null: the noise is estimated from the same
     /// residuals.
     pub probability: Option<f64>,
 }
 
-/// A measurement that does not belong to the others.
+/// A measurement that contradicts the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlier {
     /// Index of the measurement.
     pub measurement: usize,
-    /// Index of the leg where a single length is meant.
+    /// Index of the leg if a single length is the outlier.
     pub leg: Option<usize>,
-    /// How far it is from the model, in standard deviations.
+    /// Its distance from the model, in standard deviations.
     pub distance: f64,
-    /// Right measurements are all nearer with a probability of 99 %.
+    /// Right measurements all stay below this distance with a probability of 99 %.
     pub threshold: f64,
     /// Its weight in the fit.
     pub weight: f64,
 }
 
-/// What was found.
+/// The result of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
-    /// How it ended.
+    /// The result in a word.
     pub status: CalibrationStatus,
     /// The machine, in the frames of the measured poses.
     pub model: LegModel,
@@ -250,19 +251,19 @@ pub struct Calibration {
     pub root: DMatrix<f64>,
     /// The same with the greatest deviation accepted along directions that are not identified.
     pub bounded_root: DMatrix<f64>,
-    /// How uncertain measurements are.
+    /// Noise of the measurements.
     pub noise: MeasurementNoise,
-    /// Where that comes from.
+    /// Source of the noise.
     pub noise_source: NoiseSource,
-    /// Where the fit began.
+    /// The start of the fit.
     pub starts: Starts,
-    /// Whether steps and rounds ended where they must.
+    /// Whether steps and rounds converged.
     pub converged: bool,
     /// Rounds of weights.
     pub rounds: usize,
-    /// Steps in all.
+    /// Number of steps in total.
     pub steps: usize,
-    /// Which changes of the machine are seen, and how well.
+    /// Observability of the changes of the machine.
     pub observability: Observability,
     /// Residuals of the nominal machine.
     pub before: ResidualSpread,
@@ -276,8 +277,8 @@ pub struct Calibration {
     pub chi_square: ChiSquare,
     /// The farthest first.
     pub outliers: Vec<Outlier>,
-    /// Indices of two legs whose measured lengths look exchanged: they are five times nearer to those of the nominal
-    /// machine when they change places.
+    /// Indices of two legs whose measured lengths look exchanged: exchanging them brings the data five times nearer to
+    /// the nominal machine.
     pub exchanged: Option<[usize; 2]>,
     /// Weights of the measurements.
     pub weights: Vec<PoseWeight>,
@@ -302,8 +303,8 @@ fn residuals_of(model: &LegModel, measurements: &[Measurement]) -> ResidualSprea
     ResidualSpread::of(&all, |_, _| true)
 }
 
-/// A root of the covariance before anything is measured: every unknown is as uncertain as `widest`, the deviation above
-/// which nothing counts as identified.
+/// A root of the covariance before any measurement: every unknown has the deviation `widest`, the greatest one that
+/// counts as identified.
 #[must_use]
 pub fn planning_root(unknowns: &Unknowns, widest: f64) -> DMatrix<f64> {
     DMatrix::identity(unknowns.count(), unknowns.count()) * widest
@@ -312,12 +313,12 @@ pub fn planning_root(unknowns: &Unknowns, widest: f64) -> DMatrix<f64> {
 /// Calibrates a machine from measurements: the joints and offsets with the least sum of losses of whitened residuals,
 /// in the frames of the measured poses.
 ///
-/// Each round takes the covariances of the residuals, the weights of the loss and, where it is not given, the noise
-/// from the end of the last one, and minimises the sum of squares with these by Levenberg-Marquardt steps. Directions
-/// that are not identified keep their values of the start.
+/// Each round takes the covariances of the residuals, the weights of the loss and the noise, if not given, from the
+/// last round. It then minimises the sum of squares by Levenberg-Marquardt steps. Directions that are not identified
+/// keep their values of the start.
 ///
 /// # Errors
-/// [`CalibrationError`]; that unknowns are not identifiable is no error but a [`CalibrationStatus`].
+/// [`CalibrationError`]; unknowns that are not identifiable give a [`CalibrationStatus`] instead.
 pub fn calibrate(
     nominal: &LegModel,
     measurements: &[Measurement],
@@ -397,7 +398,7 @@ fn check(measurements: &[Measurement], options: &CalibrateOptions) -> Result<(),
     Ok(())
 }
 
-/// The better end of the starts asked for.
+/// The better result of the requested starts.
 fn fit_from_starts(
     problem: &FitProblem<'_>,
     nominal: &LegModel,
@@ -421,7 +422,7 @@ fn fit_from_starts(
             let lower = problem.whitening(&a.model, &a.noise, &a.weights);
             let widest = problem.spectrum(&a.model, &lower).map_or(0.0, |s| s.covariance_root().amax());
             let same = apart <= (SAME_END * widest).max(1e-9 * problem.size);
-            // a fit that did not end is no better, whatever its residuals
+            // a fit that did not converge ranks below every fit that did
             let key = |fit: &CalibrationFit| (!fit.converged, fit.merit);
             let (x, y) = (key(&a), key(&b));
             let nominal_is_better = if same {
@@ -445,7 +446,7 @@ fn status(
     chi: &ChiSquare,
     unknowns: usize,
 ) -> CalibrationStatus {
-    // measurements that refute a model say nothing by what they see of it
+    // measurements that refute a model cannot show the observability of its parameters
     if chi.probability.is_some_and(|p| p < REFUTED) {
         CalibrationStatus::Refuted
     } else if spectrum.rank < unknowns {
@@ -457,9 +458,8 @@ fn status(
     }
 }
 
-/// An outlier is farther off than all right measurements together are with a probability of 99 %. None is called so
-/// where it would be more than half of the poses, or of the lengths where single lengths are doubted: the noise or the
-/// model is wrong then.
+/// Right measurements all stay below the outlier threshold with a probability of 99 %. If more than half of the poses
+/// (or lengths) would be outliers, the list stays empty: then the noise or the model is wrong.
 fn outliers(problem: &FitProblem<'_>, fit: &CalibrationFit) -> Vec<Outlier> {
     if fit.source == NoiseSource::Assumed {
         return Vec::new();
@@ -503,8 +503,8 @@ fn outliers(problem: &FitProblem<'_>, fit: &CalibrationFit) -> Vec<Outlier> {
     out
 }
 
-/// The sum of squares and its degrees of freedom. With a loss that takes gross errors for possible, poses with an
-/// outlier are left out.
+/// The sum of squares and its degrees of freedom. Poses with an outlier are left out if the loss allows for gross
+/// errors.
 fn chi_square(
     problem: &FitProblem<'_>,
     fit: &CalibrationFit,
@@ -521,8 +521,8 @@ fn chi_square(
     ChiSquare { value, freedoms, probability: given.then(|| chi_square_exceeds(value, freedoms)) }
 }
 
-/// For each pose the residuals of the machine that the others give, to first order: `(I - H_kk)^-1 r_k` of whitened
-/// residuals (Cook, Weisberg 1982); and the poses without which the unknowns are not determined.
+/// Residuals of each pose for the machine that the other poses give, to first order: `(I - H_kk)^-1 r_k` of whitened
+/// residuals (Cook, Weisberg 1982). Also returns the poses without which the unknowns are undetermined.
 fn leave_one_out(
     problem: &FitProblem<'_>,
     fit: &CalibrationFit,

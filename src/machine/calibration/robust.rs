@@ -5,7 +5,7 @@ use nalgebra::{Matrix6, Vector6};
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
 use num::names::{UnknownName, named};
 
-/// How much a distance costs.
+/// The loss of a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -13,14 +13,14 @@ use num::names::{UnknownName, named};
     serde(rename_all = "snake_case")
 )]
 pub enum Loss {
-    /// Its square.
+    /// The square of the distance.
     #[default]
     Squares,
-    /// Its square up to a threshold, linear beyond (Huber 1964).
+    /// The square up to a threshold, linear beyond (Huber 1964).
     Huber,
     /// Logarithmic far out.
     Cauchy,
-    /// Constant beyond a threshold: what lies there has no weight at all.
+    /// Constant beyond a threshold, so that points there have no weight.
     Tukey,
 }
 
@@ -38,8 +38,8 @@ impl Loss {
         }
     }
 
-    /// The threshold for one normal number at which the estimate of a mean has 95 % of the efficiency of least squares
-    /// (Holland, Welsch 1977).
+    /// The threshold of a standard normal number that keeps 95 % of the efficiency of least squares (Holland, Welsch
+    /// 1977).
     fn threshold(self) -> f64 {
         match self {
             Self::Squares => f64::INFINITY,
@@ -58,7 +58,7 @@ impl std::str::FromStr for Loss {
     }
 }
 
-/// What is taken together: gross errors of the pose, or of single lengths.
+/// The unit that a gross error spoils: the whole pose, or a single length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -69,11 +69,12 @@ pub enum LossUnit {
     /// The Mahalanobis norm of the six residuals of a pose.
     #[default]
     Pose,
-    /// What the residual of a leg differs from what the other five let expect, over its standard deviation.
+    /// The difference between the residual of a leg and its prediction from the other five, over its standard
+    /// deviation.
     Leg,
 }
 
-/// A loss of distances with so many degrees of freedom.
+/// A loss of distances with a given number of degrees of freedom.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ScaledLoss {
     loss: Loss,
@@ -81,7 +82,7 @@ pub(super) struct ScaledLoss {
 }
 
 impl ScaledLoss {
-    /// The threshold is exceeded by normal errors as often as that for one number.
+    /// Normal errors exceed the threshold as often as that of a single number.
     pub(super) fn new(loss: Loss, unit: LossUnit) -> Self {
         let one = loss.threshold();
         let threshold = match unit {
@@ -117,23 +118,23 @@ impl ScaledLoss {
     }
 }
 
-/// No weight is less, so that covariances stay finite.
+/// Lower limit of weights, which keeps covariances finite.
 const LEAST_WEIGHT: f64 = 1e-12;
 
 /// The weights of a pose and of its legs, each from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseWeight {
-    /// Of the pose.
+    /// Weight of the pose.
     pub pose: f64,
-    /// Of the lengths of its legs.
+    /// Weights of the lengths of its legs.
     pub legs: [f64; 6],
 }
 
 impl PoseWeight {
-    /// Without doubts.
+    /// Full weights.
     pub(super) const FULL: Self = Self { pose: 1.0, legs: [1.0; 6] };
 
-    /// By the distances of a measurement.
+    /// The weights for the distances of a measurement.
     pub(super) fn new(loss: &ScaledLoss, unit: LossUnit, distances: &Distances) -> Self {
         match unit {
             LossUnit::Pose => Self { pose: loss.weight(distances.pose), ..Self::FULL },
@@ -142,7 +143,7 @@ impl PoseWeight {
     }
 }
 
-/// How far a measurement is from the model, in standard deviations.
+/// Distances of a measurement from the model, in standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Distances {
     /// `sqrt(r^T S^-1 r)`.
@@ -152,12 +153,12 @@ pub(super) struct Distances {
 }
 
 impl Distances {
-    /// Counted in another unit.
+    /// The distances divided by `unit`.
     pub(super) fn over(&self, unit: f64) -> Self {
         Self { pose: self.pose / unit, legs: self.legs.map(|x| x / unit) }
     }
 
-    /// Of residuals with this lower factor of their covariance.
+    /// The distances of residuals whose covariance has this lower factor.
     pub(super) fn new(residual: &Vector6<f64>, lower: &Matrix6<f64>) -> Self {
         let inverse = lower.solve_lower_triangular(&Matrix6::identity()).unwrap_or_else(Matrix6::zeros);
         let whitened = inverse * residual;

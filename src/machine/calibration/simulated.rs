@@ -62,7 +62,7 @@ pub(super) fn poses(count: usize, rng: &mut Rng) -> Vec<Pose> {
         .collect()
 }
 
-/// What is measured at poses; `None`: exactly.
+/// Simulated measurements at poses; `None`: without noise.
 pub(super) fn measured(
     truth: &LegModel,
     poses: &[Pose],

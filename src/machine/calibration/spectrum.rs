@@ -1,4 +1,4 @@
-//! What linear equations say about their unknowns, by an orthogonal decomposition.
+//! Solutions of linear equations and the directions that they determine, by an orthogonal decomposition.
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
@@ -6,8 +6,8 @@ use num::small::bounded_svd;
 
 /// `rows x = right` with equations of variance 1: `rows = U diag(s) V^T` and `U^T right`.
 ///
-/// Orthogonal triangularisation, then the singular values of the triangle: normal equations, which square the
-/// condition, are not formed.
+/// Orthogonal triangularisation, then the singular values of the triangle: normal equations would square the condition
+/// number.
 #[derive(Debug, Clone)]
 pub(super) struct FitSpectrum {
     /// Singular values, largest first: one over the standard deviation of the unknowns along each direction.
@@ -16,9 +16,9 @@ pub(super) struct FitSpectrum {
     pub(super) directions: DMatrix<f64>,
     /// `U^T right`.
     projected: DVector<f64>,
-    /// How many directions are known well enough.
+    /// The number of directions that are known well enough.
     pub(super) rank: usize,
-    /// The singular value that this takes.
+    /// The least singular value of a known direction.
     pub(super) least: f64,
 }
 
@@ -41,7 +41,7 @@ impl FitSpectrum {
         Some(Self { values, directions: v_t.transpose(), projected, rank, least })
     }
 
-    /// `(rows^T rows + damping I)^-1 rows^T right` along the directions that are known.
+    /// `(rows^T rows + damping I)^-1 rows^T right` along the known directions.
     pub(super) fn step(&self, damping: f64) -> DVector<f64> {
         let mut out = DVector::zeros(self.directions.nrows());
         for k in 0..self.rank {
@@ -51,7 +51,7 @@ impl FitSpectrum {
         out
     }
 
-    /// By how much that step lowers the sum of the squares of the right side, were the equations exact.
+    /// The predicted reduction of the sum of squares of the right side by [`step`](Self::step), for exact equations.
     pub(super) fn reduction(&self, damping: f64) -> f64 {
         let gain = |k: usize| {
             let left = damping / (self.values[k] * self.values[k] + damping);
@@ -67,15 +67,15 @@ impl FitSpectrum {
         DMatrix::from_fn(n, self.rank, |i, k| self.directions[(i, k)] / self.values[k])
     }
 
-    /// The same with unknown directions as uncertain as `widest` makes them beforehand.
+    /// The same root, with the deviation `widest` along unknown directions.
     pub(super) fn bounded_root(&self, widest: f64) -> DMatrix<f64> {
         let n = self.directions.nrows();
         let scale = |s: f64| 1.0 / s.hypot(1.0 / widest);
         DMatrix::from_fn(n, n, |i, k| self.directions[(i, k)] * scale(self.values[k]))
     }
 
-    /// The directions that are not known, each with as few coordinates as it goes: columns of the projector on them,
-    /// the largest first, made orthonormal.
+    /// The unknown directions, each with few coordinates: columns of the projector on them, the largest first, made
+    /// orthonormal.
     pub(super) fn unknown_directions(&self) -> Vec<DVector<f64>> {
         let n = self.directions.nrows();
         let null = self.directions.columns(self.rank, n - self.rank);
@@ -106,7 +106,7 @@ pub(super) fn deletion(block: &DMatrix<f64>, root: &DMatrix<f64>) -> Option<Matr
     (svd.singular_values.min() > INDISPENSABLE).then(|| left.try_inverse()).flatten()
 }
 
-/// An observation of which less than this share is said by the others too is indispensable.
+/// An observation is indispensable if the others contribute less than this share of its information.
 const INDISPENSABLE: f64 = 1e-9;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A start that needs no design: squared lengths are linear in seventeen quantities of a leg.
+//! A start without nominal joints: squared lengths are linear in seventeen quantities of a leg.
 
 use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
@@ -14,12 +14,12 @@ const DETERMINED: f64 = 1e-10;
 /// l^2 - |p|^2 = 2 l d - 2 p . a + 2 (R^T p) . b - 2 sum_jk R_jk a_j b_k + c,      c = |a|^2 + |b|^2 - d^2
 /// ```
 ///
-/// in `d`, `a`, `b`, the nine products `a_j b_k`, and `c`, of which the products and `c` are not used further. Lengths
-/// are divided by their root mean square and positions counted from their mean, so that the equations have no unit. A
-/// joint of several legs gets the mean of theirs.
+/// in `d`, `a`, `b`, the nine products `a_j b_k`, and `c`; the products and `c` are then dropped. Lengths are divided
+/// by their root mean square and positions counted from their mean, so that the equations have no unit. A joint of
+/// several legs gets the mean of its estimates.
 ///
-/// `None` where joints are held, or where poses do not determine the seventeen quantities (sixteen where offsets are
-/// known): with fewer poses than quantities, without turns, with turns about one axis alone.
+/// `None` if joints are held, or if the poses do not determine the seventeen quantities (sixteen with known offsets).
+/// Examples are too few poses, poses without rotation, and rotations about one axis only.
 pub(super) fn closed_form(
     nominal: &LegModel,
     measurements: &[Measurement],

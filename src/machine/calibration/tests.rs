@@ -53,7 +53,7 @@ fn a_start_without_the_design_needs_no_design() {
     let mut rng = Rng::new(5);
     let truth = built(&nominal(), 2.0, 5.0, &mut rng);
     let rows = measured(&truth, &poses(40, &mut rng), Some(&LASER), &mut rng);
-    // a design in other frames, far from the machine
+    // a design in other frames than the machine
     let turn = Rotation3::from_euler_angles(0.4, 1.0, -2.0);
     let mut far = nominal();
     for p in &mut far.base {
@@ -84,7 +84,7 @@ fn a_start_without_the_design_needs_no_design() {
     }
 }
 
-/// Over many seeds, errors are as large as the covariance says, and residuals as the noise says.
+/// Over many seeds, the errors agree with the covariance, and the residuals with the noise.
 #[test]
 #[ignore = "evidence"]
 fn errors_agree_with_the_covariance() {
@@ -108,7 +108,7 @@ fn errors_agree_with_the_covariance() {
             }
         }
         let (errors, residuals) = (errors / seeds as f64, residuals / seeds as f64);
-        // the mean of so many chi-squares has the deviation sqrt(2 n / seeds)
+        // the mean of chi-squares over all seeds has the deviation sqrt(2 n / seeds)
         let wide = |n: f64| 4.0 * (2.0 * n / seeds as f64).sqrt();
         assert!((errors - 42.0).abs() < wide(42.0) + 1.0, "{noise:?} {given}: {errors}");
         assert!((residuals - 138.0).abs() < wide(138.0), "{noise:?} {given}: {residuals}");
@@ -116,7 +116,7 @@ fn errors_agree_with_the_covariance() {
     }
 }
 
-/// Poses computed with calibrated machines from exact lengths are as far from the truth as the covariance says,
+/// Poses computed with calibrated machines from exact lengths deviate from the truth in agreement with the covariance,
 /// correlations included.
 #[test]
 #[ignore = "evidence"]
@@ -152,7 +152,7 @@ fn computed_poses_are_as_uncertain_as_they_are_said_to_be() {
         let ratio = found_squares[k] / said[k];
         assert!(ratio > 0.6 && ratio < 1.6, "{ratio}");
     }
-    // negative control: without correlations it would be much more
+    // negative control: without correlations the deviation would be much larger
     assert!(independent > 10.0 * said[0], "{independent} {}", said[0]);
 }
 
@@ -163,7 +163,7 @@ fn poses_that_leave_changes_unseen_say_which() {
     let shifted = |turns: fn(&Pose) -> Rotation3<f64>, rng: &mut Rng| -> Vec<Pose> {
         poses(40, rng).iter().map(|p| Pose { rotation: turns(p), position: p.position }).collect()
     };
-    // without turns the joints of a leg move together unseen
+    // without rotations the joints of a leg can move together unobserved
     let translations = shifted(|_| Rotation3::from_euler_angles(0.1, 0.2, 0.3), &mut rng);
     let about_z = shifted(
         |p| Rotation3::from_axis_angle(&Vector3::z_axis(), rotation_vector(&p.rotation).norm()),
@@ -191,7 +191,7 @@ fn poses_that_leave_changes_unseen_say_which() {
                 }
             }
             assert!((found.after.rms - noise.map_or(0.0, |_| 0.02)).abs() < 0.02, "what is seen is fitted");
-            // what is not seen stays near the design
+            // unobserved directions stay near the design
             assert!(farthest(&found.model, &nominal()) < 20.0);
         }
     }
@@ -266,7 +266,7 @@ fn a_leg_with_a_wrong_model_is_seen_in_the_chi_square() {
     let right = calibrate(&nominal(), &rows, &options(Some(ENCODERS))).unwrap();
     assert_eq!(right.status, CalibrationStatus::Calibrated);
     assert!(right.chi_square.probability.unwrap() > 1e-3);
-    // the screw of leg 4 has an error that comes back with every turn
+    // the screw of leg 4 has an error that repeats with every revolution
     for row in &mut rows {
         row.lengths[3] += 0.1 * (row.lengths[3] * std::f64::consts::TAU / 10.0).sin();
     }
@@ -307,7 +307,7 @@ fn the_answer_moves_with_frames_legs_and_units() {
     assert!(farthest(&moved.model, &expected) < 1e-5);
     assert!((moved.chi_square.value - found.chi_square.value).abs() < 1e-6 * found.chi_square.value);
 
-    // the platform frame turned about its origin, which is where positions are measured
+    // the platform frame rotated about its origin, whose position is measured
     let turn = random_rotation(&mut rng);
     let turned_rows: Vec<Measurement> = rows
         .iter()

@@ -1,8 +1,7 @@
-//! Poses of machines whose drives are not as long as the distances of their joints: followed from one to the next, with
-//! a proved bound of the error.
+//! Pose tracking for machines whose drive lengths differ from the distances of their joints, with a proved error bound.
 //!
-//! What a leg is like is in `src/machine/requirements/coupled`, since limits are about it too. `docs/theory/joints.md`
-//! has derivations and proofs.
+//! `src/machine/requirements/coupled` describes the legs, since limits need them too. `docs/theory/joints.md` has
+//! derivations and proofs.
 
 mod proof;
 #[cfg(test)]

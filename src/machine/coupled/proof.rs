@@ -8,32 +8,32 @@ use num::interval::Interval;
 use platform::geom::enclosed::{IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times};
 use platform::geom::{Pose, arc_cosine};
 
-/// How far the pose of the machine is from the one found, at most.
+/// Greatest distance of the true pose of the machine from the computed one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseBound {
-    /// Of the platform origin, design units.
+    /// Error of the platform origin, design units.
     pub position: f64,
-    /// Of the turn, radians.
+    /// Error of the orientation, radians.
     pub angle: f64,
-    /// The factor by which the Newton map contracts about the pose: below 1.
+    /// Contraction factor of the Newton map about the pose, below 1.
     pub contraction: f64,
 }
 
 /// Rounds of shrinking the enclosures of the directions of a leg.
 const ROUNDS: usize = 12;
 
-/// Sizes of the neighbourhood tried, each this much wider than the last.
+/// Factor between successive sizes of the tried neighbourhood.
 const WIDER: f64 = 30.0;
 
 fn met(a: Interval, b: Interval) -> Interval {
     Interval::new(a.lo().max(b.lo()), a.hi().min(b.hi())).unwrap_or(a)
 }
 
-/// The poses about one: translations and turns within `reach`, each coordinate in its unit.
+/// A neighbourhood of a pose: translations and rotations within `reach`, each coordinate in its unit.
 struct Neighbourhood {
     rotation: Rotation,
     position: IntervalVector,
-    /// Bounds the entries of `J - I`, `J` the left Jacobian of the turn: `|w| / 2 + |w|^2 / 6`, rounded up.
+    /// Bounds the entries of `J - I`, `J` the left Jacobian of the rotation: `|w| / 2 + |w|^2 / 6`, rounded up.
     tilt: f64,
 }
 
@@ -68,7 +68,7 @@ impl CoupledLegs {
         let mut ends = [0, 1].map(|end| if self.needs(end) { [all; 3] } else { [Interval::ZERO; 3] });
         for _ in 0..ROUNDS {
             for end in (0..2).filter(|end| self.needs(*end)) {
-                // the first rounds may say nothing where the offsets are large
+                // the first rounds may give no enclosure where the offsets are large
                 if let Some(next) = placed.direction(end, &ends[1 - end]) {
                     ends[end] = std::array::from_fn(|k| met(next[k], ends[end][k]));
                 }
@@ -97,8 +97,8 @@ impl CoupledLegs {
         Interval::new(self.lead.next_down().next_down(), self.lead.next_up().next_up())
     }
 
-    /// How far the pose with exactly these lengths of drives may be from the one given, where the test proves that
-    /// there is one, and only one, in a neighbourhood.
+    /// Error bound of a given pose for exactly these drive lengths. The test proves that a neighbourhood holds exactly
+    /// one pose with these lengths.
     pub(super) fn bound(
         &self,
         pose: &Pose,
@@ -130,7 +130,7 @@ impl CoupledLegs {
         }
         let (kappa, eta) = best?;
         let away = Interval::from(eta).checked_div(Interval::from(1.0) - Interval::from(kappa))?.hi();
-        // three coordinates, and a root of three rounded up; the pose counts as what its quaternion says
+        // three coordinates and a root of three, rounded up; the quaternion defines the pose
         let norm = (Interval::from(away) * Interval::from(1.7321)).hi();
         Some(PoseBound {
             position: (Interval::from(norm) * Interval::from(unit_of_length)).hi(),
@@ -174,7 +174,7 @@ fn angle(sine: Interval, cosine: Interval, near: f64) -> Option<Interval> {
     if cosine.lo() > 0.5 {
         return Some(right - arc_cosine(sine));
     }
-    // the cosine alone tells angles of one sign
+    // the cosine alone determines the angle if its sign is known
     let known = arc_cosine(cosine);
     if sine.lo() > 0.0 && near > 0.0 {
         Some(known)

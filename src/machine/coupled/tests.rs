@@ -1,4 +1,4 @@
-//! Legs as chains of turns, simulated by code of their own; round trips; what does not settle.
+//! Legs as chains of rotations, simulated by separate code; round trips; cases without convergence.
 #![allow(clippy::float_cmp, reason = "ideal joints give the same bits")]
 
 use nalgebra::{Matrix6, Point3, Rotation3, Unit, Vector3, Vector6};
@@ -10,20 +10,20 @@ use num::Rng;
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator};
 
-/// A leg as it is built: base, turn about x, offset along z, turn about y, length along z, turn about z, turn about y,
-/// offset along z, turn about x.
+/// A leg as it is built: base, rotation about x, offset along z, rotation about y, length along z. Rotations about z
+/// and y, the offset along z, and a rotation about x follow.
 #[derive(Debug, Clone, Copy)]
 struct SimulatedLeg {
     base: Vector3<f64>,
     frame: Rotation3<f64>,
     offsets: [f64; 2],
-    /// Turns about the first and the second axis, length, turn about the leg, turns about the second and the first axis
-    /// of the platform.
+    /// Angles about the first and the second axis of the base, length, angle about the leg, angles about the second and
+    /// the first axis of the platform.
     at: [f64; 6],
 }
 
 impl SimulatedLeg {
-    /// Where the platform joint is, and how what is fixed to it is turned.
+    /// Position of the platform joint, and orientation of the parts fixed to it.
     fn end(&self, at: &[f64; 6]) -> (Vector3<f64>, Rotation3<f64>) {
         let [q1, q2, length, twist, q3, q4] = *at;
         let about =
@@ -39,11 +39,11 @@ impl SimulatedLeg {
         (place, turn * about(x, q4))
     }
 
-    /// The state that takes the end to a place and a turn, by Newton's method with differences.
+    /// The state that takes the end to a position and an orientation, by Newton's method with finite differences.
     fn solved(&self, place: &Vector3<f64>, turn: &Rotation3<f64>) -> [f64; 6] {
         let error = |at: &[f64; 6]| {
             let (p, r) = self.end(at);
-            // twice the sine of the turn that is left, along its axis: zero where there is none
+            // twice the sine of the remaining rotation, along its axis: zero if no rotation remains
             let w = (r * turn.inverse()).into_inner();
             let w = [w[(2, 1)] - w[(1, 2)], w[(0, 2)] - w[(2, 0)], w[(1, 0)] - w[(0, 1)]];
             Vector6::new(p.x - place.x, p.y - place.y, p.z - place.z, w[0], w[1], w[2])
@@ -67,12 +67,12 @@ impl SimulatedLeg {
     }
 }
 
-/// A machine of chains at home, and what a design says of it.
+/// A machine of chains at home, and its description in a design.
 struct Built {
     chains: [SimulatedLeg; 6],
     legs: CoupledLegs,
     home: Pose,
-    /// What the platform has of each chain at home: the turn of its end, platform frame.
+    /// Orientation of the end of each chain at home, platform frame.
     carried: [Rotation3<f64>; 6],
     lead: f64,
 }
@@ -165,7 +165,7 @@ fn drives_are_as_long_as_those_of_simulated_chains() {
                     );
                     away = away.max((ideal[i] - simulated[i]).abs());
                 }
-                // the control: lengths of ideal joints are something else
+                // the control: lengths of ideal joints differ
                 assert_eq!(away > 1e-3, offsets != [0.0, 0.0] || lead != 0.0, "{offsets:?} {lead} {away}");
             }
         }
@@ -230,7 +230,7 @@ fn poses_come_back_and_their_error_is_within_the_bound_proved() {
     }
 }
 
-/// The bound of a pose that is not the one: it says how far off that is.
+/// The bound of a wrong pose covers its distance from the right one.
 #[test]
 fn the_bound_of_a_pose_beside_the_right_one_reaches_to_it() {
     let mut rng = Rng::new(74);
@@ -324,8 +324,8 @@ fn motions_and_scales_change_nothing() {
     }
 }
 
-/// The correction of `LinuxCNC`'s genhexkins for axes that meet, written after its source: the angle from the part of
-/// the base axis across the leg to the second axis at the platform, by its sine.
+/// The correction of `LinuxCNC`'s genhexkins for intersecting axes, written after its source. It takes the sine of the
+/// angle between the second platform axis and the part of the base axis across the leg.
 #[test]
 fn corrections_of_screws_are_those_of_genhexkins_less_their_values_at_home() {
     let mut rng = Rng::new(78);

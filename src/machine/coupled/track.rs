@@ -1,7 +1,7 @@
 //! The pose for given lengths of drives, near a known one.
 //!
-//! The lengths asked for less the correction at the last pose are distances of joints; the pose for them is followed by
-//! [`NearSolver`]; with its correction the next distances follow. This is the fixed point of
+//! The distances of the joints are the requested lengths minus the correction at the last pose. [`NearSolver`] follows
+//! the pose for them, and its correction gives the next distances. This is the fixed-point iteration
 //! `rho -> c - corr(pose(rho))`, which contracts by the derivative of the correction times the inverse Jacobian of the
 //! distances.
 
@@ -17,17 +17,16 @@ const STEPS: u32 = 200;
 /// Steps in which the change has to become smaller at least once.
 const PATIENCE: u32 = 8;
 
-/// What came of it.
+/// The result of the tracking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CoupledStatus {
-    /// The pose found is that of the drives within the bound, which is proved: there is exactly one pose with these
-    /// lengths of drives in a neighbourhood.
+    /// The pose is proved within the bound: exactly one pose of a neighbourhood has these drive lengths.
     Proved(PoseBound),
-    /// The fixed point was reached, and no bound of its error is proved.
+    /// The iteration reached its fixed point, but no error bound is proved.
     Unproved,
-    /// The corrections did not settle: no pose is given.
+    /// The corrections did not converge: no pose is given.
     NotContracting,
-    /// The pose of the distances was not followed to its end.
+    /// The solver could not follow the pose for the distances.
     NotTracked,
     /// A drive has no length at a pose on the way.
     NoLength(NoDriveLength),
@@ -40,7 +39,7 @@ impl CoupledStatus {
         matches!(self, Self::Proved(_) | Self::Unproved)
     }
 
-    /// The word for it.
+    /// The status as a word.
     #[must_use]
     pub fn word(&self) -> DriveSolutionWord {
         match self {
@@ -77,7 +76,7 @@ impl CoupledStatus {
     }
 }
 
-/// Knowledge of the pose for lengths of drives.
+/// The status of the pose for drive lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -87,11 +86,11 @@ impl CoupledStatus {
 pub enum DriveSolutionWord {
     /// There is exactly one pose with these lengths in a neighbourhood, within the bound.
     Proved,
-    /// The corrections settled, and no bound is proved.
+    /// The corrections converged, and no bound is proved.
     Unproved,
-    /// The corrections did not settle.
+    /// The corrections did not converge.
     NotContracting,
-    /// The pose of the distances was not followed to its end.
+    /// The solver could not follow the pose for the distances.
     NotTracked,
     /// A drive has no length at a pose on the way.
     NoLength,
@@ -100,21 +99,20 @@ pub enum DriveSolutionWord {
 /// The pose for lengths of drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledOutcome {
-    /// How the pose of the last distances was followed from the one before; its pose is the last one.
+    /// Result of the last solver run; its pose is the last one.
     pub near: NearOutcome,
-    /// What is known of it.
+    /// Status of the pose.
     pub status: CoupledStatus,
     /// Distances of the joints that the last pose was followed to.
     pub distances: [f64; 6],
     /// Steps of the fixed point.
     pub steps: u32,
-    /// The largest ratio of changes of the corrections in two steps, as long as they told more than rounding; 0 where
-    /// there were none.
+    /// The largest ratio of changes of the corrections in two successive steps above rounding; 0 without such steps.
     pub factor: f64,
 }
 
 impl CoupledOutcome {
-    /// The pose, where the corrections settled.
+    /// The pose, where the corrections converged.
     #[must_use]
     pub fn pose(&self) -> Option<&Pose> {
         self.near.tracked().filter(|_| self.status.is_reached())
@@ -140,13 +138,13 @@ impl CoupledTracker {
         Self { solver: NearSolver::new(legs.manipulator()), legs, pose }
     }
 
-    /// Where the platform is.
+    /// The current pose of the platform.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.pose
     }
 
-    /// Continues to other lengths of drives; where no pose is found the tracker stays where it was.
+    /// Moves to other drive lengths; the tracker keeps its pose if no new one is found.
     pub fn step(&mut self, drives: &[f64; 6]) -> CoupledOutcome {
         let found = self.find(drives);
         if let Some(pose) = found.pose() {
@@ -196,7 +194,7 @@ impl CoupledTracker {
             };
             let after = corrections(&states);
             let change = (0..6).map(|i| (after[i] - before[i]).abs()).fold(0.0, f64::max);
-            // what rounding leaves of a change
+            // rounding limit of a change
             let settled = change <= 16.0 * f64::EPSILON * size;
             if !settled {
                 if last.is_finite() && out.steps > 2 {
@@ -208,8 +206,8 @@ impl CoupledTracker {
                     continue;
                 }
             }
-            // rounding of the pose may keep corrections from settling to the last bit; those that grew away from a pose
-            // did not settle
+            // rounding of the pose can keep corrections from converging to the last bit; growing corrections did not
+            // converge
             if settled || last <= 1e-13 * size {
                 let bound = self.legs.bound(&from, &states, drives);
                 out.status = bound.map_or(CoupledStatus::Unproved, CoupledStatus::Proved);

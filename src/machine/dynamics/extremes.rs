@@ -10,15 +10,15 @@ use super::LegMotion;
     schemars(rename = "ExtremeRecord")
 )]
 pub struct Extreme {
-    /// With its sign.
+    /// The signed value.
     #[cfg_attr(feature = "serde", schemars(with = "num::Number"))]
     pub value: f64,
-    /// When.
+    /// Time of the value, seconds.
     #[cfg_attr(feature = "serde", serde(rename = "time_s"))]
     pub time: f64,
 }
 
-/// What a leg does along a motion, at the instants that were looked at.
+/// Extremes of a leg along a motion, at the sampled instants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegExtremes {
     /// Least length, design units.
@@ -29,16 +29,16 @@ pub struct LegExtremes {
     pub speed: Extreme,
     /// Acceleration of the greatest size, design units per second squared.
     pub acceleration: Extreme,
-    /// What the drive does; `None` where no masses are known.
+    /// Extremes of the drive; `None` without masses.
     pub drive: Option<DriveExtremes>,
 }
 
-/// What the drive of a leg does along a motion.
+/// Extremes of the drive of a leg along a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveExtremes {
-    /// The hardest push: the greatest force, 0 of a drive that only pulls.
+    /// The greatest pushing force; 0 for a drive that only pulls.
     pub push: Extreme,
-    /// The hardest pull, a negative force; 0 of a drive that only pushes.
+    /// The greatest pulling force, negative; 0 for a drive that only pushes.
     pub pull: Extreme,
     /// Power of the greatest size, negative where the drive brakes.
     pub power: Extreme,
@@ -50,8 +50,8 @@ pub struct DriveExtremes {
 pub type LegInstant = (f64, LegMotion, Option<(f64, f64)>);
 
 impl LegExtremes {
-    /// Of the instants of a leg, in the order of time; `None` without any, or where an instant has forces and another
-    /// has none.
+    /// The extremes over the instants of a leg, in the order of time. `None` without any instant, or where only some
+    /// instants have forces.
     #[must_use]
     pub fn of(instants: &[LegInstant]) -> Option<Self> {
         let most = |value: &dyn Fn(&LegInstant) -> f64, better: &dyn Fn(f64, f64) -> bool| {
@@ -83,7 +83,7 @@ impl LegExtremes {
     }
 }
 
-/// Root of the mean square over time by trapezia; of an instant its size.
+/// Root of the mean square over time by trapezia; for one instant its size.
 fn rms(values: impl Iterator<Item = (f64, f64)>) -> f64 {
     let values: Vec<(f64, f64)> = values.collect();
     let (Some(first), Some(last)) = (values.first(), values.last()) else { return f64::NAN };

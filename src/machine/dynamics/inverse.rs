@@ -40,9 +40,9 @@ pub struct LegMotion {
     pub acceleration: f64,
 }
 
-/// A leg in motion: what all its equations need.
+/// A leg in motion: the quantities that all its equations need.
 struct MovingLeg {
-    /// Of the head from the platform origin, base frame.
+    /// Arm of the head from the platform origin, base frame.
     arm: Vector3<f64>,
     /// Unit vector from base joint to platform joint.
     along: Vector3<f64>,
@@ -95,7 +95,7 @@ impl MovingLeg {
         moment.cross(&self.along) / self.motion.length
     }
 
-    /// Force of the drive less the push on the platform.
+    /// Force of the drive minus the push on the platform.
     fn own(&self, bodies: &MovingBodies) -> f64 {
         let rod = &bodies.leg.rod;
         let centripetal = self.rod_at(bodies) * self.turning.norm_squared();
@@ -117,10 +117,10 @@ pub(super) fn turned_inertia(bodies: &MovingBodies, state: &MotionState) -> Matr
     r * bodies.inertia * r.transpose()
 }
 
-/// The forces of the drives, positive where they push the platform; `load` is a force and a torque about the platform
-/// origin that act on the platform besides the weight, base frame.
+/// The forces of the drives, positive where they push the platform. `load` is a force and a torque about the platform
+/// origin on the platform besides the weight, base frame.
 ///
-/// `None` at a singular pose, where no forces or many give the motion, and for a leg of length zero.
+/// `None` at a singular pose, where the forces do not exist or are not unique, and for a leg of length zero.
 #[must_use]
 pub fn drive_forces(
     m: &Manipulator,
@@ -143,7 +143,7 @@ pub fn drive_forces(
     }
     force -= load.fixed_rows::<3>(0);
     torque -= load.fixed_rows::<3>(3);
-    // moments over the size, so that the rows of the system are of one kind
+    // moments are divided by the size, so all rows of the system have the same unit
     let size = m.size();
     let torque = torque / size;
     let right = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);

@@ -41,7 +41,7 @@ impl PlatformFreedom {
         ["x", "y", "z", "roll", "pitch", "yaw"][self as usize]
     }
 
-    /// `true` for the three turns, whose amounts are in degrees.
+    /// `true` for the three rotations, whose amounts are in degrees.
     #[must_use]
     pub fn is_turn(self) -> bool {
         self as usize >= 3
@@ -51,8 +51,8 @@ impl PlatformFreedom {
         [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][self as usize % 3]
     }
 
-    /// The state of a platform that was at `about` before it moved by `amount` (design units or radians) in this
-    /// freedom, with the derivatives of the amount.
+    /// The state of a platform that moved from `about` by `amount` (design units or radians) in this freedom, with the
+    /// derivatives of the amount.
     fn state(self, about: &Pose, [amount, speed, acceleration]: [f64; 3]) -> MotionState {
         let axis = self.axis();
         let rest = MotionState::at_rest(*about);
@@ -79,16 +79,16 @@ impl PlatformFreedom {
 pub enum Manoeuvre {
     /// `amplitude sin(2 pi frequency t)` over one period.
     Sine {
-        /// What moves.
+        /// The moving freedom.
         freedom: PlatformFreedom,
         /// Design units or degrees.
         amplitude: f64,
         /// Hertz, positive.
         frequency: f64,
     },
-    /// At rest with an acceleration: what it takes to start or to stop.
+    /// An acceleration from rest: the forces needed to start or to stop.
     Acceleration {
-        /// What moves.
+        /// The moving freedom.
         freedom: PlatformFreedom,
         /// Design units or degrees per second squared.
         acceleration: f64,
@@ -98,13 +98,13 @@ pub enum Manoeuvre {
 /// A text that is no manoeuvre.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InvalidManoeuvre {
-    /// It does not have as many parts.
+    /// It has a wrong number of parts.
     #[error("`{0}` is not of the form {1}")]
     Form(String, &'static str),
-    /// Its freedom is none.
+    /// Its freedom is unknown.
     #[error("`{0}` is no freedom: x, y, z, roll, pitch or yaw")]
     Freedom(String),
-    /// A number of it is none, or has the wrong sign.
+    /// One of its numbers is not a number or has the wrong sign.
     #[error("`{0}` is not {1}")]
     Number(String, &'static str),
 }
@@ -154,7 +154,7 @@ impl Manoeuvre {
         Ok(Self::Acceleration { freedom: freedom.parse()?, acceleration: finite(acceleration)? })
     }
 
-    /// How long it takes, seconds; an acceleration from rest is an instant.
+    /// Its duration, seconds; 0 for an acceleration from rest.
     #[must_use]
     pub fn duration(&self) -> f64 {
         match self {

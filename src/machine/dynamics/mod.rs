@@ -1,8 +1,8 @@
-//! Says how the legs move and what their drives push when the platform moves with its payload: inverse dynamics,
-//! stiffness, natural frequencies.
+//! Inverse dynamics, stiffness and natural frequencies: the leg motions and drive forces for a motion of the platform
+//! with its payload.
 //!
-//! All functions take lengths in design units, masses in kilograms and times in seconds; forces are then in kilograms
-//! times design units per second squared, which [`MovingBodies::newtons`] turns into newtons. `docs/theory/motion.md`
+//! All functions take lengths in design units, masses in kilograms and times in seconds. Forces are then in kilograms
+//! times design units per second squared; [`MovingBodies::newtons`] converts them to newtons. `docs/theory/motion.md`
 //! derives the formulas and names their sources.
 
 mod extremes;

@@ -1,13 +1,13 @@
 //! A motion through poses at given times, with continuous accelerations.
 //!
-//! The coordinates of the position are cubic splines of time. So are the four coordinates of the quaternion, whose
-//! curve is then divided by its norm: the rotation is twice continuously differentiable, and the same motion results in
-//! every frame of base and platform, since turns are orthogonal maps of quaternions. With `q = s / |s|`, angular
+//! The coordinates of the position are cubic splines of time. The four coordinates of the quaternion are cubic splines
+//! too, divided by the norm afterwards. The rotation is thus twice continuously differentiable. The motion is the same
+//! in every frame of base and platform, since rotations are orthogonal maps of quaternions. With `q = s / |s|`, angular
 //! velocity and acceleration are twice the vector parts of `q' q*` and `q'' q*`.
 //!
-//! At the ends the third derivative is continuous across the second and the last but one time ("not a knot": de Boor,
-//! *A Practical Guide to Splines*, 1978, chapter IV), or the speed is zero. Errors of a smooth motion sampled every `h`
-//! are of the order `h^4` in position, `h^3` in velocity and `h^2` in acceleration.
+//! At each end the speed is zero, or the third derivative is continuous across the neighbouring time. The latter is
+//! "not a knot" (de Boor, *A Practical Guide to Splines*, 1978, chapter IV). Errors of a smooth motion sampled every
+//! `h` are of the order `h^4` in position, `h^3` in velocity and `h^2` in acceleration.
 
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -18,10 +18,10 @@ use platform::geom::Pose;
 /// Position, then quaternion with the scalar part first.
 type Row = SVector<f64, 7>;
 
-/// What is known of the ends of a motion.
+/// End conditions of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PathEnds {
-    /// Nothing: the poses say all.
+    /// No condition: the poses determine the ends.
     #[default]
     Free,
     /// The platform rests at the first pose and at the last.
@@ -37,7 +37,7 @@ pub struct PosePath {
     bends: Vec<Row>,
 }
 
-/// Why poses and times are no motion. Rows are counted from 0.
+/// Reasons why poses and times define no motion. Rows are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum InvalidPath {
     /// Fewer than two poses.
@@ -50,23 +50,23 @@ pub enum InvalidPath {
         row: usize,
         /// Its time, seconds.
         time: f64,
-        /// That of the row before, seconds.
+        /// Time of the row before, seconds.
         before: f64,
     },
-    /// The platform turns so far from one pose to the next that the way between them is not told.
+    /// The rotation between successive poses is too large to determine the path between them.
     #[error(
         "the platform turns by {degrees:.1} degrees from the pose before; a quarter turn is the most that a motion is followed over"
     )]
     TurnsTooFar {
         /// The row.
         row: usize,
-        /// The turn.
+        /// The angle of the rotation between the two poses, degrees.
         degrees: f64,
     },
 }
 
 impl InvalidPath {
-    /// The row that it is about.
+    /// The row at fault.
     #[must_use]
     pub fn row(&self) -> Option<usize> {
         match self {
@@ -101,7 +101,7 @@ impl PosePath {
                     let degrees = 2.0 * product.abs().acos().to_degrees();
                     return Err(InvalidPath::TurnsTooFar { row, degrees });
                 }
-                // q and -q are one rotation: the sign that continues the curve
+                // q and -q are the same rotation; take the sign that continues the curve
                 q = q.map(|x| x * product.signum());
             }
             let p = pose.position;
@@ -117,7 +117,7 @@ impl PosePath {
         &self.times
     }
 
-    /// The state at a time; before the first pose and after the last one the outer pieces go on.
+    /// The state at a time; before the first and after the last pose the outer pieces continue.
     #[must_use]
     pub fn at(&self, time: f64) -> MotionState {
         let last = self.times.len() - 2;
@@ -135,8 +135,8 @@ impl PosePath {
 }
 
 impl PosePath {
-    /// The piece between two times that follow each other, by the control points of its Bezier curve: position, then
-    /// quaternion of any norm.
+    /// The piece between two successive times, by the control points of its Bezier curve: position, then quaternion of
+    /// any norm.
     ///
     /// Pieces meet exactly; inside a piece the control points round the spline.
     pub fn control_points(&self, piece: usize) -> [[f64; 7]; 4] {
@@ -150,7 +150,7 @@ impl PosePath {
     }
 }
 
-/// The state that a point of the curve and its derivatives stand for.
+/// The motion state for a point of the curve and its derivatives.
 fn state(value: &Row, first: &Row, second: &Row) -> MotionState {
     let position = |row: &Row| Vector3::new(row[0], row[1], row[2]);
     let quaternion = |row: &Row| Quaternion::new(row[3], row[4], row[5], row[6]);

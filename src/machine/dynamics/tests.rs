@@ -69,7 +69,7 @@ fn derivative(f: impl Fn(f64) -> f64, t: f64) -> f64 {
     (8.0 * (f(t + h) - f(t - h)) - (f(t + 2.0 * h) - f(t - 2.0 * h))) / (12.0 * h)
 }
 
-/// Times within the pieces of a path, away from the knots by more than a difference reaches.
+/// Times within the pieces of a path, farther from the knots than the step of the differences.
 fn inner_times(path: &PosePath) -> Vec<f64> {
     path.times().windows(2).flat_map(|t| [0.3, 0.6].map(|x| t[0] + x * (t[1] - t[0]))).collect()
 }
@@ -244,7 +244,7 @@ fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
         plate: PlateMass::Included,
         shape: None,
     };
-    // a design in millimetres would have the same newtons
+    // the same design in millimetres has the same forces in newtons
     let bodies = MovingBodies::new(&payload, None, MassUnit::Kilogram, 1.0);
     let pose = Pose { rotation: Rotation3::from_euler_angles(0.1, 0.2, 0.3), ..default_home(&m) };
     let found = drive_forces(&m, &bodies, &MotionState::at_rest(pose), &Vector6::zeros()).unwrap();
@@ -256,8 +256,8 @@ fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
     assert!((0..6).all(|i| (doubled[i] - 2.0 * found[i]).abs() < 1e-10));
 }
 
-/// The statics of requirements and the inverse dynamics are two derivations: at rest they give the same forces, for
-/// legs that weigh more or less than the payload.
+/// Statics of requirements and inverse dynamics agree at rest, for legs that weigh more or less than the payload. The
+/// two are derived separately.
 #[test]
 fn loads_at_rest_are_held_by_the_forces_of_the_inverse_dynamics() {
     let mut rng = Rng::new(31);
@@ -431,7 +431,7 @@ fn natural_motions_solve_the_equation_and_springs_give_way_as_they_should() {
     }
     assert!(least.linear <= softest[0] * (1.0 + 1e-12) && least.linear > 0.99 * softest[0]);
     assert!(least.angular <= softest[1] * (1.0 + 1e-12) && least.angular > 0.99 * softest[1]);
-    // a point mass at the origin does not hold against turns
+    // a point mass at the origin has no rotational inertia
     let mut point = bodies;
     (point.inertia, point.center, point.leg) = (Matrix3::zeros(), Point3::origin(), LegMasses::default());
     assert_eq!(vibration(&m, &pose, k, &mass_matrix(&m, &point, &pose)), None);

@@ -1,4 +1,4 @@
-//! How far the joints may be off their places.
+//! Allowed position errors of the joints.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -16,48 +16,48 @@ use platform::manipulator::Manipulator;
 const GAP: f64 = 1e-6;
 /// Accuracy of the allowances of largest product, and rounds of new constraints at most.
 const PRODUCT: (f64, usize) = (1e-3, 80);
-/// A coordinate with less than this share of the largest influence has none.
+/// A coordinate below this share of the largest influence has no influence.
 const NO_INFLUENCE: f64 = 1e-12;
 
-/// How far joints may be off.
+/// An allowed joint error with the bound that limits it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "JointLimitRecord", transform = num::nullable))]
 pub struct LimitedAllowance {
-    /// Keeps the bound to first order, design units.
-    // no error of this size uses up the bound at the poses looked at
+    /// Allowed error that keeps the bound to first order, design units.
+    // no error of this size reaches the bound at the sampled poses
     pub value: f64,
-    /// Uses the bound up to first order.
-    // some error of this size does at `pose`; above `value` by a millionth at most, save for worst cases in which all
-    // directions are nearly alike
+    /// Error size that reaches the bound to first order.
+    // some error of this size reaches it at `pose`; it exceeds `value` by a millionth at most, except for worst cases
+    // with nearly equal directions
     pub reached: f64,
-    /// Which bound it is.
+    /// The bound that is reached.
     #[cfg_attr(feature = "serde", serde(rename = "limited_by"))]
     pub kind: ErrorKind,
-    /// The pose at which it is.
+    /// The pose at which it is reached.
     #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub pose: Pose,
 }
 
-/// A joint by itself.
+/// The allowance of a single joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointBudget {
     /// The joint.
     pub joint: Joint,
-    /// How far it alone may be off in the worst direction, all other joints in their places.
+    /// Allowed error of this joint alone in the worst direction, with all other joints in place.
     pub alone: LimitedAllowance,
-    /// That direction, frame of the body, of norm 1; the opposite one is as bad.
+    /// The worst direction, frame of the body, of norm 1; the opposite one is as bad.
     pub direction: Vector3<f64>,
     /// Error at `alone.pose` per unit of error in that direction: of the tool point (no unit) and of the orientation
     /// (degrees per design unit).
     pub per_unit: (f64, f64),
-    /// How far it alone may be off along each axis of the body frame; `None` where an error has no influence.
+    /// Allowed error of this joint alone along each axis of the body frame; `None` where an error has no influence.
     pub along: [Option<f64>; 3],
     /// Half widths of the box of errors with the largest product over all joints; `None` where an error has no
     /// influence.
     pub product_box: [Option<f64>; 3],
 }
 
-/// How far all joints together may be off.
+/// Allowed errors of all joints together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Budget {
     /// All joints at once, each in a ball of this radius.
@@ -77,8 +77,8 @@ pub struct Budget {
 const SHRINKING: usize = 30;
 
 impl Budget {
-    /// The share of the bounds that the worst errors of all joints use up at their pose, solved and not to first order,
-    /// when they are of this length, either way. `None` where a pose could not be followed.
+    /// The share of the bounds that the worst joint errors reach at their pose, with this length and either sign. The
+    /// pose is solved, not linearised. `None` where a pose could not be followed.
     #[must_use]
     pub fn solved_share(
         &self,
@@ -95,8 +95,8 @@ impl Budget {
         })
     }
 
-    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are
-    /// solved, either way.
+    /// A radius, at most that of the budget, whose worst errors keep the bound at their pose when the pose is solved,
+    /// with either sign.
     #[must_use]
     pub fn solved_radius(&self, m: &Manipulator, tool: &Point3<f64>, bound: &ErrorBound) -> Option<f64> {
         let mut radius = self.radius.value;
@@ -111,7 +111,7 @@ impl Budget {
     }
 }
 
-/// The larger use of the two bounds, and which.
+/// The larger use of the two bounds, and its kind.
 fn larger(values: [f64; 2]) -> (f64, ErrorKind) {
     if values[1] > values[0] { (values[1], ErrorKind::Rotation) } else { (values[0], ErrorKind::Position) }
 }
@@ -120,7 +120,7 @@ fn index(kind: ErrorKind) -> usize {
     usize::from(kind == ErrorKind::Rotation)
 }
 
-/// The pose at which a family of gauges is greatest, with the bracket there.
+/// The pose with the greatest value of a family of gauges, with the bracket there.
 fn limit(
     sample: &PoseSample<'_>,
     gauge: &dyn Fn(&[Matrix3<f64>]) -> Gauge,
@@ -142,7 +142,7 @@ fn norm_and_direction(g: &Matrix3<f64>) -> (f64, Vector3<f64>) {
     (values[k].max(0.0).sqrt(), vectors.column(k).into())
 }
 
-/// Sign so that the entry of largest modulus is positive.
+/// The vector with the sign that makes its entry of largest modulus positive.
 fn oriented(v: Vector3<f64>) -> Vector3<f64> {
     let entry = v[v.iamax()];
     if entry < 0.0 { -v } else { v }
@@ -150,9 +150,9 @@ fn oriented(v: Vector3<f64>) -> Vector3<f64> {
 
 /// The tolerance budget of a manipulator over a workspace: first order in the errors, worst case over them.
 ///
-/// Every error of the computed pose is that of [`Sensitivity`](super::Sensitivity). Worst cases over balls are
-/// `max_n sum_j |G_j^T n|`, over boxes `max_n sum_jk |g_jk . n|`, bracketed by subdivision of the sphere of directions
-/// `n`; poses are searched, so that a worse pose between those looked at is possible, if unlikely.
+/// Pose errors are those of [`Sensitivity`](super::Sensitivity). Worst cases over balls are `max_n sum_j |G_j^T n|`,
+/// over boxes `max_n sum_jk |g_jk . n|`. Subdivision of the sphere of directions `n` brackets them. Poses are sampled,
+/// so a worse pose between them is possible, if unlikely.
 ///
 /// # Errors
 /// [`ToleranceError`]: a bound that is not positive, or a singular pose in the workspace.
@@ -195,8 +195,8 @@ pub fn budget(
     Ok(Budget { radius, half_width, joints: list, worst_errors, poses: sample.entries.len() })
 }
 
-/// How far all joints together may be off, each in a ball of this radius: [`Budget::radius`] alone, without the work
-/// for single joints.
+/// Allowed error of all joints together, each in a ball of this radius: [`Budget::radius`] alone, without the work for
+/// single joints.
 ///
 /// # Errors
 /// As [`budget`].

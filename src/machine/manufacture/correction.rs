@@ -1,4 +1,4 @@
-//! What a controller computes: the pose by the octahedral formula, then Newton steps on the calibrated joints.
+//! The controller's computation: the pose by the octahedral formula, then Newton steps on the calibrated joints.
 
 use nalgebra::Point3;
 use thiserror::Error;
@@ -14,11 +14,11 @@ use synthesis::{AffineLegMap, LegMapTolerances, Relation, SingularMap, leg_map};
 /// Imaginary parts of a real pose of the octic are below this, relative.
 const REAL: f64 = 1e-7;
 
-/// Why there is no octahedral formula for a design.
+/// Reasons why a design has no octahedral formula.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoFormula {
-    /// The octahedral platform is none.
+    /// The octahedral platform is not octahedral.
     #[error(transparent)]
     NotOctahedral(#[from] FkError),
     /// The design is not equivalent to the octahedral platform.
@@ -60,16 +60,16 @@ pub fn equivalent_octahedral(m: &Manipulator) -> Option<Manipulator> {
     octahedral_of(m, &found).ok()
 }
 
-/// Forward kinematics of a machine that is nominally equivalent to an octahedral platform. Made once; what it computes
-/// allocates nothing.
+/// Forward kinematics of a machine that is nominally equivalent to an octahedral platform. It is made once; its methods
+/// allocate no memory.
 ///
 /// ```text
 /// s_o = A^-1 (s - c),   pose = octic(s_o), the real pose nearest to the last one;   then Newton's method on |R b + p - a|^2 = s.
 /// ```
 ///
 /// `s` are the squared lengths that the machine measures, `A` and `c` the leg map of the nominal design, `a` and `b`
-/// the calibrated joints. The first pose is off by the first-order error of [`Sensitivity`](super::Sensitivity); a step
-/// of Newton's method squares it.
+/// the calibrated joints. The first pose has the first-order error of [`Sensitivity`](super::Sensitivity); each step of
+/// Newton's method squares it.
 #[derive(Debug, Clone)]
 pub struct Controller {
     to_octahedral: AffineLegMap,
@@ -81,8 +81,8 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// Prepares an octahedral platform, a nominal design equivalent to it, and the calibrated joints of the machine (in
-    /// the leg order and the frames of the nominal design).
+    /// Prepares the controller. The calibrated joints are in the leg order and the frames of the nominal design, which
+    /// is equivalent to the octahedral platform.
     ///
     /// # Errors
     /// [`NoFormula`].
@@ -106,9 +106,8 @@ impl Controller {
         })
     }
 
-    /// The pose by the octahedral formula: of the real poses the one nearest to `last`. Lengths at which the octic is
-    /// degenerate (a symmetric home pose is) are solved from `last` by [`NearSolver`]. `None` when no real pose has
-    /// these lengths.
+    /// The pose by the octahedral formula: the real pose nearest to `last`. Lengths at which the octic is degenerate (a
+    /// symmetric home pose is) are solved from `last` by [`NearSolver`]. `None` when no real pose has these lengths.
     #[must_use]
     pub fn formula(&self, s: &SquaredLegLengths, last: &Pose) -> Option<Pose> {
         let squares = self.to_octahedral.apply(s).ok()?;
@@ -127,8 +126,8 @@ impl Controller {
         self.calibrated.newton_steps(s, pose, steps)
     }
 
-    /// The covariance of a [corrected](Self::corrected) pose by what is not known of the calibrated joints and offsets,
-    /// to first order; the noise of the lengths is not in it. `None` at a singular pose and for an uncertainty of
+    /// The covariance of a [corrected](Self::corrected) pose from the uncertainty of the calibrated joints and offsets,
+    /// to first order. The noise of the lengths is not included. `None` at a singular pose and for an uncertainty of
     /// another machine.
     #[must_use]
     pub fn covariance(

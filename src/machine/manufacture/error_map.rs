@@ -1,4 +1,4 @@
-//! The error of the pose by all errors of a machine together, over its workspace.
+//! The pose error from all errors of a machine together, over its workspace.
 
 use nalgebra::{Point3, Vector3};
 
@@ -10,20 +10,19 @@ use crate::requirements::PoseSpace;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// By how much a machine may differ from its design.
+/// Bounds of the differences between a machine and its design.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MachineErrors {
-    /// Every joint is off by at most this in any direction, design units.
+    /// Greatest position error of every joint in any direction, design units.
     pub joints: f64,
-    /// Every leg is longer or shorter than it shows by at most this, each for itself, design units: homing, backlash,
-    /// pitch of a screw.
+    /// Greatest length error of every leg, independent of the others, design units: homing, backlash, pitch of a screw.
     pub lengths: f64,
     /// Growth of base, platform and legs, as shares of their sizes: temperature times coefficient of expansion. All
-    /// three are there together, with either sign.
+    /// three act together, with either sign.
     pub growth: [f64; 3],
 }
 
-/// The greatest error of one kind at a pose, and what each cause alone makes of it.
+/// The greatest error of one kind at a pose, in total and from each cause alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorParts {
     /// All causes together.
@@ -41,19 +40,19 @@ pub struct ErrorParts {
 pub struct ErrorAtPose {
     /// The pose.
     pub pose: Pose,
-    /// Of the tool point, design units.
+    /// Error of the tool point, design units.
     pub position: ErrorParts,
-    /// Of the orientation, degrees.
+    /// Error of the orientation, degrees.
     pub rotation_deg: ErrorParts,
 }
 
-/// The greatest errors of the pose that a controller computes with the nominal joints and the lengths shown, at the
-/// poses of a workspace: the corners and a sample of the region, and the poses that are listed.
+/// The greatest errors of the pose that a controller computes with the nominal joints and the shown lengths. They are
+/// taken at the listed poses, the corners of the region and a sample of it.
 ///
-/// To first order the pose is off by the twist `J^-1 e`, where a joint error adds to `e` as in [`Sensitivity`], a leg
-/// that is longer by `x` than it shows adds `-x`, and growth moves each joint by a share of its coordinates and each
-/// length by a share of it. Joints in balls, lengths in intervals and growth of either sign make a sum whose greatest
-/// norm is found by local searches from seven directions.
+/// To first order the pose is off by the twist `J^-1 e`. Joint errors add to `e` as in [`Sensitivity`]; a leg longer by
+/// `x` than shown adds `-x`. Growth moves each joint by a share of its coordinates and each length by a share of
+/// itself. Joints range over balls, lengths over intervals, and growth has either sign; local searches from seven
+/// directions find the greatest norm of the sum.
 ///
 /// # Errors
 /// A singular pose.

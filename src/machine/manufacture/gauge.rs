@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Local searches end when a step gains less than this share.
 const GAIN: f64 = 1e-13;
-/// Triangles of the sphere looked at on one level of subdivision, at most.
+/// Greatest number of triangles of the sphere on one level of subdivision.
 const TRIANGLES: usize = 4000;
 /// Levels of subdivision, at most: triangles of a thousandth of a degree.
 const LEVELS: usize = 16;
@@ -24,7 +24,7 @@ pub(crate) struct Gauge {
     segments: Vec<Vector3<f64>>,
 }
 
-/// What is known about the greatest value of `f`.
+/// Bounds of the greatest value of `f`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bracket {
     /// A value of `f`, reached in `direction`.
@@ -58,7 +58,7 @@ impl Gauge {
         balls + self.segments.iter().map(|s| s.dot(n).abs()).sum::<f64>()
     }
 
-    /// A subgradient at `n`: the sum itself with every part as far in direction `n` as it can be.
+    /// A subgradient at `n`: the sum with every part as far in direction `n` as possible.
     fn farthest(&self, n: &Vector3<f64>) -> Vector3<f64> {
         let mut out = Vector3::zeros();
         for b in &self.balls {
@@ -96,7 +96,7 @@ impl Gauge {
         (best, n)
     }
 
-    /// The best of local searches from the axes and the diagonals of the octants: a value that is reached.
+    /// The best local maximum from the axes and the diagonals of the octants: a value that `f` takes.
     pub(super) fn search(&self) -> (f64, Vector3<f64>) {
         let d = 1.0 / 3f64.sqrt();
         let starts = [
@@ -114,8 +114,8 @@ impl Gauge {
 
     /// Both bounds, within the relative gap where the number of triangles allows it.
     ///
-    /// A point of a spherical triangle is `x / |x|` with `x` in the flat one, `f(x)` is at most its greatest value at
-    /// the corners and `|x|` at least the distance of the plane from the origin: the quotient bounds `f`. Triangles
+    /// A point of a spherical triangle is `x / |x|` with `x` in the flat one. `f(x)` is at most its greatest value at
+    /// the corners, and `|x|` at least the distance of the plane from the origin. Their quotient bounds `f`. Triangles
     /// whose bound is below a value found are dropped, the others divided in four.
     pub(super) fn bracket(&self, gap: f64) -> Bracket {
         let (mut least, mut direction) = self.search();

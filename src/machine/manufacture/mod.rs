@@ -1,10 +1,9 @@
-//! Takes a design to a platform that can be built: tolerances of the joints, the correction that a controller runs,
-//! joints on a grid of holes.
+//! Manufacture of a design: tolerances of the joints, the correction in a controller, and joints on a grid of holes.
 //!
-//! * [`budget()`] and [`trials()`]: how far joints may be off for the pose that the nominal formula gives to stay
-//!   within a bound, to first order and by random errors.
+//! * [`budget()`] and [`trials()`]: allowed joint errors that keep the pose of the nominal formula within a bound, to
+//!   first order and by random errors.
 //! * [`error_map()`]: the error of the pose by joints, leg lengths and temperature together, over the workspace.
-//! * [`MachineUncertainty`]: how uncertain the poses of a calibrated machine are.
+//! * [`MachineUncertainty`]: the uncertainty of poses of a calibrated machine.
 //! * [`Controller`]: the octahedral formula and Newton steps on calibrated joints.
 //! * [`round_to_grid`]: joints on a grid, exactly equivalent to an octahedral platform or as near to it as the grid
 //!   allows.

@@ -8,9 +8,9 @@ const STEPS: usize = 2000;
 ///
 /// The dual is to maximise `sum_k log (lambda^T w)_k` over weights `lambda` of sum 1. With
 /// `q_r = (1/n) sum_k w_rk / (lambda^T w)_k` the step `lambda_r <- lambda_r q_r` never lowers it (Cover 1984), and at
-/// the optimum `x_k = 1 / (n (lambda^T w)_k)`, `q_r = w_r . x <= 1`. The result is divided by the largest `q_r`, so
-/// that it satisfies all constraints; its product is then below the best by a factor of at most `(max q)^n`. The
-/// iteration ends when `max q` is below `1 + accuracy`.
+/// the optimum `x_k = 1 / (n (lambda^T w)_k)`, `q_r = w_r . x <= 1`. The result is divided by the largest `q_r` and
+/// thus satisfies all constraints. Its product is below the best one by a factor of at most `(max q)^n`. The iteration
+/// ends when `max q` is below `1 + accuracy`.
 pub(super) fn largest_product(rows: &[Vec<f64>], weights: &mut Vec<f64>, accuracy: f64) -> Vec<f64> {
     let n = rows.first().map_or(0, Vec::len);
     // rows that are new start with a small weight

@@ -1,4 +1,4 @@
-//! The poses of a workspace with the sensitivities there, and the worst of them.
+//! The sample poses of a workspace with their sensitivities, and the worst of them.
 
 use nalgebra::{Matrix3, Point3, Vector6};
 use thiserror::Error;
@@ -9,16 +9,16 @@ use num::Purpose;
 use platform::geom::Pose;
 use platform::manipulator::{Manipulator, jacobian};
 
-/// How far the pose that is computed may be off.
+/// Bounds of the error of the computed pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorBound {
-    /// Of the tool point, design units, positive.
+    /// Error of the tool point, design units, positive.
     pub position: f64,
     /// Angle of rotation, degrees, positive.
     pub rotation_deg: f64,
 }
 
-/// Which of the two errors.
+/// The kind of a pose error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "serde",
@@ -26,9 +26,9 @@ pub struct ErrorBound {
     serde(rename_all = "snake_case")
 )]
 pub enum ErrorKind {
-    /// Of the tool point.
+    /// Error of the tool point.
     Position,
-    /// Of the orientation.
+    /// Error of the orientation.
     Rotation,
 }
 
@@ -43,7 +43,7 @@ impl ErrorKind {
     }
 }
 
-/// Which poses are looked at.
+/// The sampled poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseSearch {
     /// Points of a Halton sequence in the region of poses, and as many random ones.
@@ -72,7 +72,7 @@ impl PoseSearch {
     }
 }
 
-/// Why no tolerance can be given.
+/// Reasons why no tolerance can be given.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ToleranceError {
@@ -91,7 +91,7 @@ pub enum ToleranceError {
     /// A bound is not a positive number.
     #[error("the bound on the {} is {value}; it must be positive and finite", kind.name())]
     BadBound {
-        /// Which bound.
+        /// The bound.
         kind: ErrorKind,
         /// Its value.
         value: f64,
@@ -110,10 +110,10 @@ impl ErrorBound {
     }
 }
 
-/// `G_j` divided by the bound, of position and rotation: an error that uses up the bound has norm 1.
+/// `G_j` divided by the bound, of position and rotation: an error at the bound has norm 1.
 pub(super) type Shares = [Vec<Matrix3<f64>>; 2];
 
-/// A pose with what joint errors do there.
+/// A pose with the effects of joint errors there.
 #[derive(Debug, Clone)]
 pub(super) struct SampleEntry {
     pub(super) pose: Pose,
@@ -165,8 +165,8 @@ impl<'a> PoseSample<'a> {
         Some([over(s.position, self.bound.position), over(s.rotation, self.bound.rotation_deg.to_radians())])
     }
 
-    /// The pose where `measure` is greatest: the greatest at the poses of the sample, and what coordinate searches with
-    /// shrinking steps find from there.
+    /// The pose with the greatest `measure`: the greatest over the sample, improved by coordinate searches with
+    /// shrinking steps.
     pub(super) fn worst(
         &self,
         measure: &dyn Fn(&Shares) -> f64,

@@ -1,4 +1,4 @@
-//! What an error of a joint does to the pose, to first order.
+//! The effect of joint errors on the pose, to first order.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -20,8 +20,8 @@ const SINGULAR: f64 = 1e-10;
 /// ```
 ///
 /// and a tool point `q` of the platform by `v + w x (R q)`. Both are sums `sum_j G_j d_j` over the joints, with 3 x 3
-/// matrices `G_j`. A platform equivalent to another has the same poses at corresponding lengths: it is the same error
-/// whether the controller solves for the nominal design or for its equivalent octahedral one.
+/// matrices `G_j`. An equivalent platform has the same poses at corresponding lengths. The error is therefore the same
+/// if the controller solves for the equivalent octahedral platform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
     /// `G_j` of the position of the tool point, base frame, in the order of [`joints`].
@@ -30,7 +30,7 @@ pub struct Sensitivity {
     pub rotation: Vec<Matrix3<f64>>,
     /// Columns of `J^-1`: shift of the tool point per unit by which a length is shown too long, base frame.
     pub leg_position: [Vector3<f64>; 6],
-    /// The same for the rotation vector, radians per design unit.
+    /// The same columns for the rotation vector, radians per design unit.
     pub leg_rotation: [Vector3<f64>; 6],
 }
 
@@ -77,7 +77,7 @@ impl Sensitivity {
 }
 
 impl Sensitivity {
-    /// The same for lengths that are shown too long by so much, in leg order.
+    /// The same error for lengths shown too long by `errors`, in leg order.
     #[must_use]
     pub fn error_of_lengths(&self, errors: &[f64; 6]) -> (Vector3<f64>, Vector3<f64>) {
         let sum = |columns: &[Vector3<f64>; 6]| columns.iter().zip(errors).map(|(c, e)| c * *e).sum();
@@ -85,7 +85,8 @@ impl Sensitivity {
     }
 }
 
-/// How the pose `found` differs from `truth`: of the tool point, and as rotation vector, both in the base frame.
+/// The difference between the poses `found` and `truth`: shift of the tool point and rotation vector, both in the base
+/// frame.
 pub(super) fn pose_error(found: &Pose, truth: &Pose, tool: &Point3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     (found.transform(tool) - truth.transform(tool), turn_between(&truth.rotation, &found.rotation))
 }

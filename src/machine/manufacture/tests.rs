@@ -1,4 +1,4 @@
-//! First order against what is solved, worst cases against random errors, laws of the budget, the correction.
+//! First order compared with solved poses, worst cases with random errors, laws of the budget, the correction.
 
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
@@ -56,7 +56,7 @@ fn scaled(errors: &[Vector3<f64>], by: f64) -> Vec<Vector3<f64>> {
     errors.iter().map(|e| e * by).collect()
 }
 
-/// How much of the bound an error uses.
+/// The share of the bound that an error reaches.
 fn share((p, w): (Vector3<f64>, Vector3<f64>), bound: &ErrorBound) -> f64 {
     (p.norm() / bound.position).max(w.norm().to_degrees() / bound.rotation_deg)
 }
@@ -108,7 +108,7 @@ fn a_shared_joint_is_one_joint_with_one_error() {
             (0..6).filter(own).map(|i| two.position[if base { i } else { 6 + i }]).sum();
         assert!((sum - g).norm() < 1e-12 * g.norm());
     }
-    // errors that are free to differ can do more harm
+    // independent errors can do more harm
     let together = found(&m).radius.value;
     assert!(found(&apart).radius.value < together);
 }
@@ -119,7 +119,7 @@ fn errors_in_the_budget_keep_the_bound_and_half_as_much_again_in_the_worst_way_b
     for m in [octahedral(), free()] {
         let b = found(&m);
         assert!(b.radius.reached >= b.radius.value && b.radius.reached < b.radius.value * (1.0 + 1e-5));
-        // the worst choice is within the budget, reaches the bound, and 1.5 times it breaks it
+        // the worst errors are within the budget, reach the bound, and break it at 1.5 times their size
         for (by, low, high) in [(1.0, 0.995, 1.005), (1.5, 1.49, 1.51), (0.5, 0.495, 0.505)] {
             let solved = solved_error(&m, &scaled(&b.worst_errors, by), &b.radius.pose, &TOOL).unwrap();
             let share = share(solved, &BOUND);
@@ -296,15 +296,15 @@ fn a_step_of_the_correction_squares_the_error() {
     assert!(fine.corrected[1].position.max < 1e-9 && coarse.corrected[0].position.max > 1e-7);
 }
 
-/// Machines drawn with the covariance of a calibration, of which the controller has the mean: the poses that it
-/// corrects have the covariance that it states.
+/// Machines are drawn with the covariance of a calibration; the controller has their mean. The corrected poses have the
+/// covariance that it states.
 #[test]
 fn corrected_poses_have_the_covariance_that_is_stated() {
     let (m, mut rng) = (free(), Rng::new(31));
     let octahedral = equivalent_octahedral(&m).unwrap();
     let controller = Controller::new(&octahedral, &m, &m).unwrap();
     let n = 3 * joints(&m).len() + 6;
-    // joints that are off together: few common causes, and something of each for itself
+    // correlated joint errors: few common causes, and a part of each joint alone
     let mixing = DMatrix::from_fn(n, 4, |_, _| rng.normal());
     let covariance = 1e-10 * (&mixing * mixing.transpose() + DMatrix::identity(n, n));
     let deviations: Vec<f64> = (0..n).map(|k| covariance[(k, k)].sqrt()).collect();
@@ -326,8 +326,7 @@ fn corrected_poses_have_the_covariance_that_is_stated() {
         let off = Vector6::from_iterator(shift.iter().chain(turn.iter()).copied());
         found += off * off.transpose() / f64::from(count);
     }
-    // in units of the deviations stated, entries are off by the square root of two over the count at most, five times
-    // over
+    // in units of the stated deviations, errors of entries are at most five times the square root of two over the count
     let worst = |stated: &Matrix6<f64>| {
         let unit = |i: usize| stated[(i, i)].sqrt();
         let off = |i: usize, j: usize| (found[(i, j)] - stated[(i, j)]).abs() / (unit(i) * unit(j));
@@ -335,7 +334,7 @@ fn corrected_poses_have_the_covariance_that_is_stated() {
     };
     let within = 5.0 * (2.0 / f64::from(count)).sqrt();
     assert!(worst(&wanted.matrix) < within, "{} {within}", worst(&wanted.matrix));
-    // without the correlations it is another covariance
+    // without the correlations the covariance differs
     let independent = controller.covariance(&known.independent(), &truth, &TOOL).unwrap();
     assert!(worst(&independent.matrix) > 2.0 * within, "{}", worst(&independent.matrix));
 }
@@ -365,8 +364,7 @@ fn errors_of_lengths_and_growth_are_what_solving_says() {
     let (v, w) = super::sensitivity::pose_error(&found, &pose, &tool);
     let (x, y) = s.error_of_lengths(&errors);
     assert!((v - x).norm() < 1e-4 * v.norm() && (w - y).norm() < 1e-4 * w.norm(), "{v} {x} {w} {y}");
-    // a machine that grows as a whole shows lengths that are too short by the same share: its platform origin is where
-    // it was, less that share
+    // a machine that grows as a whole shows lengths that are too short by the same share, and so is its origin
     let grown = MachineErrors { growth: [1e-5; 3], ..MachineErrors::default() };
     let at = errors_at(&m, &pose, &Point3::origin(), &grown).unwrap();
     assert!((at.position.growth - 1e-5 * pose.position.norm()).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Random joint errors, poses solved, compared with the first order.
+//! Random joint errors with solved poses, compared with the first order.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,19 +12,19 @@ use num::{Purpose, Rng};
 use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 
-/// Where the joint errors come from.
+/// The source of the joint errors.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JointErrors {
-    /// Of each joint uniform in a ball of this radius, design units.
+    /// Every joint error uniform in a ball of this radius, design units.
     Balls(f64),
-    /// Of each joint uniform in a box with these half widths, in the order of [`joints`].
+    /// Every joint error uniform in a box with these half widths, in the order of [`joints`].
     Boxes(Vec<Vector3<f64>>),
     /// Joints and leg offsets normal with the covariance of a calibration.
     Calibrated(MachineUncertainty),
 }
 
 impl JointErrors {
-    /// Errors of the joints, and by how much the legs show more than their lengths.
+    /// Joint errors, and the amounts by which the legs show more than their lengths.
     fn draw(&self, count: usize, rng: &mut Rng) -> (Vec<Vector3<f64>>, [f64; 6]) {
         match self {
             Self::Balls(radius) => ((0..count).map(|_| in_ball(rng) * *radius).collect(), [0.0; 6]),
@@ -46,18 +46,18 @@ fn in_ball(rng: &mut Rng) -> Vector3<f64> {
     }
 }
 
-/// How values spread.
+/// Quantiles of values.
 // by the nearest rank; all zero when there is none
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "QuantilesRecord", transform = num::nullable))]
 pub struct Quantiles {
-    /// Half of the values is at most this.
+    /// Half of the values are at most this.
     pub median: f64,
-    /// 90 of a hundred.
+    /// 90 % of the values are at most this.
     pub p90: f64,
-    /// 99 of a hundred.
+    /// 99 % of the values are at most this.
     pub p99: f64,
-    /// All.
+    /// The greatest value.
     pub max: f64,
 }
 
@@ -72,7 +72,7 @@ impl Quantiles {
     }
 }
 
-/// How the errors of poses spread.
+/// Quantiles of pose errors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -80,9 +80,9 @@ impl Quantiles {
     schemars(rename = "PoseErrorsRecord")
 )]
 pub struct ErrorSpread {
-    /// Of the tool point, design units.
+    /// Errors of the tool point, design units.
     pub position: Quantiles,
-    /// Of the orientation.
+    /// Errors of the orientation, degrees.
     pub rotation_deg: Quantiles,
 }
 
@@ -93,7 +93,7 @@ impl ErrorSpread {
     }
 }
 
-/// What random errors did.
+/// Results of random errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trials {
     /// Errors and poses drawn.
@@ -104,7 +104,7 @@ pub struct Trials {
     pub within: usize,
     /// Errors of the nominal formula.
     pub formula: ErrorSpread,
-    /// What the first order says less what was solved.
+    /// First-order errors minus solved errors.
     pub discrepancy: ErrorSpread,
     /// Errors left after one and after two Newton steps on the true joints.
     pub corrected: [ErrorSpread; 2],
@@ -121,9 +121,9 @@ fn norms((p, w): (Vector3<f64>, Vector3<f64>)) -> (f64, f64) {
     (p.norm(), w.norm())
 }
 
-/// The error of the pose that is computed with nominal joints when the true joints are off by `errors`: of the tool
-/// point (design units) and as rotation vector, base frame. `None` when the pose cannot be followed to the measured
-/// lengths.
+/// The error of the pose computed with nominal joints when the true joints are off by `errors`. It is the error of the
+/// tool point (design units) and the rotation vector, base frame. `None` when the pose cannot be followed to the
+/// measured lengths.
 #[must_use]
 pub fn solved_error(
     m: &Manipulator,
@@ -136,7 +136,7 @@ pub fn solved_error(
     Some(pose_error(&found, truth, tool))
 }
 
-/// Squared lengths with each leg longer by so much; what is not off stays as it is, to the last bit.
+/// Squared lengths with each leg longer by its offset; offsets of zero keep the exact bits.
 fn shown(measured: &SquaredLegLengths, offsets: &[f64; 6]) -> Option<SquaredLegLengths> {
     if offsets.iter().all(|x| *x == 0.0) {
         return Some(*measured);
@@ -172,9 +172,9 @@ fn draw(
     })
 }
 
-/// Draws joint errors (with [`JointErrors::Calibrated`] errors of leg offsets too) and poses, measures the leg lengths
-/// of the platform with these errors, solves for the pose with the nominal joints (`NearSolver`, from the true pose)
-/// and compares.
+/// Draws joint errors and poses, measures the leg lengths with these errors, solves for the pose with the nominal
+/// joints and compares. [`JointErrors::Calibrated`] draws errors of leg offsets too. `NearSolver` starts from the true
+/// pose.
 #[must_use]
 pub fn trials(
     m: &Manipulator,

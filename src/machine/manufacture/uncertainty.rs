@@ -1,4 +1,4 @@
-//! How uncertain the poses of a calibrated machine are.
+//! Uncertainty of the poses of a calibrated machine.
 
 use nalgebra::{DMatrix, Matrix6, Point3, Vector3};
 
@@ -8,7 +8,7 @@ use num::small::bounded_svd;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// What a calibration does not know of a machine: errors of joints and leg offsets with the covariance `C = F F^T`.
+/// The remaining uncertainty of a calibrated machine: errors of joints and leg offsets with the covariance `C = F F^T`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineUncertainty {
     /// `F`, design units: three rows for each of [`joints`](super::joints), in the frame of its body, then one for each
@@ -16,10 +16,10 @@ pub struct MachineUncertainty {
     root: DMatrix<f64>,
 }
 
-/// The covariance of a pose, and the two figures that are read from it.
+/// The covariance of a pose, and two figures derived from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseCovariance {
-    /// Of the shift of the tool point (design units) and the rotation vector (radians), base frame.
+    /// Covariance of the shift of the tool point (design units) and the rotation vector (radians), base frame.
     pub matrix: Matrix6<f64>,
     /// Root mean square of the distance by which the tool point is off, design units.
     pub position: f64,
@@ -28,11 +28,11 @@ pub struct PoseCovariance {
 }
 
 impl MachineUncertainty {
-    /// From standard deviations (design units) and the matrix of correlations, three rows for each of
-    /// [`joints`](super::joints) and six for the offsets; `None` where the sizes differ or an entry is not finite.
+    /// The uncertainty with these standard deviations (design units) and correlations: three rows for each of
+    /// [`joints`](super::joints), then six for the offsets. `None` if the sizes differ or an entry is not finite.
     ///
-    /// With the singular value decomposition `R = U S V^T` of the correlations, `U S U^T` is `R` where it is positive
-    /// semidefinite; what rounding leaves of a negative eigenvalue changes sign.
+    /// With the singular value decomposition `R = U S V^T` of the correlations, `U S U^T` is `R` if that is positive
+    /// semidefinite. Negative eigenvalues from rounding change sign.
     #[must_use]
     pub fn new(deviations: &[f64], correlations: &DMatrix<f64>) -> Option<Self> {
         let n = deviations.len();
@@ -50,7 +50,7 @@ impl MachineUncertainty {
         Some(Self { root })
     }
 
-    /// The same deviations, each for itself.
+    /// The same deviations without correlations.
     #[must_use]
     pub fn independent(&self) -> Self {
         let deviations = self.root.row_iter().map(|row| row.norm());
@@ -58,11 +58,11 @@ impl MachineUncertainty {
         Self { root: DMatrix::from_diagonal(&diagonal) }
     }
 
-    /// The covariance of a pose that is computed from shown lengths with the calibrated joints and offsets; `None` at a
-    /// singular pose and where the sizes differ.
+    /// The covariance of a pose computed from shown lengths with the calibrated joints and offsets. `None` at a
+    /// singular pose and if the sizes differ.
     ///
-    /// With the derivatives `G` of the error of the pose by those of joints and offsets ([`Sensitivity`]) it is
-    /// `G C G^T`, to first order. The noise of the lengths is not in it.
+    /// To first order it is `G C G^T`, with the derivatives `G` of the pose error by the errors of joints and offsets
+    /// ([`Sensitivity`]). The noise of the lengths is not included.
     #[must_use]
     pub fn pose_covariance(
         &self,
@@ -127,8 +127,8 @@ mod tests {
         let m = octahedral();
         let pose = Pose::new(Vector3::new(0.3, -0.2, 4.0), Angles::from_degrees([5.0, -3.0, 8.0]));
         let tool = Point3::new(0.5, 1.0, 2.0);
-        // all base joints along x by the same normal number of deviation 0.1: the computed pose is shifted by it,
-        // whatever the legs
+        // all base joints along x by the same normal number of deviation 0.1: the computed pose shifts by it, for any
+        // legs
         let along_x = |k: usize| k < 9 && k.is_multiple_of(3);
         let deviations: Vec<f64> = (0..24).map(|k| if along_x(k) { 0.1 } else { 0.0 }).collect();
         let together = |i: usize, j: usize| f64::from(u8::from(i == j || (along_x(i) && along_x(j))));
@@ -138,7 +138,7 @@ mod tests {
         wanted[(0, 0)] = 0.01;
         assert!((found.matrix - wanted).amax() < 1e-14, "{}", found.matrix);
         assert!((found.position - 0.1).abs() < 1e-13 && found.rotation < 1e-13, "{found:?}");
-        // without the correlations it is another number, and the platform turns
+        // without the correlations the shift differs, and the platform turns
         let independent = known.independent().pose_covariance(&m, &pose, &tool).unwrap();
         assert!(
             (independent.matrix[(0, 0)] - 0.01).abs() > 1e-3 && independent.rotation > 0.001,
@@ -169,7 +169,7 @@ mod tests {
             })
             .sum();
         let found = (squares / f64::from(count)).sqrt();
-        // the mean of so many squares is within a few hundredths
+        // the mean of `count` squares is within a few hundredths
         assert!((found / wanted.position - 1.0).abs() < 0.03, "{found} {}", wanted.position);
     }
 

@@ -1,9 +1,8 @@
-//! How far the platform may move from a pose before a requirement binds, and the pose nearest to one asked for that
-//! meets all of them.
+//! Free travel of the platform from a pose until a requirement binds, and the allowed pose nearest to a given one.
 //!
 //! On a [`StraightWay`] every joint of the platform moves with a speed and an acceleration that are known beforehand.
-//! So each margin can fall only so fast, and the way is walked in steps over which none of them can reach zero
-//! ([`Reach::along`]). `docs/theory/reach.md` has the bounds.
+//! So the rate of each margin is bounded, and [`Reach::along`] takes steps over which no margin can reach zero.
+//! `docs/theory/reach.md` has the bounds.
 
 mod nearest;
 mod projection;
@@ -23,18 +22,17 @@ pub use way::{PoseAxis, StraightWay};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
 const SINGULAR: f64 = 1e-12;
-/// Steps of a way are no longer than this share of the size, measured at the joint that moves fastest: forces and the
-/// sign of `det J` are looked at this often.
+/// Greatest step of a way, as a share of the size, at the fastest joint. Forces and the sign of `det J` are sampled at
+/// this distance.
 const LONGEST: f64 = 0.02;
-/// Steps are not shorter than this share of the size: where a margin is nearly zero the way is looked at this often,
-/// and twice as far at each step that follows.
+/// Shortest step of a way, as a share of the size. Near a margin of zero, steps have this length and double each time.
 const SHORTEST: f64 = 1e-5;
 /// The end of the way is found to this share of the size.
 const RESOLUTION: f64 = 1e-12;
-/// A way of an axis is looked at over this many sizes, and half a turn.
+/// The search along an axis ends at this many sizes, or at half a turn.
 const FARTHEST: f64 = 10.0;
 
-/// What limits the poses of a manipulator: its requirements, and the sign that `det J` has at home.
+/// The limits of the poses of a manipulator: its requirements, and the sign of `det J` at home.
 #[derive(Debug)]
 pub struct Reach<'a> {
     required: &'a Requirements,
@@ -42,29 +40,29 @@ pub struct Reach<'a> {
     legs: [Leg; 6],
     home: Pose,
     size: f64,
-    /// Length that makes turns comparable with shifts.
+    /// Length that makes rotations comparable with translations, design units.
     length: f64,
     /// `det J` at home; `None` where it vanishes.
     at_home: Option<f64>,
 }
 
-/// How far a way is free.
+/// Free travel along a way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
-    /// In the unit of the way: at the end every requirement is met, rounding kept in mind.
+    /// Length of the free part in the unit of the way; at its end every requirement is met within rounding.
     pub amount: f64,
     /// The pose there.
     pub pose: Pose,
-    /// What is violated beyond; `None` where the way ends before anything binds.
+    /// The requirement violated beyond the end; `None` if the way ends before anything binds.
     pub binding: Option<Limit>,
-    /// Poses looked at.
+    /// Number of evaluated poses.
     pub poses: usize,
 }
 
-/// How far one of the six numbers of a pose may move, the others staying as they are.
+/// Free travel of one of the six numbers of a pose, with the others fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeRange {
-    /// Which number.
+    /// The moving coordinate.
     pub axis: PoseAxis,
     /// Towards smaller values; its amount is positive, design units or radians.
     pub back: Travel,
@@ -73,7 +71,7 @@ pub struct FreeRange {
 }
 
 impl<'a> Reach<'a> {
-    /// Makes the requirements ready. `length` makes turns comparable with shifts where poses are compared: a radian
+    /// Prepares the requirements. `length` makes rotations comparable with translations in distances of poses: a radian
     /// counts as this many design units.
     #[must_use]
     pub fn new(m: &'a Manipulator, required: &'a Requirements, home: &Pose, length: f64) -> Self {
@@ -82,18 +80,17 @@ impl<'a> Reach<'a> {
         Self { required, terms, legs: m.legs(), home: *home, size: m.size(), length, at_home }
     }
 
-    /// The margins of all requirements at a pose, and `det J` over that at home where home is regular.
+    /// The margins of all requirements at a pose, and the ratio of `det J` to its value at home if home is regular.
     #[must_use]
     pub fn margins(&self, pose: &Pose) -> Vec<(Limit, f64)> {
         let terms = self.terms.at(pose).into_iter().map(|(term, margin)| (Limit::Term(term), margin));
-        // where a rod does not close that is what is violated
+        // where a rod does not close, that is the violation
         let ratio =
             self.at_home.and_then(|home| Some((Limit::Singular, self.terms.determinant(pose)? / home)));
         terms.chain(ratio).collect()
     }
 
-    /// Whether a margin is met at the pose where it was found; a requirement that rounding does not tell from its limit
-    /// is.
+    /// Whether a margin is met at its pose; a margin equal to its limit within rounding is met.
     #[must_use]
     pub fn is_met(&self, limit: Limit, margin: f64, pose: &Pose) -> bool {
         match limit {
@@ -103,7 +100,7 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// What is violated at a pose, the worst first; nothing where the pose is allowed.
+    /// The violated requirements at a pose, the worst first; empty for an allowed pose.
     #[must_use]
     pub fn violated(&self, pose: &Pose) -> Vec<(Limit, f64)> {
         self.violated_of(self.margins(pose), pose)
@@ -115,15 +112,15 @@ impl<'a> Reach<'a> {
         margins
     }
 
-    /// Whether every requirement is met at a pose and `det J` has the sign that it has at home. (The same sign does not
-    /// say that a way without singular poses leads there.)
+    /// Whether every requirement is met at a pose and `det J` has the sign that it has at home. An equal sign does not
+    /// prove that a way without singular poses leads there.
     #[must_use]
     pub fn allows(&self, pose: &Pose) -> bool {
         self.margins(pose).iter().all(|(limit, margin)| self.is_met(*limit, *margin, pose))
     }
 
-    /// A margin as a share: over the size (lengths), 90 degrees, the limit (forces, speeds, stiffness, frequency),
-    /// `det J` at home.
+    /// A margin as a share: over the size (lengths), 90 degrees (angles), the limit (forces, speeds, stiffness,
+    /// frequency), or `det J` at home.
     fn share(&self, (limit, margin): &(Limit, f64)) -> f64 {
         margin / self.scale(*limit)
     }
@@ -135,13 +132,13 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// How far the way is free from its start, up to `most`; 0 where the start is not allowed.
+    /// Free travel of the way from its start, up to `most`; 0 where the start is not allowed.
     ///
-    /// Lengths, swing, clearances, keep-outs, leg speeds and the envelope of the machine cannot be violated between two
-    /// steps, since their rates are bounded, but for steps of a hundred-thousandth of the size where one of them is
-    /// nearly zero (twice as far at each step that follows while it stays there); so are the reach of rods and the
-    /// transmission, the angle and the lean of cranks. Forces, torques and speeds of cranks, stiffness, natural
-    /// frequency and the sign of `det J` are looked at at every step, which are at most a fiftieth of the size.
+    /// Margins with bounded rates cannot be violated between two steps: lengths, joint angles, clearances, keep-outs,
+    /// leg speeds, the envelope, and rods and angles of cranks. The exception is a margin near zero: steps are then a
+    /// hundred-thousandth of the size, and double while it stays there. Forces, torques and speeds of cranks,
+    /// stiffness, natural frequency and the sign of `det J` are sampled at every step. Steps are at most a fiftieth of
+    /// the size.
     #[must_use]
     pub fn along(&self, way: &StraightWay, most: f64) -> Travel {
         let fastest = step::fastest(way, &self.legs).max(f64::MIN_POSITIVE);
@@ -170,7 +167,7 @@ impl<'a> Reach<'a> {
         Travel { amount: t, pose, binding: None, poses }
     }
 
-    /// The end of the way between an allowed place and one that is not.
+    /// The end of the way between an allowed and a forbidden place.
     fn between(
         &self,
         way: &StraightWay,
@@ -195,10 +192,10 @@ impl<'a> Reach<'a> {
         Travel { amount: met, pose: way.at(met), binding, poses }
     }
 
-    /// How far each of the six numbers of a pose may move before a requirement binds, the others staying as they are;
-    /// `None` where the pose itself is not allowed.
+    /// Free travel of each of the six numbers of a pose until a requirement binds, with the others fixed. `None` where
+    /// the pose itself is not allowed.
     ///
-    /// Positions are looked at over ten sizes, angles over half a turn.
+    /// Positions are searched over ten sizes, angles over half a turn.
     #[must_use]
     pub fn free_ranges(&self, pose: &Pose) -> Option<[FreeRange; 6]> {
         self.allows(pose).then(|| {

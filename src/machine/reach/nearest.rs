@@ -1,4 +1,4 @@
-//! The allowed pose nearest to one that may not be.
+//! The allowed pose nearest to a given pose.
 
 use nalgebra::{Rotation3, Vector6};
 
@@ -8,26 +8,26 @@ use crate::requirements::Limit;
 use num::{Purpose, Rng};
 use platform::geom::Pose;
 
-/// `det J` over that at home that a pose found keeps: the set of regular poses has no nearest point of its own.
+/// Least ratio of `det J` to its value at home: the open set of regular poses has no nearest point.
 const REGULAR: f64 = 1e-3;
-/// Step of the differences from which slopes of margins are made, over the size.
+/// Step of the differences for slopes of margins, over the size.
 const DIFFERENCE: f64 = 1e-6;
-/// A search ends when its next step would be shorter, over the size.
+/// A search ends when its next step is shorter than this, over the size.
 const STATIONARY: f64 = 1e-7;
-/// A search ends when steps have to be shorter to make progress, over the size.
+/// A search ends when only steps below this make progress, over the size.
 const TRUSTED: f64 = 1e-9;
 /// Corrections that bring a step back to the limits.
 const CORRECTIONS: usize = 6;
 /// Poses tried for each further start.
 const TRIES: usize = 50;
-/// Poses that are led back to the limits where none of those tried is allowed, at most.
+/// Greatest number of poses led back to the limits if none of the tried poses is allowed.
 const LED_BACK: usize = 8;
-/// Steps that lead a violated pose back to the limits, at most.
+/// Greatest number of steps that lead a violated pose back to the limits.
 const RESTORING: usize = 60;
-/// The first of them may go this far, over the size.
+/// Greatest length of the first of these steps, over the size.
 const RESTORED: f64 = 0.25;
 
-/// How hard to look.
+/// Effort of the search for the nearest pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestPoseOptions {
     /// Starts besides home.
@@ -47,32 +47,29 @@ impl Default for NearestPoseOptions {
 /// An allowed pose near the one asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NearestPose {
-    /// The pose. Every requirement is met there, rounding kept in mind, and `det J` is at least a thousandth of that at
-    /// home.
+    /// The pose. Every requirement is met within rounding, and `det J` is at least a thousandth of its value at home.
     pub pose: Pose,
     /// [`Reach::distance`] from the pose asked for.
     pub distance: f64,
-    /// What keeps it from going nearer, with margins that are zero but for rounding; nothing where the pose asked for
+    /// The requirements that prevent a nearer pose, with margins of zero within rounding; empty if the requested pose
     /// is allowed.
     pub binding: Vec<Limit>,
-    /// Whether the conditions of first order of a nearest pose hold: no step along the margins made linear leads
-    /// nearer. They hold at every nearest pose at which margins are smooth, and say nothing of poses farther away.
+    /// Whether the first-order conditions of a nearest pose hold: no step along the linearised margins leads nearer.
+    /// They hold at every nearest pose with smooth margins, and do not exclude nearer poses farther away.
     pub stationary: bool,
-    /// Whether the straight way from home leads there without violating anything on it, as [`Reach::along`] looks at
-    /// it.
+    /// Whether the straight way from home to the pose violates nothing, as tested by [`Reach::along`].
     pub straight_from_home: bool,
 }
 
 impl Reach<'_> {
-    /// A pose locally nearest to `asked` among those allowed; `asked` itself where it is. `None` where no allowed pose
-    /// was found to start from.
+    /// An allowed pose locally nearest to `asked`; `asked` itself if it is allowed. `None` if no allowed pose was found
+    /// as a start.
     ///
-    /// From home, from the allowed poses to which `asked` and a violated home are led back, and from `starts` allowed
-    /// poses drawn between home and `asked`, the straight way towards `asked` is followed to its first limit. From
-    /// there a sequence of steps goes to the nearest pose that the margins made linear allow, corrected until all are
-    /// met, each nearer than the last. The best end is the answer: not farther than where the straight way from home is
-    /// first left, and nearest in its neighbourhood where it is [`stationary`](NearestPose::stationary). Deterministic
-    /// for a seed.
+    /// The starts are home, the allowed poses to which `asked` and a violated home are led back, and `starts` allowed
+    /// poses between home and `asked`. From each, the straight way towards `asked` is followed to its first limit. Then
+    /// each step goes to the nearest pose within the linearised margins and is corrected until all are met, nearer than
+    /// the last. The best result is the answer: not farther than the first limit of the straight way from home, and
+    /// locally nearest if it is [`stationary`](NearestPose::stationary). Deterministic for a seed.
     #[must_use]
     pub fn nearest(&self, asked: &Pose, o: &NearestPoseOptions) -> Option<NearestPose> {
         if self.allows(asked) {
@@ -103,7 +100,7 @@ impl Reach<'_> {
         NearestPose { pose: *pose, distance, binding, stationary, straight_from_home }
     }
 
-    /// Whether a pose is allowed and regular enough to end at.
+    /// Whether a pose is allowed and regular enough as a result.
     pub(super) fn ends_at(&self, pose: &Pose) -> bool {
         self.margins(pose).iter().all(|(limit, margin)| match limit {
             Limit::Singular => *margin >= REGULAR * (1.0 - 1e-9),
@@ -111,8 +108,8 @@ impl Reach<'_> {
         })
     }
 
-    /// Home, or the allowed pose to which it is led back, that of the pose asked for, and allowed poses drawn between
-    /// home and the pose asked for.
+    /// The starts: home, or the allowed pose to which it is led back; the same for the requested pose; and allowed
+    /// poses between the two.
     fn starts(&self, asked: &Pose, o: &NearestPoseOptions) -> Vec<Pose> {
         let mut rng = Purpose::NEAREST_POSES.rng(o.seed);
         let mut starts: Vec<Pose> =
@@ -139,7 +136,7 @@ impl Reach<'_> {
         starts
     }
 
-    /// The greatest share by which a margin is below what it has to be; 0 or less where none is.
+    /// The greatest share by which a margin is below its limit; 0 or less if none is.
     fn missing(&self, pose: &Pose) -> f64 {
         let short = |m: &(Limit, f64)| if m.0 == Limit::Singular { REGULAR - m.1 } else { -self.share(m) };
         self.margins(pose)
@@ -148,8 +145,8 @@ impl Reach<'_> {
             .fold(f64::NEG_INFINITY, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
     }
 
-    /// An allowed pose near one that may not be: the shortest steps to where all margins, made linear, are met, as long
-    /// as they make the worst one better.
+    /// An allowed pose near a possibly violated one. The steps are the shortest that meet all linearised margins; they
+    /// continue while the worst margin improves.
     fn restored(&self, from: &Pose) -> Option<Pose> {
         let (mut pose, mut radius) = (*from, RESTORED * self.size);
         let mut worst = self.missing(&pose);
@@ -172,7 +169,7 @@ impl Reach<'_> {
         None
     }
 
-    /// A pose drawn about another one, up to a distance along each direction.
+    /// A random pose about another one, up to a distance along each direction.
     fn drawn(&self, about: &Pose, far: f64, rng: &mut Rng) -> Pose {
         self.stepped(about, &Vector6::from_fn(|_, _| rng.uniform(-far, far)))
     }
@@ -185,7 +182,7 @@ impl Reach<'_> {
         }
     }
 
-    /// The half spaces that the margins, made linear at a pose, leave to steps; those out of reach of steps up to
+    /// The half spaces that the linearised margins at a pose leave to steps. Margins out of reach of steps up to
     /// `radius` are left out.
     fn half_spaces(&self, pose: &Pose, radius: f64) -> Vec<HalfSpace> {
         let here = self.margins(pose);
@@ -204,7 +201,7 @@ impl Reach<'_> {
             .collect()
     }
 
-    /// From an allowed pose nearer to the one asked for, step by step, and whether the end is stationary.
+    /// Steps from an allowed pose towards the requested one; returns the last pose and whether it is stationary.
     fn approach(&self, start: &Pose, asked: &Pose, steps: usize) -> (Pose, bool) {
         let mut pose = *start;
         if !self.ends_at(&pose) {
@@ -217,7 +214,7 @@ impl Reach<'_> {
             let wish =
                 Vector6::from_fn(|k, _| if k < 3 { way.velocity[k] } else { self.length * way.turn[k - 3] });
             let mut spaces = self.half_spaces(&pose, radius);
-            // a box of the steps that are trusted
+            // the trust region of the steps, a box
             for k in 0..6 {
                 spaces
                     .extend([1.0, -1.0].map(|sign| HalfSpace { row: Vector6::ith(k, sign), bound: -radius }));
@@ -242,8 +239,8 @@ impl Reach<'_> {
         (pose, false)
     }
 
-    /// A pose brought back to its limits by the shortest steps that the margins made linear ask for; `None` where some
-    /// are still violated.
+    /// A pose brought back to its limits by the shortest steps for the linearised margins; `None` if some remain
+    /// violated.
     fn corrected(&self, pose: &Pose, radius: f64) -> Option<Pose> {
         let mut pose = *pose;
         for _ in 0..CORRECTIONS {

@@ -12,9 +12,9 @@ pub(super) struct HalfSpace {
     pub(super) bound: f64,
 }
 
-/// Projects `point` on the intersection of half spaces by Hildreth's method (1957): coordinate ascent on the dual
-/// problem, where the point is `x = point + sum m_k row_k` with `m_k >= 0`. Ends when no multiplier moves `x` by more
-/// than `tolerance`, and after 2000 sweeps: the answer may then be off.
+/// Projects `point` on the intersection of half spaces by Hildreth's method (1957). It is coordinate ascent on the dual
+/// problem, with the point `x = point + sum m_k row_k` and `m_k >= 0`. It ends when no multiplier moves `x` by more
+/// than `tolerance`, or after 2000 sweeps; the result may then be inaccurate.
 pub(super) fn project(point: &Vector6<f64>, spaces: &[HalfSpace], tolerance: f64) -> Vector6<f64> {
     let scaled: Vec<HalfSpace> = spaces
         .iter()
@@ -69,7 +69,7 @@ mod tests {
                 rows.iter().map(|row| HalfSpace { row: *row, bound: row.dot(&inner) - 0.3 }).collect();
             let found = project(&point, &spaces, 1e-14);
             assert!(spaces.iter().all(|s| s.row.dot(&found) >= s.bound - 1e-9));
-            // the angle at a projection is right or blunt towards every point of a convex body
+            // the angle at a projection is right or obtuse towards every point of a convex body
             for _ in 0..200 {
                 let other = inner + Vector6::from_fn(|_, _| rng.normal());
                 if spaces.iter().all(|s| s.row.dot(&other) >= s.bound) {

@@ -1,4 +1,4 @@
-//! Straight ways in all directions from a pose: what of the space around it they reach.
+//! Straight ways in all directions from a pose, and the part of the surrounding space that they reach.
 
 use nalgebra::Vector3;
 
@@ -11,14 +11,14 @@ use platform::geom::Pose;
 pub struct FreeRay {
     /// Unit vector, base frame.
     pub direction: Vector3<f64>,
-    /// How far the way is free: design units, or radians of a turn about the direction.
+    /// Free travel in this direction: design units, or radians of a rotation about it.
     pub free: f64,
-    /// What ends it; `None` where nothing does within ten sizes, or half a turn.
+    /// The requirement that ends it; `None` if nothing binds within ten sizes, or half a turn.
     pub binding: Option<Limit>,
 }
 
-/// Unit vectors spread evenly over the sphere: points of a spiral at equal steps of height, each turned by the golden
-/// angle against the last (Swinbank, Purser 2006).
+/// Unit vectors spread evenly over the sphere: points of a spiral at equal steps of height, each rotated by the golden
+/// angle (Swinbank, Purser 2006).
 fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |k| {
@@ -40,13 +40,13 @@ impl Reach<'_> {
         spread(count).map(|d| self.ray(from, &d, false)).collect()
     }
 
-    /// Turns at the place of a pose, about `count` axes spread evenly.
+    /// Rotations at the position of a pose, about `count` axes spread evenly.
     #[must_use]
     pub fn turns(&self, from: &Pose, count: usize) -> Vec<FreeRay> {
         spread(count).map(|d| self.ray(from, &d, true)).collect()
     }
 
-    /// The way from a pose along a unit vector, or the turn about it.
+    /// The straight path from a pose along a unit vector, or the rotation about it.
     #[must_use]
     pub fn ray(&self, from: &Pose, direction: &Vector3<f64>, is_turn: bool) -> FreeRay {
         let (velocity, turn) =
@@ -57,8 +57,8 @@ impl Reach<'_> {
     }
 }
 
-/// The volume that rays spread evenly reach, `4 pi / 3` times the mean of the cubes of their lengths, and the
-/// difference of what every second one and the others give, as a share.
+/// The volume that evenly spread rays reach, `4 pi / 3` times the mean of the cubes of their lengths. The second value
+/// is the difference between the results of even and odd rays, as a share.
 #[must_use]
 pub fn volume_of_rays(rays: &[FreeRay]) -> (f64, f64) {
     let cubes = |from: usize, by: usize| {
@@ -70,13 +70,13 @@ pub fn volume_of_rays(rays: &[FreeRay]) -> (f64, f64) {
     (4.0 / 3.0 * std::f64::consts::PI * mean, doubt)
 }
 
-/// Half widths of the box of greatest volume about the pose, along the axes of the base frame, into which no ray ends;
-/// found on a grid that becomes finer.
+/// Half widths of the box of greatest volume about the pose, along the axes of the base frame, that contains no end of
+/// a ray. The search refines a grid.
 #[must_use]
 pub fn largest_box_within(rays: &[FreeRay]) -> [f64; 3] {
     let reached = |k: usize| rays.iter().map(|r| (r.free * r.direction[k]).abs()).fold(0.0, f64::max);
     let most = [0, 1, 2].map(reached);
-    // the third half width that leaves the others room
+    // the greatest third half width for the other two
     let third = |a: f64, b: f64| {
         let blocks = |r: &&FreeRay| {
             let d = r.direction.abs();

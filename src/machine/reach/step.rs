@@ -14,7 +14,7 @@
 //! -A <= |d|'' <= A + V^2 / |d|,   |u''| <= A / |d| + 3 V^2 / |d|^2.
 //! ```
 //!
-//! A margin `f` with `f'' >= -K` is not negative up to the first root of `f + f' t - K t^2 / 2`.
+//! A margin `f` with `f'' >= -K` stays non-negative up to the first root of `f + f' t - K t^2 / 2`.
 
 use nalgebra::Vector3;
 
@@ -33,7 +33,7 @@ struct LineMotion {
     /// Bounds over the step.
     speed: f64,
     acceleration: f64,
-    /// Steps may not be longer.
+    /// Greatest length of a step.
     cap: f64,
 }
 
@@ -65,7 +65,7 @@ impl LegPlace {
         };
         let turned = w.cross(&q);
         let both = w.norm() * v.norm();
-        // with both velocities the speed grows, within the first cap by this much
+        // with both velocities the speed grows by at most this much within the first cap
         let first = cap(v.norm() + turned.norm());
         let grown = if both > 0.0 && first.is_finite() { both * first } else { 0.0 };
         let speed = v.norm() + turned.norm() + grown;
@@ -91,7 +91,7 @@ impl LegPlace {
     }
 }
 
-/// First root of `f + f' t - k t^2 / 2`; a negative `f` is one of rounding.
+/// First root of `f + f' t - k t^2 / 2`; a negative `f` comes from rounding.
 fn root(f: f64, rate: f64, k: f64) -> f64 {
     let f = f.max(0.0);
     let discriminant = (rate * rate + 2.0 * k * f).sqrt();
@@ -102,22 +102,22 @@ fn root(f: f64, rate: f64, k: f64) -> f64 {
     }
 }
 
-/// Time that a margin lasts at a rate.
+/// Time until a margin with this rate reaches zero.
 fn lasts(margin: f64, rate: f64) -> f64 {
     if rate > 0.0 { margin.max(0.0) / rate } else { f64::INFINITY }
 }
 
-/// A step over which a margin of a crank lasts whose platform joint is no faster than `speed`.
+/// A step over which the margin of a crank stays positive, if its platform joint moves at most at `speed`.
 ///
 /// While the rod closes, `|d| <= r + l`, `||d|^2 - r^2 - l^2| <= 2 r l` and `|d.n| <= l`, hence
-/// `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. Where the rod ceases to close its own margins end the
+/// `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. When the rod ceases to close, its own margins end the
 /// way.
 fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 {
     let rate = 2.0 * room.rod * speed * (2.0 + room.rod / room.length);
     match kind {
         TermKind::CrankTransmission => lasts(room.above_least, rate),
         TermKind::TipSwing => lasts(room.lean, speed),
-        // s keeps half of what it is
+        // s keeps half of its value
         _ => {
             let turning = 2.0 * speed * room.rod / (room.length * room.square.max(0.0).sqrt());
             lasts(margin.to_radians(), turning).min(lasts(0.75 * room.square, rate))
@@ -132,8 +132,8 @@ pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
 }
 
 impl Reach<'_> {
-    /// A step from a pose of the way over which no margin whose rate is bounded reaches zero; infinite where all are
-    /// forces, stiffness and the sign of `det J`.
+    /// A step from a pose of the way over which no margin with a bounded rate reaches zero. Infinite if only forces,
+    /// stiffness and the sign of `det J` remain.
     pub(super) fn safe_step(&self, way: &StraightWay, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
         let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], way, pose));
         let steps = margins.iter().map(|(limit, margin)| match limit {
@@ -171,8 +171,8 @@ impl Reach<'_> {
                 };
                 let first = if end == 0 { hinge.first } else { pose.rotation * hinge.first };
                 match angle {
-                    // the second angle is within its limit where neither end of the first axis is nearer to the leg
-                    // than 90 degrees less the limit
+                    // the second angle is within its limit if both ends of the first axis are 90 degrees minus the
+                    // limit or more from the leg
                     HingeAngle::Second => {
                         let side = |axis: Vector3<f64>| leg.swing(motion, &axis, 90.0 + limit);
                         side(first).min(side(-first))

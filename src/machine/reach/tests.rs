@@ -12,7 +12,7 @@ use num::Rng;
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, default_home};
 
-/// Everything a pose can violate.
+/// All requirements that a pose can violate.
 fn required(m: &Manipulator, home: &Pose) -> Requirements {
     let length = home.lengths(m).unwrap().get()[0];
     let hardware = Hardware {
@@ -84,7 +84,7 @@ fn one_number_of_a_pose_moves_and_the_others_stay() {
     }
 }
 
-/// What ends ways drawn about home, each compared with a search in small steps.
+/// The requirements that end random ways about home, each compared with a search in small steps.
 fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usize) -> BTreeSet<TermKind> {
     let reach = Reach::new(m, required, home, 1.0);
     assert!(reach.allows(home), "{:?}", reach.violated(home));
@@ -101,7 +101,7 @@ fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usi
         let step = 1e-3;
         let first = (1..=3000).find(|k| !reach.allows(&way.at(f64::from(*k) * step)));
         assert!(reach.allows(&found.pose));
-        // the end is where the search finds it, whatever lies between two of its points
+        // the end agrees with the search within one of its steps
         let last = (found.amount / step).floor();
         assert!(first.is_none_or(|k| f64::from(k) > last), "{first:?} {}", found.amount);
         assert!(
@@ -125,7 +125,7 @@ fn the_free_part_of_a_way_is_that_of_a_fine_search() {
     let home = default_home(&m);
     let mut required = required(&m, &home);
     let mut kinds = ends_of_ways(&m, &required, &home, 60);
-    // without lengths and swing the others bind
+    // without limits of lengths and joint angles the others bind
     required.hardware =
         Hardware { leg_length: None, base_swing: None, platform_swing: None, ..required.hardware };
     kinds.extend(ends_of_ways(&m, &required, &home, 60));
@@ -206,7 +206,7 @@ fn a_way_from_a_limit_goes_inwards_and_not_outwards() {
     assert!(stuck.amount == 0.0 && stuck.binding.is_some());
 }
 
-/// No pose drawn about the one found is allowed and nearer: by more than the step to it could gain.
+/// No random pose about the result is allowed and nearer by more than its step can gain.
 fn is_locally_nearest(reach: &Reach<'_>, asked: &Pose, found: &Pose, rng: &mut Rng) -> bool {
     let distance = reach.distance(found, asked);
     (0..4000).all(|k| {

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use platform::geom::{Pose, turn_between};
 
-/// The six numbers of a pose that a machine is moved by: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+/// The six numbers of a machine's pose: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -18,11 +18,11 @@ pub enum PoseAxis {
     Y,
     /// Position along z.
     Z,
-    /// Turn about the x axis of the platform.
+    /// Rotation about the x axis of the platform.
     Roll,
-    /// Turn about the y axis of the base, turned by the yaw.
+    /// Rotation about the y axis of the base after the rotation by the yaw.
     Pitch,
-    /// Turn about the z axis of the base.
+    /// Rotation about the z axis of the base.
     Yaw,
 }
 
@@ -54,7 +54,7 @@ impl PoseAxis {
 /// angular velocity `w`, base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightWay {
-    /// Where it begins, at `t = 0`.
+    /// The start, at `t = 0`.
     pub start: Pose,
     /// Velocity of the platform origin, design units.
     pub velocity: Vector3<f64>,
@@ -63,9 +63,8 @@ pub struct StraightWay {
 }
 
 impl StraightWay {
-    /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay: with
-    /// one angle moved a rotation turns about a fixed axis, `R e_x` for roll, `Rz(yaw) e_y` for pitch and `e_z` for
-    /// yaw.
+    /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay. A
+    /// moving angle rotates about a fixed axis: `R e_x` for roll, `Rz(yaw) e_y` for pitch, `e_z` for yaw.
     #[must_use]
     pub fn axis(start: &Pose, axis: PoseAxis) -> Self {
         let still = Vector3::zeros();
@@ -87,8 +86,8 @@ impl StraightWay {
         Self { start: *start, velocity, turn }
     }
 
-    /// The straight way between two poses, which ends at `t = 1`: the origin moves on a line, the platform turns about
-    /// one axis by at most half a turn.
+    /// The straight way between two poses, which ends at `t = 1`. The origin moves on a line; the platform rotates
+    /// about one axis by at most half a turn.
     #[must_use]
     pub fn between(from: &Pose, to: &Pose) -> Self {
         let turn = turn_between(&from.rotation, &to.rotation);
@@ -101,7 +100,7 @@ impl StraightWay {
         Self { velocity: -self.velocity, turn: -self.turn, ..*self }
     }
 
-    /// Where the platform is at `t`.
+    /// The pose of the platform at `t`.
     #[must_use]
     pub fn at(&self, t: f64) -> Pose {
         Pose {

@@ -13,7 +13,7 @@ use num::{Purpose, Rng};
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// How densely the poses are looked at.
+/// Density of the sample of poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct AssessOptions {
@@ -25,15 +25,17 @@ pub struct AssessOptions {
     pub searches: usize,
     /// Seed of the random points and of the searches.
     pub seed: u64,
-    /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a
-    /// margin is met or violated.
+    /// Whether proved margins come close to the least margins found; otherwise a proof ends once it decides between met
+    /// and violated.
     pub close: bool,
-    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that and
-    /// where no requirement is violated; 0: it stays undecided.
+    /// Number of cells for a kind of requirement that the usual number leaves undecided. They are used only if they
+    /// exceed the usual number and no requirement is violated. 0: it stays undecided.
     pub patient_cells: usize,
-    /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
+    /// Threads for the proofs; `None`: as many as the process may run at the same time. The answers do not depend on
+    /// it.
     pub threads: Option<NonZeroUsize>,
-    /// When proofs end with what they have; `None`: where they decide, or their cells are used up.
+    /// Time at which proofs end with their current bounds; `None`: they end when they decide or have used up their
+    /// cells.
     pub until: Option<Instant>,
 }
 
@@ -80,21 +82,21 @@ impl AssessOptions {
         self
     }
 
-    /// Threads for the proofs, on which no answer depends.
+    /// Threads for the proofs; the answers do not depend on it.
     #[must_use]
     pub fn threads(mut self, threads: NonZeroUsize) -> Self {
         self.threads = Some(threads);
         self
     }
 
-    /// Whether proved margins come close to the least ones found, which takes longer than to decide on them.
+    /// Whether proved margins come close to the least margins found, which takes longer than the decision alone.
     #[must_use]
     pub fn close(mut self, close: bool) -> Self {
         self.close = close;
         self
     }
 
-    /// Cells for the proof of a kind of requirement that the usual number leaves undecided; 0, the default: it stays
+    /// Number of cells for a kind of requirement that the usual number leaves undecided; 0, the default: it stays
     /// undecided.
     #[must_use]
     pub fn patient_cells(mut self, cells: usize) -> Self {
@@ -102,7 +104,7 @@ impl AssessOptions {
         self
     }
 
-    /// When proofs end with what they have, if at a time: what they leave open is not decided.
+    /// Optional time at which proofs end with their current bounds; open ones stay undecided.
     #[must_use]
     pub fn until(mut self, until: Option<Instant>) -> Self {
         self.until = until;
@@ -126,39 +128,39 @@ impl AssessOptions {
 /// The least margin found of one kind of requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margin {
-    /// The requirement that is met least (or violated most).
+    /// The requirement with the least margin (or the greatest violation).
     pub term: Term,
     /// Its margin: positive when it is met, in the unit of [`TermKind::quantity`].
     pub value: f64,
-    /// The pose, `None` for requirements on which the pose has no influence.
+    /// The pose; `None` for requirements that do not depend on the pose.
     pub pose: Option<Pose>,
-    /// What the margin says, rounding kept in mind.
+    /// The meaning of the margin within rounding.
     pub standing: Standing,
 }
 
-/// What was found.
+/// The result of an assessment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assessment {
     /// The least margin of each kind of requirement the design has.
     pub margins: Vec<Margin>,
-    /// Poses looked at, those of the searches included.
+    /// Number of evaluated poses, including those of the searches.
     pub poses: usize,
 }
 
 impl Assessment {
-    /// `true` when nothing is violated; a margin that rounding does not tell from zero is none ([`Standing::AtLimit`]).
+    /// `true` if nothing is violated; a margin of zero within rounding is no violation ([`Standing::AtLimit`]).
     ///
-    /// A violation found is one. That none was found at these poses is no proof that there is none between them.
+    /// A violation found is certain. Without one, a violation between the sampled poses remains possible.
     #[must_use]
     pub fn all_met(&self) -> bool {
         self.margins.iter().all(|m| m.standing.is_met())
     }
 }
 
-/// The least margin of a kind so far and where.
+/// The least margin of a kind so far, with its requirement and pose.
 type Least = (Term, f64, Option<Pose>);
 
-/// A point of the region with what is known about it.
+/// A point of the region with its margin.
 type RegionPoint = (f64, Vector6<f64>);
 
 /// The least margin of a kind at a pose.
@@ -166,11 +168,11 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
     terms.of_kind(pose, kind).map(|(_, x)| x).fold(f64::INFINITY, f64::min)
 }
 
-/// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory, then
+/// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory. It then
 /// searches for worse poses near the worst ones found.
 ///
-/// The search moves one to all coordinates of the cube by random steps that shrink from a tenth to a millionth of its
-/// width; it needs no derivatives, for margins have kinks. Deterministic for a seed.
+/// Random steps move one to all coordinates of the cube and shrink from a tenth to a millionth of its width. The search
+/// needs no derivatives, since margins have kinks. Deterministic for a seed.
 #[must_use]
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
@@ -259,8 +261,8 @@ fn descend(
     (x, tried)
 }
 
-/// Looks for a requirement that a platform violates, for many platforms with the same workspace one after the other: at
-/// the poses that [`assess()`] looks at before it searches for worse ones, and only until one is found.
+/// Search for a violated requirement, for many platforms with the same workspace. It uses the sample of [`assess()`]
+/// without the search for worse poses, and stops at the first violation.
 #[derive(Debug, Clone)]
 pub struct ViolationSearch {
     home: Pose,
@@ -281,16 +283,15 @@ impl ViolationSearch {
         &self.home
     }
 
-    /// How many poses are looked at, at most.
+    /// The greatest number of sampled poses.
     pub fn poses(&self) -> usize {
         self.poses.len()
     }
 
-    /// A requirement that is violated, those that do not depend on the pose first; `None` when none is at these poses,
-    /// which is no proof that none is between them.
+    /// A violated requirement, those independent of the pose first. `None` if these poses show none, which does not
+    /// exclude one between them.
     ///
-    /// The pose that shows a violation is the first to be looked at next time: platforms that are much alike are
-    /// violated at the same poses.
+    /// The pose of the violation comes first in the next call, since similar platforms are violated at the same poses.
     pub fn violated(&mut self, m: &Manipulator, required: &Requirements) -> Option<TermKind> {
         let terms = Terms::new(m, required, &self.home);
         let bad = |list: Vec<(Term, f64)>, pose: Option<&Pose>| {

@@ -22,8 +22,8 @@ pub struct MovingBodies {
 }
 
 impl MovingBodies {
-    /// The bodies that a design file describes; `metres` is the length of its unit. A payload without inertia is taken
-    /// as a point mass, legs without masses have none; `Design::moving_payload` states an inertia.
+    /// The bodies that a design file describes; `metres` is the length of its unit. A payload without inertia counts as
+    /// a point mass; legs without masses have none. `Design::moving_payload` states an inertia.
     #[must_use]
     pub fn new(payload: &Payload, leg: Option<&LegMasses>, unit: MassUnit, metres: f64) -> Self {
         let kilograms = unit.kilograms();

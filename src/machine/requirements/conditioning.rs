@@ -5,7 +5,7 @@ use num::Purpose;
 use platform::geom::Pose;
 use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 
-/// Where the Jacobian is conditioned worst among the poses looked at.
+/// The worst conditioning of the Jacobian among the sampled poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeastConditioning {
     /// `sigma_min / sigma_max` of the Jacobian with unit lines, moments divided by the characteristic length: 1 at
@@ -16,7 +16,7 @@ pub struct LeastConditioning {
 }
 
 /// The least inverse condition number over the poses that [`assess`](super::assess()) looks at first: home, those
-/// listed, and points of the region. It is a number found, not a bound of those between them.
+/// listed, and points of the region. Poses between the sampled ones may have a smaller value.
 #[must_use]
 pub fn least_conditioning(
     m: &Manipulator,
@@ -27,7 +27,7 @@ pub fn least_conditioning(
     least_over(space, o, |pose| inverse_condition(&jacobian(m, pose, characteristic_length)))
 }
 
-/// The least of a number over these poses.
+/// The least value of a function over these poses.
 pub(super) fn least_over(
     space: &PoseSpace,
     o: &AssessOptions,

@@ -1,8 +1,8 @@
 //! Limits of cranks with rods of constant length, evaluated from the definitions.
 //!
-//! With `d = R b + p - c` from the centre of a crank to its platform joint, `e` and `f = n x e` the directions of the
-//! tip at the angles 0 and 90 degrees, `x = d.e`, `y = d.f`, `rho^2 = x^2 + y^2`, the lengths `r` of the crank and `l`
-//! of the rod, and `sigma` 1 for the greater of the two angles and -1 for the smaller one:
+//! Let `d = R b + p - c` be the vector from the centre of a crank to its platform joint. The tip at the angles 0 and 90
+//! degrees has the directions `e` and `f = n x e`; `x = d.e`, `y = d.f`, `rho^2 = x^2 + y^2`. The lengths of crank and
+//! rod are `r` and `l`; `sigma` is 1 for the greater of the two angles, -1 for the smaller one:
 //!
 //! ```text
 //! k = (|d|^2 + r^2 - l^2) / (2 r),
@@ -25,7 +25,7 @@ use platform::manipulator::{Leg, inverse_condition, jacobian_of_legs, leg_determ
 pub struct CrankedLeg {
     /// Direction of the axis; its length does not matter.
     pub axis: Vector3<f64>,
-    /// Direction of the tip at the angle 0; what of it is along the axis is left out.
+    /// Direction of the tip at the angle 0; its part along the axis is ignored.
     pub zero: Vector3<f64>,
     /// From the axis to the tip, design units.
     pub length: f64,
@@ -59,7 +59,7 @@ impl CrankedLeg {
         let (square, k) = (x * x + y * y, (d.norm_squared() + r * r - l * l) / (2.0 * r));
         let along = d.dot(&n);
         let left = l * l - ((d.norm_squared() - r * r - l * l) / (2.0 * r)).powi(2) - along * along;
-        // beyond reach the tip is where it is nearest to closing
+        // beyond reach the tip takes the place nearest to closing
         let held = k.clamp(-square.sqrt(), square.sqrt());
         let s = self.sign() * left.max(0.0).sqrt();
         let (cos, sin) = ((x * held - y * s) / square, (y * held + x * s) / square);
@@ -80,22 +80,22 @@ struct CrankAt {
     tip: Point3<f64>,
 }
 
-/// How far a crank is from what a short way can take it to.
+/// The remaining ranges of a crank, as bounds for short ways.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CrankRoom {
-    /// Of the crank.
+    /// Length of the crank, design units.
     pub length: f64,
-    /// Of the rod.
+    /// Length of the rod, design units.
     pub rod: f64,
     /// `s^2`, negative where the rod does not close.
     pub square: f64,
-    /// What `s^2` is above its value at the least transmission angle.
+    /// `s^2` minus its value at the least transmission angle.
     pub(crate) above_least: f64,
-    /// How far the rod may lean out of the plane of its crank beyond what it does; infinite where nothing is required.
+    /// Remaining lean of the rod out of the plane of its crank; infinite without a limit.
     pub lean: f64,
 }
 
-/// The cranks of a design, and what they and the joints of their rods can do.
+/// The cranks of a design, and the limits of cranks and rod joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cranks {
     /// In leg order.
@@ -106,14 +106,14 @@ pub struct Cranks {
     pub max_speed_deg: Option<f64>,
     /// Least transmission angle, degrees; 0 where the design gives none.
     pub least_transmission_deg: f64,
-    /// How far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees.
+    /// Cone angle of the joint at the tip, out of the plane in which the crank turns, degrees.
     pub tip_swing_deg: Option<f64>,
-    /// How far the joint at the platform lets a rod swing from its direction at home, degrees.
+    /// Cone angle of the joint at the platform, from the direction of the rod at home, degrees.
     pub platform_swing_deg: Option<f64>,
 }
 
 impl Cranks {
-    /// What percentages of a kind are parts of; 0 where nothing is limited.
+    /// The whole that percentages of a kind refer to; 0 without a limit.
     pub(super) fn whole(&self, kind: TermKind) -> f64 {
         let least = |of: &dyn Fn(&CrankedLeg) -> f64| self.legs.iter().map(of).fold(f64::INFINITY, f64::min);
         match kind {
@@ -131,14 +131,14 @@ impl Cranks {
     }
 }
 
-/// The angle whose sine has this square, degrees; the same with the other sign for negative ones.
+/// The angle whose sine has this square, degrees, odd in its argument.
 pub(super) fn arc_sine_of_root_deg(square: f64) -> f64 {
     square.abs().sqrt().min(1.0).asin().copysign(square).to_degrees()
 }
 
 impl Requirements {
     /// The rods as legs on the tips of the cranks at a pose; `None` where the design has no cranks. A rod that does not
-    /// close has its tip where it is nearest to closing.
+    /// close has its tip in the place nearest to closing.
     pub(super) fn rods(&self, legs: &[Leg; 6], pose: &Pose) -> Option<[Leg; 6]> {
         let cranks = self.cranks.as_ref()?;
         Some(std::array::from_fn(|i| {
@@ -147,7 +147,7 @@ impl Requirements {
         }))
     }
 
-    /// What pushes the platform: the rods, or the legs themselves.
+    /// The legs that push the platform: the rods, or the legs themselves.
     pub(super) fn pushing_legs(&self, legs: &[Leg; 6], pose: &Pose) -> [Leg; 6] {
         self.rods(legs, pose).unwrap_or(*legs)
     }
@@ -216,8 +216,8 @@ impl Terms<'_> {
         }
     }
 
-    /// Bound of the rounding of an angle of a crank relative to one radian: that of lengths over the shortest of crank
-    /// and rod, over the sine of the least transmission angle.
+    /// Rounding bound of a crank angle relative to one radian. It is that of lengths over the shortest of crank and
+    /// rod, over the sine of the least transmission angle.
     pub(super) fn crank_rounding(&self, cranks: &Cranks, pose: &Pose, length: f64) -> f64 {
         let legs = self.manipulator.legs();
         let of = |i: usize| {
@@ -228,8 +228,8 @@ impl Terms<'_> {
         (0..6).map(of).fold(0.0, f64::max)
     }
 
-    /// `det J` of the lines of what pushes the platform, without unit: of legs with lengths over the size, of rods with
-    /// unit vectors and moments over the size. `None` where a rod does not close.
+    /// `det J` of the pushing lines, without unit. Legs have lengths over the size; rods have unit vectors and moments
+    /// over the size. `None` where a rod does not close.
     #[must_use]
     pub fn determinant(&self, pose: &Pose) -> Option<f64> {
         match &self.required.cranks {
@@ -240,8 +240,7 @@ impl Terms<'_> {
         }
     }
 
-    /// What a crank has left of its reach, of its transmission and of its lean; `None` where the legs change their
-    /// lengths.
+    /// The remaining reach, transmission and lean of a crank; `None` for legs of variable length.
     pub(crate) fn crank_room(&self, i: usize, pose: &Pose) -> Option<CrankRoom> {
         let cranks = self.required.cranks.as_ref()?;
         let crank = &cranks.legs[i];
@@ -263,8 +262,8 @@ impl Terms<'_> {
     }
 }
 
-/// As [`least_conditioning`](super::least_conditioning), for the rods of a design with cranks and for drives whose
-/// joints are not ideal; `None` for other designs.
+/// [`least_conditioning`](super::least_conditioning) for the rods of a design with cranks and for drives with joint
+/// offsets; `None` for other designs.
 #[must_use]
 pub fn least_rod_conditioning(
     terms: &Terms<'_>,

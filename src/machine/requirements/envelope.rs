@@ -1,11 +1,11 @@
-//! The room that plates and machine may take up, housings of the joints counted.
+//! The space that plates and machine may occupy, including the housings of the joints.
 
 use nalgebra::{Point3, Vector3};
 
 use super::hardware::Housing;
 use num::ordered::OrderedNumber;
 
-/// A region that joints have to stay in with their housings, in the frame of the body, or the base frame for the whole
+/// A region that contains the joints with their housings, in the frame of the body, or in the base frame for the whole
 /// machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Envelope {
@@ -13,7 +13,7 @@ pub enum Envelope {
     Cylinder {
         /// Radius, design units.
         radius: f64,
-        /// Where the line passes the xy plane.
+        /// Point where the line passes the xy plane, design units.
         center: [f64; 2],
     },
     /// A box along the axes of the frame.
@@ -25,14 +25,14 @@ pub enum Envelope {
     },
 }
 
-/// The envelopes of a design. What is absent limits nothing.
+/// The envelopes of a design. Absent entries limit nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Envelopes {
-    /// Of the base joints, base frame.
+    /// Envelope of the base joints, base frame.
     pub base: Option<Envelope>,
-    /// Of the platform joints, platform frame.
+    /// Envelope of the platform joints, platform frame.
     pub platform: Option<Envelope>,
-    /// Of all joints at every pose of the workspace, base frame.
+    /// Envelope of all joints at every pose of the workspace, base frame.
     pub machine: Option<Envelope>,
 }
 
@@ -46,12 +46,12 @@ impl Envelope {
         }
     }
 
-    /// By how much a joint stays inside; negative outside.
+    /// Distances of a joint inside the sides; negative outside.
     ///
     /// The joint has half extents `half` along the axes (a box), and `ball` in every direction. A cylinder has one
-    /// side, a box six; `see` gets the number of each side and its margin. Cylinder: `radius - |(|x - c| + half_x, |y -
-    /// c| + half_y)| - ball`, the farthest corner of the joint's box. Box: the distance of the centre from the side,
-    /// less `half_k + ball`.
+    /// side, a box six; `see` gets the number of each side and its margin. Cylinder:
+    /// `radius - |(|x - c| + half_x, |y - c| + half_y)| - ball`, the farthest corner of the joint's box. Box: the
+    /// distance of the centre from the side, minus `half_k + ball`.
     pub fn sides<N: OrderedNumber>(
         &self,
         at: [N; 3],
@@ -83,8 +83,7 @@ impl Envelope {
     }
 }
 
-/// Half extents along the axes of its frame and radius of the room of a joint in the frame of its body: one of them
-/// is 0.
+/// Half extents of the space of a joint along the axes of its body's frame, and its radius; one of them is 0.
 #[must_use]
 pub fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
     match housing {
@@ -94,7 +93,7 @@ pub fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
     }
 }
 
-/// Radius of the ball that holds the room of a joint however it is turned.
+/// Radius of the ball that contains the space of a joint in every orientation.
 #[must_use]
 pub fn ball(housing: Option<Housing>) -> f64 {
     let (half, radius) = room(housing);

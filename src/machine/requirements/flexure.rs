@@ -1,9 +1,9 @@
-//! What flexures do to the platform when they bend.
+//! The wrench of bent flexures on the platform.
 //!
 //! A flexure with the bending stiffness `k` about its centre, whose leg stands at the angle `t` from its axis `n`,
 //! holds the energy `k t^2 / 2`. The wrench on the platform is minus the derivative of the energies of all flexures by
-//! the motion of the platform. With the unit vector `e` across the leg that points away from the axis, `u` along the
-//! leg, `l` its length and `c` the arm of the platform joint:
+//! the motion of the platform. The unit vector `e` is across the leg, away from the axis. The leg has the direction `u`
+//! and the length `l`, its platform joint the arm `c`:
 //!
 //! ```text
 //! base:      force -k t e / l,   torque -k t c x e / l
@@ -25,17 +25,17 @@ pub struct Wrench {
     pub torque: Vector3<f64>,
 }
 
-/// `t e` of a leg with the direction `u` and the axis `n`, unit vectors: zero where they agree.
+/// `t e` of a leg with the direction `u` and the axis `n`, unit vectors: zero if they are equal.
 fn bent(u: &Vector3<f64>, n: &Vector3<f64>) -> Vector3<f64> {
-    // (n x u) x u is n less its part along u, reversed
+    // (n x u) x u is n minus its part along u, reversed
     let across = u * n.dot(u) - n;
     let sine = n.cross(u).norm();
     if sine > 0.0 { across * (sine.atan2(n.dot(u)) / sine) } else { Vector3::zeros() }
 }
 
 impl Terms<'_> {
-    /// The wrench of the flexures on the platform at a pose; `None` where the design has none. They do not resist turns
-    /// of a leg about itself.
+    /// The wrench of the flexures on the platform at a pose; `None` where the design has none. They do not resist the
+    /// rotation of a leg about itself.
     #[must_use]
     pub fn flexure_wrench(&self, pose: &Pose) -> Option<Wrench> {
         let hardware = &self.required.hardware;

@@ -1,4 +1,4 @@
-//! What the search for the best platform may change and what it makes best, by the names in design files.
+//! Variables and objectives of the search for the best platform, by their names in design files.
 
 use super::Quantity;
 
@@ -16,7 +16,7 @@ pub enum VariableKind {
     Triangles,
     /// Height of home.
     HomeHeight,
-    /// Axes of all joints with a swing limit.
+    /// Axes of all joints with a limit of the joint angle.
     JointAxes,
     /// Parameters of the rational families of replaceable legs of any design.
     Components,
@@ -49,7 +49,7 @@ impl VariableKind {
     }
 }
 
-/// What became of a symmetry.
+/// The result of keeping a symmetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -61,12 +61,13 @@ pub enum StartSymmetry {
     // the three-fold symmetry of a design that names no symmetry
     /// The answer has it.
     Kept,
-    /// With it nothing was found that is proved to meet the requirements: the answer is of a search without it.
+    /// The symmetric search found no design that is proved to meet the requirements; the answer comes from a search
+    /// without symmetry.
     GivenUp,
 }
 
 impl StartSymmetry {
-    /// One sentence: what was done, and how it is turned off.
+    /// One sentence: the choice made, and the option that turns it off.
     #[must_use]
     pub fn message(self) -> &'static str {
         match self {
@@ -86,7 +87,7 @@ pub enum KeptSymmetry {
     /// Every leg may differ.
     #[default]
     None,
-    /// Turns by 120 degrees about the common axis of base and platform at home: at most two kinds of leg.
+    /// Three-fold rotations about the common axis of base and platform at home: at most two kinds of leg.
     ThreeFold,
     /// A mirror plane through a vertex of each triangle.
     Mirror,
@@ -115,25 +116,25 @@ impl KeptSymmetry {
     serde(rename_all = "snake_case")
 )]
 pub enum Objective {
-    /// Least `sigma_6 / sigma_1` over the poses, to be large.
+    /// Least `sigma_6 / sigma_1` over the poses; maximised.
     WorstConditioning,
-    /// Mean of `sigma_6 / sigma_1` over the sample, to be large.
+    /// Mean of `sigma_6 / sigma_1` over the sample; maximised.
     MeanConditioning,
-    /// Least `sigma_6` over the poses, to be large.
+    /// Least `sigma_6` over the poses; maximised.
     SmallestSingularValue,
-    /// Greatest push or pull of a leg over poses and loads, to be small.
+    /// Greatest push or pull of a leg over poses and loads; minimised.
     LegForce,
-    /// Least distance of two joint centres of a body, to be large.
+    /// Least distance of two joint centres of a body; maximised.
     JointSpacing,
-    /// Least gap of two legs over the poses, to be large.
+    /// Least gap of two legs over the poses; maximised.
     LegClearance,
-    /// Greatest less least leg length over all legs and poses, to be small.
+    /// Greatest minus least leg length over all legs and poses; minimised.
     Stroke,
-    /// Least eigenvalue of `k J^T J` over the poses, to be large.
+    /// Least eigenvalue of `k J^T J` over the poses; maximised.
     Stiffness,
-    /// Lowest natural frequency over the poses, to be large.
+    /// Lowest natural frequency over the poses; maximised.
     NaturalFrequency,
-    /// Distance from architectural singularity: smallest singular value of the leg vectors, to be large.
+    /// Distance from architectural singularity, the smallest singular value of the leg vectors; maximised.
     SingularityDistance,
 }
 
@@ -169,7 +170,7 @@ impl Objective {
         }
     }
 
-    /// What the value is measured in; `None` for a pure number.
+    /// The unit of the value; `None` for a pure number.
     #[must_use]
     pub fn quantity(self) -> Option<Quantity> {
         match self {
@@ -180,7 +181,7 @@ impl Objective {
         }
     }
 
-    /// `true` when small values are wanted.
+    /// `true` if the objective is minimised.
     #[must_use]
     pub fn is_cost(self) -> bool {
         matches!(self, Self::LegForce | Self::Stroke)

@@ -7,7 +7,7 @@ use nalgebra::{Unit, Vector3};
 use num::ordered::OrderedNumber;
 use platform::manipulator::Body;
 
-/// The room a joint takes up, centred at the joint.
+/// The space that a joint occupies, centred at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Housing {
     /// A sphere of this diameter, design units.
@@ -29,8 +29,8 @@ impl Housing {
     /// Gap between two housings whose centres differ by `d` (body frame), design units; negative when they overlap.
     ///
     /// `h` are the half edges (0 for a sphere) and `r` the radii (0 for a box) of both; `g_k = |d_k| - h_k - h'_k`.
-    /// Boxes apart: the norm of the positive `g_k`. Boxes that overlap: the greatest `g_k`, minus the shortest way out.
-    /// The gap is that less `r + r'`; spheres have `|d| - r - r'`.
+    /// Boxes apart: the norm of the positive `g_k`. Boxes that overlap: the greatest `g_k`, which is minus the shortest
+    /// way out. The gap is this value minus `r + r'`; spheres have `|d| - r - r'`.
     #[must_use]
     pub fn gap<N: OrderedNumber>(&self, other: &Self, d: [N; 3]) -> N {
         let ((half, ball), (other_half, other_ball)) = (room(Some(*self)), room(Some(*other)));
@@ -41,7 +41,7 @@ impl Housing {
         apart + overlap - (N::from(ball) + N::from(other_ball))
     }
 
-    /// Two housings where at least one joint has one: a joint without a housing is a point.
+    /// The two housings if at least one joint has one; a joint without housing is a point.
     pub fn pair(a: Option<Self>, b: Option<Self>) -> Option<[Self; 2]> {
         let point = Self::Sphere(0.0);
         (a.is_some() || b.is_some()).then(|| [a.unwrap_or(point), b.unwrap_or(point)])
@@ -57,13 +57,13 @@ impl Housing {
     }
 }
 
-/// The room a leg takes up around the line from its base joint to its platform joint.
+/// The space that a leg occupies around the line from its base joint to its platform joint.
 ///
-/// A cylinder of `diameter` starts at the base joint; after `cylinder_length` a rod of `rod_diameter` goes on to the
-/// platform joint. Each part is taken with rounded ends.
+/// A cylinder of `diameter` starts at the base joint; after `cylinder_length` a rod of `rod_diameter` continues to the
+/// platform joint. Each part has rounded ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegBody {
-    /// Diameter of the cylinder, of the whole leg when there is no rod, design units.
+    /// Diameter of the cylinder, or of the whole leg without rod, design units.
     pub diameter: f64,
     /// Length of the cylinder and diameter of the rod, design units.
     pub rod: Option<(f64, f64)>,
@@ -78,7 +78,7 @@ pub struct LegSegment {
     pub to: f64,
     /// Radius, design units.
     pub radius: f64,
-    /// The share that is at a fixed distance from the base joint: the end of the cylinder.
+    /// The share at a fixed distance from the base joint: the end of the cylinder.
     pub joint: Option<f64>,
 }
 
@@ -100,8 +100,8 @@ impl LegBody {
         std::iter::once(first).chain(second)
     }
 
-    /// The parts of a leg of this length without what is nearer than `cut` to its joint at an end, with their numbers;
-    /// one point at the other end where nothing is left.
+    /// The parts of a leg of this length without the points nearer than `cut` to its joint at an end, with their
+    /// numbers. If nothing is left, it is one point at the other end.
     pub fn parts_beyond(
         &self,
         length: f64,
@@ -122,15 +122,15 @@ impl LegBody {
     }
 }
 
-/// Which lengths a leg can have.
+/// The possible lengths of a leg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LengthLimits {
     /// From the first to the second length, design units.
     Range(f64, f64),
-    /// A linear drive: its length is `dead + stroke` when it is in and `dead + 2 stroke` when it is out, because
-    /// the rod has to go into the cylinder.
+    /// A linear drive with a rod that retracts into its cylinder. The length is `dead + stroke` retracted and
+    /// `dead + 2 stroke` extended.
     Stroke {
-        /// Length that neither extends nor retracts, design units.
+        /// Length of the parts that neither extend nor retract, design units.
         dead: f64,
         /// Travel, design units.
         stroke: f64,
@@ -148,22 +148,22 @@ impl LengthLimits {
     }
 }
 
-/// Where the axis of each joint of a body points: the direction from which its swing is measured.
+/// Direction of the axis of each joint of a body, from which its joint angle is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum JointAxes {
     /// Along the leg at the home pose.
     #[default]
     Home,
-    /// To be found by the optimiser; evaluated like [`JointAxes::Home`] until then.
+    /// Chosen by the optimiser; evaluated like [`JointAxes::Home`] until then.
     Optimize,
     /// Given, one for each leg in leg order, in the frame of the body, from base to platform.
     Given([Unit<Vector3<f64>>; 6]),
 }
 
-/// How far the legs may lean from the axes of the joints of a body.
+/// Limits of the angles between the legs and the joint axes of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
-    /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180, which limits
+    /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180; 180 limits
     /// nothing.
     pub limits_deg: [f64; 6],
     /// The axes.
@@ -215,17 +215,17 @@ impl LegPart {
 /// Masses of a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LegMasses {
-    /// What turns about the base joint and does not become longer; its centre is measured from the base joint.
+    /// The part that rotates about the base joint and keeps its length; its centre is measured from the base joint.
     pub cylinder: LegPart,
-    /// What moves along the leg; its centre is measured from the platform joint.
+    /// The part that moves along the leg; its centre is measured from the platform joint.
     pub rod: LegPart,
-    /// Mass that moves along the leg in place of what turns in the drive: moments of inertia of motor and spindle over
-    /// the square of the lead per radian, mass units.
+    /// Equivalent mass along the leg of the rotating parts of the drive, mass units. It is the inertia of motor and
+    /// spindle over the square of the lead per radian.
     pub reflected: f64,
 }
 
 impl LegMasses {
-    /// With masses and inertias multiplied: those of another unit of mass.
+    /// The masses and inertias multiplied by `factor`, as for another unit of mass.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let part =
@@ -248,10 +248,10 @@ impl LegMasses {
     }
 }
 
-/// What a joint is.
+/// The kind of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointType {
-    /// It turns freely about all axes, within its swing.
+    /// It rotates freely about all axes, within its cone angle.
     Ball,
     /// Two hinges in a row.
     Universal,
@@ -260,7 +260,7 @@ pub enum JointType {
 }
 
 impl JointType {
-    /// The word of design files.
+    /// The name in design files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -271,28 +271,28 @@ impl JointType {
     }
 }
 
-/// Sizes and limits of joints, legs and drives. What is absent limits nothing.
+/// Sizes and limits of joints, legs and drives. Absent entries limit nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hardware {
-    /// Housing of each base joint that has none of its own.
+    /// Housing of each base joint without its own housing.
     pub base_housing: Option<Housing>,
-    /// Housing of each platform joint that has none of its own.
+    /// Housing of each platform joint without its own housing.
     pub platform_housing: Option<Housing>,
     /// Housings of base joints whose model has one, in leg order.
     pub base_joint_housing: [Option<Housing>; 6],
     /// Housings of platform joints whose model has one, in leg order.
     pub platform_joint_housing: [Option<Housing>; 6],
-    /// Diameter of the joints of both bodies that have no housing of their own, design units.
+    /// Diameter of the joints of both bodies without their own housing, design units.
     pub joint_diameter: Option<f64>,
     /// Bodies of the legs.
     pub leg_body: Option<LegBody>,
-    /// Gap that has to remain between legs, and between legs and keep-outs, design units; none means 0.
+    /// Required gap between legs, and between legs and keep-outs, design units; none means 0.
     pub leg_clearance: Option<f64>,
     /// Lengths of the legs.
     pub leg_length: Option<LengthLimits>,
-    /// Swing of the base joints.
+    /// Cone angles of the base joints.
     pub base_swing: Option<Swing>,
-    /// Swing of the platform joints.
+    /// Cone angles of the platform joints.
     pub platform_swing: Option<Swing>,
     /// Universal joints of the base; none where no joint is one.
     pub base_universal: Option<UniversalJoint>,
@@ -303,8 +303,8 @@ pub struct Hardware {
     pub base_bending: [Option<f64>; 6],
     /// Bending stiffness of the flexures of the platform.
     pub platform_bending: [Option<f64>; 6],
-    /// What a leg becomes longer by when its platform end makes a turn about it, by the right hand about the direction
-    /// from base to platform, against the base end, design units.
+    /// Lengthening of a leg when its platform end makes one turn relative to the base end, design units. The turn
+    /// follows the right-hand rule about the direction from base to platform.
     pub screw_lead: Option<f64>,
     /// Greatest force along a leg, push or pull, force units.
     pub max_leg_force: Option<f64>,
@@ -312,12 +312,12 @@ pub struct Hardware {
     pub max_leg_speed: Option<f64>,
     /// Stiffness of a leg along its line, force units per design unit.
     pub leg_stiffness: Option<f64>,
-    /// Masses of a leg; none where the design says none.
+    /// Masses of a leg; none if the design gives none.
     pub leg_masses: Option<LegMasses>,
 }
 
 impl Hardware {
-    /// Housing of the joint of a leg at a body: that of its model, else that of the body, else
+    /// Housing of the joint of a leg at a body: that of its model, then that of the body, then
     /// [`Hardware::joint_diameter`] as a sphere.
     #[must_use]
     pub fn housing(&self, body: Body, leg: usize) -> Option<Housing> {
@@ -326,7 +326,7 @@ impl Hardware {
         own.or(of_body).or(self.joint_diameter.map(Housing::Sphere))
     }
 
-    /// The housings about the centre of a joint, those of the legs that end there, each once; `ends` are the joints of
+    /// The housings about the centre of a joint: those of the legs that end there, each once. `ends` are the joints of
     /// the body in leg order.
     pub(crate) fn housings_at(&self, body: Body, ends: &[usize; 6], joint: usize) -> Vec<Option<Housing>> {
         let mut out = Vec::new();
@@ -363,20 +363,21 @@ impl Hardware {
         }
     }
 
-    /// The universal joints of a body, where it has some.
+    /// The universal joints of a body, if it has any.
     #[must_use]
     pub fn universal(&self, body: Body) -> Option<UniversalJoint> {
         body.of((self.base_universal, self.platform_universal))
     }
 
-    /// Where the axes of the joints of a body point, where something is measured from them.
+    /// The axes of the joints of a body, if a limit refers to them.
     #[must_use]
     pub fn axes(&self, body: Body) -> Option<JointAxes> {
         let swing = body.of((self.base_swing, self.platform_swing)).map(|s| s.axes);
         swing.or(self.universal(body).map(|joint| joint.axes))
     }
 
-    /// The limit of an angle of the universal joint of a leg, degrees; `None` where there is none, and for other kinds.
+    /// The limit of an angle of the universal joint of a leg, degrees; `None` without such a limit, and for other
+    /// kinds.
     pub fn angle_limit_deg(&self, kind: TermKind, leg: usize) -> Option<f64> {
         let (body, angle) = kind.hinge()?;
         let joints = self.universal(body)?;
@@ -392,8 +393,8 @@ impl Hardware {
         (0..6).filter_map(|leg| self.angle_limit_deg(kind, leg)).reduce(f64::min)
     }
 
-    /// `true` where the length of a drive is not the distance of its joints: universal joints whose axes do not meet,
-    /// or screws that couple the turn of a leg about itself to its length.
+    /// `true` if drive lengths differ from the distances of the joints: universal joints with offset axes, or screws
+    /// that couple rotation and length.
     #[must_use]
     pub fn is_coupled(&self) -> bool {
         let apart = |joint: Option<UniversalJoint>| joint.is_some_and(|j| j.offset != 0.0);

@@ -1,6 +1,6 @@
-//! Grids of holes: where the joints of a plate can be put.
+//! Grids of holes: the possible places of the joints of a plate.
 
-/// How the holes of a grid lie.
+/// The pattern of the holes of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -11,8 +11,8 @@ pub enum HolePattern {
     /// On squares.
     #[default]
     Square,
-    /// On equilateral triangles: turns by 60 degrees about a hole take the grid to itself, and turns by 120 degrees
-    /// about the middle of a triangle too.
+    /// On equilateral triangles. The grid is symmetric under rotations by 60 degrees about a hole, and by 120 degrees
+    /// about the middle of a triangle.
     Triangular,
     /// On rings about the origin whose radii grow by the pitch, with the same number of holes on each.
     Polar,
@@ -87,7 +87,7 @@ impl HoleCircles {
         self.list.get(..self.count).unwrap_or(&[])
     }
 
-    /// With all radii changed.
+    /// The circles with all radii changed.
     #[must_use]
     pub fn scaled(mut self, of: impl Fn(f64) -> f64) -> Self {
         for circle in self.list.iter_mut().take(self.count) {
@@ -99,24 +99,25 @@ impl HoleCircles {
 
 /// A grid of holes.
 ///
-/// Its first axis is the x axis of the body frame, projected on the plane of the joints and turned by the angle; the
-/// second is 90 degrees from it on a square grid and 60 degrees on a triangular one. Its origin is the projection of
+/// Its first axis is the x axis of the body frame, projected on the plane of the joints and rotated by the angle. The
+/// second axis is 90 degrees from it on a square grid, 60 degrees on a triangular one. Its origin is the projection of
 /// the origin of the frame, shifted along the x and y axes.
 ///
-/// On circles hole `j` of circle `k` with `n` holes is at `origin + r_k (cos(angle + j 360 / n), sin(angle + j 360 /
-/// n))`. The radii of a polar grid are `r_k = first + k pitch` without end, those of bolt circles are listed.
+/// On circles hole `j` of circle `k` with `n` holes is at
+/// `origin + r_k (cos(angle + j 360 / n), sin(angle + j 360 / n))`. The radii of a polar grid are
+/// `r_k = first + k pitch`, unlimited; those of bolt circles are listed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// How the holes lie.
+    /// The pattern of the holes.
     pub pattern: HolePattern,
     /// Distance of neighbouring holes, or of neighbouring rings of a polar grid, design units, positive; 0 for bolt
-    /// circles, which have none.
+    /// circles.
     pub pitch: f64,
     /// The first ring of a polar grid, or all bolt circles; none for the other patterns.
     pub circles: HoleCircles,
-    /// A hole, or the centre of the circles, in the axes of the frame before the grid is turned, design units.
+    /// A hole, or the centre of the circles, in the axes of the frame before the rotation of the grid, design units.
     pub origin: [f64; 2],
-    /// Turn about the normal of the plane, degrees.
+    /// Rotation about the normal of the plane, degrees.
     pub angle_deg: f64,
 }
 
@@ -148,8 +149,8 @@ impl Grid {
         Self { pattern: HolePattern::BoltCircle, circles, ..Self::square(0.0) }
     }
 
-    /// Whether its lengths and counts make holes: all finite, radii, counts and a pitch that is used positive, circles
-    /// where the pattern has them.
+    /// Whether its lengths and counts are valid: all finite, used radii, counts and pitch positive, and circles present
+    /// if the pattern needs them.
     #[must_use]
     pub fn is_usable(&self) -> bool {
         let finite = self.origin.iter().chain([&self.angle_deg]).all(|x| x.is_finite());
@@ -221,7 +222,7 @@ mod tests {
         assert!(bolts.is_usable() && bolts.circle(1) == Some(circles[1]) && bolts.circle(2).is_none());
         assert!(bolts.to_string().starts_with("bolt circles, 12 holes at radius 80, 18 holes at radius 120"));
         assert!(HoleCircles::new(&[HoleCircle::default(); HoleCircles::MOST + 1]).is_none());
-        // negative controls: what has no holes
+        // negative controls: grids without holes
         assert!(!Grid::bolt_circles(HoleCircles::NONE).is_usable());
         assert!(!Grid { pattern: HolePattern::Polar, ..Grid::square(25.0) }.is_usable());
         assert!(!Grid::polar(HoleCircle { radius: 0.0, holes: 24 }, 25.0).is_usable());

@@ -1,4 +1,4 @@
-//! How the joints at the ends of a leg stand at a pose.
+//! Angles of the joints at the ends of a leg at a pose.
 
 use nalgebra::Vector3;
 
@@ -6,20 +6,20 @@ use super::term::{Terms, angle_deg};
 use super::universal::Hinge;
 use platform::geom::{Pose, any_across};
 
-/// How a joint at one end of a leg stands, measured from its axis `n`.
+/// The angles of a joint at one end of a leg, measured from its axis `n`.
 ///
-/// With `x` a unit vector across `n` (the coordinate axis farthest from `n`, made normal to it) and `y = n x x`, the
-/// leg has the direction of `n` turned by `universal_deg[1]` about `y`, then by `universal_deg[0]` about `x`:
-/// `u = Rx(first) Ry(second) n`. The first axis belongs to the body, the second to the leg, as in the model that
-/// `export --to mjcf` writes for joints that follow the legs at home.
+/// Let `x` be a unit vector across `n` (the coordinate axis farthest from `n`, made normal to it) and `y = n x x`. The
+/// leg has the direction of `n` rotated by `universal_deg[1]` about `y`, then by `universal_deg[0]` about `x`:
+/// `u = Rx(first) Ry(second) n`. The first axis belongs to the body, the second to the leg, as in the model from
+/// `export --to mjcf` for joints that follow the legs at home.
 ///
-/// A universal joint of the design has `x` along its first axis and the part of its axis across that in place of `n`.
+/// A universal joint of the design has `x` along its first axis. The part of its axis across `x` then replaces `n`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointAngles {
     /// Angle of leg and axis, degrees, 0 to 180.
     pub swing_deg: f64,
-    /// Both angles of a universal joint, degrees: the first from -180 to 180, the second from -90 to 90, where the
-    /// first is not determined.
+    /// Both angles of a universal joint, degrees: the first from -180 to 180, the second from -90 to 90. At +-90 the
+    /// first is undetermined.
     pub universal_deg: [f64; 2],
 }
 

@@ -36,18 +36,18 @@ pub enum KeepOutShape {
 /// A body that the legs must not touch: a plate, a box, a tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeepOut {
-    /// What it is called in reports.
+    /// The name in reports.
     pub name: String,
-    /// The body it moves with, in whose frame its coordinates are.
+    /// The body that it moves with; its coordinates are in this frame.
     pub fixed_to: Body,
-    /// What it looks like.
+    /// Its shape.
     pub shape: KeepOutShape,
 }
 
 /// The point of a segment that is nearest to a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestOnSegment {
-    /// Share of the segment before it.
+    /// Share of the segment before the point.
     pub share: f64,
     /// Distance from the shape, negative inside.
     pub distance: f64,
@@ -56,8 +56,8 @@ pub struct NearestOnSegment {
 }
 
 impl KeepOutShape {
-    /// Distance of the segment `x y` from the shape, 0 when they meet. (How deep they overlap is not measured
-    /// for boxes; for balls and capsules it is: the value is then negative.)
+    /// Distance of the segment `x y` from the shape, 0 when they meet. The overlap depth is measured for balls and
+    /// capsules only: their value is then negative.
     #[must_use]
     pub fn distance(&self, x: &Point3<f64>, y: &Point3<f64>) -> f64 {
         self.nearest_outside(x, y).distance
@@ -94,9 +94,9 @@ impl KeepOutShape {
     }
 }
 
-/// A segment nearer to a box than this share of its size runs into it.
+/// A segment nearer to a box than this share of its size touches it.
 const TOUCHING: f64 = 5e-13;
-/// Sections that enclose the deepest point.
+/// Sections in the enclosure of the deepest point.
 const SECTIONS: usize = 80;
 
 /// The deepest point of the segment `a + t e` in a box around the origin: the depth is concave along it.
@@ -114,7 +114,7 @@ fn deepest_in_box(a: &Vector3<f64>, e: &Vector3<f64>, half: &Vector3<f64>) -> Ne
     }
     let share = f64::midpoint(low, high);
     let (distance, normal) = face(share);
-    // two faces may be as near, one before and one behind: their mean that does not change along the segment
+    // two faces may be equally near, one before and one behind; their mean is constant along the segment
     let (before, behind) = (face((share - 1e-7).max(0.0)).1, face((share + 1e-7).min(1.0)).1);
     let (falls, rises) = (before.dot(e), behind.dot(e));
     let away = if falls < 0.0 && rises > 0.0 {

@@ -1,35 +1,35 @@
-//! Which requirement ends the workspace at a pose.
+//! The requirement that limits the workspace at a pose.
 
 use super::Requirements;
 use super::term::{Term, Terms};
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
-/// What ends the workspace.
+/// A limit of the workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limit {
     /// A requirement that depends on the pose.
     Term(Term),
-    /// `det J` vanishes between home and here, or here: the lines of the legs depend on each other.
+    /// `det J` vanishes here or between home and here: the lines of the legs are linearly dependent.
     Singular,
 }
 
-/// The requirement a pose meets worst.
+/// The requirement with the least margin at a pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseLimit {
     /// Its margin as a share: over the size of the manipulator (lengths), 90 degrees (angles), its limit (forces,
-    /// speeds, stiffness, frequency), `det J` at home (singularity). Negative where it is violated; infinite where
-    /// nothing is required.
+    /// speeds, stiffness, frequency), `det J` at home (singularity). Negative if violated; infinite without a
+    /// requirement.
     pub share: f64,
-    /// The requirement; `None` where nothing is required.
+    /// The requirement; `None` without any.
     pub limit: Option<Limit>,
 }
 
 /// Requirements and singularity as limits of the workspace around a home pose.
 ///
-/// A pose lies in the workspace when all requirements are met and `det J` has the sign that it has at home: between
-/// signs there is a singular pose on every path. (The same sign proves nothing: a path may still have to pass singular
-/// poses.) Where home itself is singular there is no sign to keep, and singularity is left out.
+/// A pose lies in the workspace if all requirements are met and `det J` has the same sign as at home. Every path
+/// between different signs contains a singular pose. The same sign proves nothing: a path may still have to pass
+/// singular poses. If home itself is singular, singularity is ignored.
 #[derive(Debug)]
 pub struct Limits<'a> {
     required: &'a Requirements,
@@ -43,7 +43,7 @@ pub struct Limits<'a> {
 const SINGULAR: f64 = 1e-12;
 
 impl<'a> Limits<'a> {
-    /// Makes the requirements ready.
+    /// Prepares the requirements.
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let terms = Terms::new(manipulator, required, home);
@@ -62,14 +62,14 @@ impl<'a> Limits<'a> {
         margin / self.required.scale_of(term.kind, self.size)
     }
 
-    /// The requirement met worst at a pose. A singularity counts as the worst only where all others are met.
+    /// The requirement with the least margin at a pose. A singularity counts as the worst only if all others are met.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> PoseLimit {
         let terms = self.terms.at(pose);
         let shares = terms.iter().map(|t| PoseLimit { share: self.share(t), limit: Some(Limit::Term(t.0)) });
         let none = PoseLimit { share: f64::INFINITY, limit: None };
         let worst = shares.fold(none, |worst, t| if t.share < worst.share { t } else { worst });
-        // a rod that does not close is a requirement that is violated
+        // a rod that does not close violates its requirement
         let ratio = self.at_home.and_then(|home| Some(self.terms.determinant(pose)? / home));
         let ratio = ratio.unwrap_or(f64::INFINITY);
         if worst.share > 0.0 && ratio < worst.share {

@@ -1,4 +1,4 @@
-//! Loads on the platform and the leg forces that hold them.
+//! Loads on the platform and the leg forces in equilibrium with them.
 
 use nalgebra::{LU, Matrix6, Point3, Rotation3, U6, Vector3, Vector6};
 
@@ -11,31 +11,31 @@ use platform::manipulator::{Body, Manipulator, jacobian};
 /// A force and a torque that act on the platform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {
-    /// What it is called in reports.
+    /// The name in reports.
     pub name: String,
     /// Force, force units.
     pub force: Vector3<f64>,
     /// Torque besides that of the force, force units times design units.
     pub torque: Vector3<f64>,
-    /// Where the force acts, platform frame.
+    /// Point of application of the force, platform frame.
     pub at: Point3<f64>,
-    /// The frame in which force and torque keep their direction: weight is fixed to the base, a cutting force to the
-    /// platform.
+    /// The frame in which force and torque keep their direction: the base for weight, the platform for a cutting force.
     pub fixed_to: Body,
-    /// The weight of the legs, where it is part of the load.
+    /// The weight of the legs, if it is part of the load.
     pub legs: Option<LegsWeight>,
 }
 
 /// The weight of six equal legs at rest, as forces on the platform joints.
 ///
-/// A leg has a cylinder of mass `m_1`, its centre `s_1` from the base joint, and a rod of mass `m_2`, its centre `s_2`
-/// from the platform joint. With the length `q`, the direction `u` and gravity `g`, the force on the platform joint is
+/// The cylinder of a leg has the mass `m_1`, with its centre `s_1` from the base joint. The rod has the mass `m_2`,
+/// with its centre `s_2` from the platform joint. With the length `q`, the direction `u` and gravity `g`, the force on
+/// the platform joint is
 ///
 /// ```text
 /// w = m_2 g + (m_1 s_1 - m_2 s_2) (g - u (u . g)) / q
 /// ```
 ///
-/// The drive forces that hold the six `w` hold the legs (statics; `docs/theory/requirements.md`).
+/// Drive forces in equilibrium with the six `w` hold the legs (statics; `docs/theory/requirements.md`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegsWeight {
     /// `m_2 g`, force units, base frame.
@@ -45,7 +45,7 @@ pub struct LegsWeight {
 }
 
 impl LegsWeight {
-    /// The weight of legs under gravity in m/s^2; `None` for legs that weigh nothing.
+    /// The weight of legs under gravity in m/s^2; `None` for massless legs.
     #[must_use]
     pub fn new(legs: &LegMasses, gravity: &Vector3<f64>, mass: MassUnit, force: ForceUnit) -> Option<Self> {
         let (cylinder, rod) = (&legs.cylinder, &legs.rod);
@@ -55,8 +55,8 @@ impl LegsWeight {
             .then(|| Self { rod: in_unit * rod.mass, moment: in_unit * moment })
     }
 
-    /// The force `w` on the platform joint of a leg, by the line from its base joint to its platform joint; `None`
-    /// where the leg may have no length.
+    /// The force `w` on the platform joint of a leg, by the line from its base joint to its platform joint. `None`
+    /// where the leg may have length zero.
     pub fn at_joint<N: SmoothNumber>(&self, line: &[N; 3]) -> Option<[N; 3]> {
         let over = norm_squared(line).inverse_root()?;
         let fixed = |v: &Vector3<f64>| [0, 1, 2].map(|k| over.alike(v[k]));
@@ -67,7 +67,7 @@ impl LegsWeight {
 }
 
 impl Load {
-    /// Force and torque about the platform origin, both in the base frame; a manipulator has the legs that weigh.
+    /// Force and torque about the platform origin, both in the base frame; `m` gives the legs that weigh.
     #[must_use]
     pub fn wrench(&self, m: &Manipulator, pose: &Pose) -> Vector6<f64> {
         let legs = m.legs().map(|leg| {
@@ -77,8 +77,8 @@ impl Load {
         self.wrench_on(&pose.rotation, &legs)
     }
 
-    /// The same for legs given by their arms `R b` and their lines `R b + p - a`; not a number where a leg that weighs
-    /// has no length.
+    /// The same wrench for legs given by their arms `R b` and their lines `R b + p - a`; NaN if a leg with weight has
+    /// length zero.
     #[must_use]
     pub fn wrench_on(
         &self,
@@ -90,8 +90,8 @@ impl Load {
         wrench.map_or(Vector6::repeat(f64::NAN), Vector6::from)
     }
 
-    /// The same in other numbers, by vectors of the base frame, vectors of the platform frame, and legs; `None` where a
-    /// leg that weighs may have no length.
+    /// The same wrench in other number types, from vectors of the base frame, vectors of the platform frame, and legs.
+    /// `None` where a leg with weight may have length zero.
     pub(super) fn wrench_of<N: SmoothNumber>(
         &self,
         fixed: impl Fn(&Vector3<f64>) -> [N; 3],
@@ -117,18 +117,18 @@ impl Load {
     }
 }
 
-/// Forces in the legs that hold a wrench `(f, t)` (about the platform origin, base frame):
+/// Leg forces in equilibrium with a wrench `(f, t)` (about the platform origin, base frame):
 /// `sum F_i (u_i, R b_i x u_i) = -(f, t)`.
 ///
-/// Positive forces push the platform (compression). `scale` is a length that makes moments comparable with
-/// forces in the solution of the linear system, the size of the design for instance; the answer does not depend on it.
-/// `None` at a singular pose, where no forces or many hold the load.
+/// Positive forces push the platform (compression). `scale` is a length that makes moments comparable with forces in
+/// the linear system, for instance the size of the design. The answer does not depend on it. `None` at a singular pose,
+/// where the forces do not exist or are not unique. `None` at a singular pose, where no forces or many hold the load.
 #[must_use]
 pub fn leg_forces(m: &Manipulator, pose: &Pose, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
     HeldLines::new(&jacobian(m, pose, scale), scale).forces(wrench)
 }
 
-/// Lines of legs at a pose, ready to hold loads.
+/// Lines of legs at a pose, factorised for loads.
 #[derive(Debug, Clone)]
 pub struct HeldLines {
     columns: LU<f64, U6, U6>,
@@ -136,13 +136,13 @@ pub struct HeldLines {
 }
 
 impl HeldLines {
-    /// For lines given by rows, with their moments over a length.
+    /// The solver for lines given by rows, with their moments over a length.
     #[must_use]
     pub fn new(rows: &Matrix6<f64>, scale: f64) -> Self {
         Self { columns: rows.transpose().lu(), scale }
     }
 
-    /// Forces that hold a wrench, as [`leg_forces`] gives them.
+    /// Forces in equilibrium with a wrench, as in [`leg_forces`].
     #[must_use]
     pub fn forces(&self, wrench: &Vector6<f64>) -> Option<Vector6<f64>> {
         let mut right = -wrench;
@@ -151,7 +151,7 @@ impl HeldLines {
         forces.iter().all(|x| x.is_finite()).then_some(forces)
     }
 
-    /// What makes forces of minus a wrench with its torque over the length; `None` at a singular pose.
+    /// The matrix that maps minus a wrench with its torque over the length to forces; `None` at a singular pose.
     #[must_use]
     pub fn inverse(&self) -> Option<Matrix6<f64>> {
         self.columns.try_inverse()

@@ -1,9 +1,10 @@
-//! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and
-//! speed over a set of poses.
+//! The requirements of a platform besides regularity, with their margins: space, lengths, joint angles, loads and speed
+//! over a set of poses.
 //!
-//! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions.
-//! Forces, speeds and gaps are one function each, which the proof and an optimiser call in numbers of their own
-//! ([`num::smooth`], [`num::ordered`]). `docs/theory/requirements.md` has the definition and the unit of every term.
+//! The types hold the requirements of a design file. [`assess()`] evaluates them directly, pose by pose, from the
+//! definitions. Forces, speeds and gaps are one function each. The proof and an optimiser call it with their own number
+//! types ([`num::smooth`], [`num::ordered`]). `docs/theory/requirements.md` has the definition and the unit of every
+//! term. `docs/theory/requirements.md` has the definition and the unit of every term.
 
 mod assess;
 mod bodies;
@@ -89,7 +90,7 @@ impl PlatformSpeed {
     }
 }
 
-/// Everything a design has to satisfy. What is absent limits nothing.
+/// All requirements of a design. Absent entries limit nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Requirements {
     /// Sizes and limits of joints, legs and drives.
@@ -98,30 +99,30 @@ pub struct Requirements {
     pub keep_outs: Vec<KeepOut>,
     /// Loads that the legs have to hold, one at a time.
     pub loads: Vec<Load>,
-    /// How fast the platform has to move.
+    /// The required speed of the platform.
     pub platform_speed: Option<PlatformSpeed>,
-    /// How stiff the platform has to be; [`Hardware::leg_stiffness`] says how stiff a leg is.
+    /// The required stiffness of the platform; [`Hardware::leg_stiffness`] is that of a leg.
     pub platform_stiffness: Option<PlatformStiffness>,
-    /// What vibrates, where masses and units are known.
+    /// The vibrating masses, if masses and units are known.
     pub vibrating: Option<VibratingMasses>,
     /// Least distance of two joint centres of a body, design units.
     pub min_joint_distance: Option<f64>,
-    /// Room that plates and machine may take up.
+    /// Space that plates and machine may occupy.
     pub envelopes: Envelopes,
     /// The plates that carry the joints.
     pub plates: Plates,
-    /// The room that the payload takes up, platform frame.
+    /// The space of the payload, platform frame.
     pub payload_shape: Option<KeepOutShape>,
-    /// What has to remain of each limit.
+    /// The required reserve of each limit.
     pub reserves: Reserves,
-    /// Cranks with rods of constant length in place of legs that change their lengths; what is said of such legs then
-    /// limits nothing.
+    /// Cranks with rods of constant length in place of legs of variable length; limits of such legs then have no
+    /// effect.
     pub cranks: Option<Box<Cranks>>,
 }
 
 impl Requirements {
-    /// What is asked of the drives (lengths, forces, speeds, stiffness), and all the rest: each kind of requirement
-    /// belongs to one of both.
+    /// The requirements of the drives (lengths, forces, speeds, stiffness), and all the others: each kind belongs to
+    /// one of the two.
     #[must_use]
     pub fn of_drives_and_rest(&self) -> [Self; 2] {
         let h = &self.hardware;
@@ -162,8 +163,8 @@ impl Requirements {
         [drives, rest]
     }
 
-    /// `true` where a natural frequency is asked for whose legs have masses and joints that are not ideal: how such
-    /// legs move is not known, and the frequency is not judged.
+    /// `true` for a natural frequency with leg masses and joint offsets. The motion of such legs is not modelled, so
+    /// the frequency is not judged.
     #[must_use]
     pub fn leaves_out_moving_legs(&self) -> bool {
         let wanted = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
@@ -171,15 +172,15 @@ impl Requirements {
         wanted && moving && self.hardware.is_coupled()
     }
 
-    /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for
-    /// other kinds.
+    /// The required least stiffness or natural frequency, in the unit of its margin; `None` without one, and for other
+    /// kinds.
     #[must_use]
     pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {
         self.platform_stiffness.and_then(|wanted| wanted.least(kind))
     }
 
-    /// What a margin of a kind is a share of where margins of several kinds are compared: the size of the design
-    /// (lengths), 90 degrees, or the limit itself.
+    /// The reference value that makes margins of different kinds comparable: the size of the design (lengths), 90
+    /// degrees, or the limit itself.
     pub fn scale_of(&self, kind: TermKind, size: f64) -> f64 {
         match kind.quantity() {
             Quantity::Length => size,

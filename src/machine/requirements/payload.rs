@@ -1,4 +1,4 @@
-//! What the platform carries, and the weight that follows from it.
+//! The payload of the platform, and its weight.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -37,7 +37,7 @@ impl ForceUnit {
         }
     }
 
-    /// How many newtons it is.
+    /// The unit in newtons.
     #[must_use]
     pub fn newtons(self) -> f64 {
         match self {
@@ -77,7 +77,7 @@ impl MassUnit {
         }
     }
 
-    /// How many kilograms it is.
+    /// The unit in kilograms.
     #[must_use]
     pub fn kilograms(self) -> f64 {
         match self {
@@ -89,18 +89,18 @@ impl MassUnit {
     }
 }
 
-/// Whether the mass of the payload has that of the platform plate in it.
+/// Whether the mass of the payload includes that of the platform plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PlateMass {
-    /// It has.
+    /// The mass includes the plate.
     #[default]
     Included,
-    /// The plate comes on top.
+    /// The plate is added.
     Added,
 }
 
 impl PlateMass {
-    /// Both.
+    /// Both cases.
     pub const ALL: [Self; 2] = [Self::Included, Self::Added];
 
     /// Its name in files.
@@ -113,7 +113,7 @@ impl PlateMass {
     }
 }
 
-/// The mass on the platform, that of the platform plate included where [`plate`](Self::plate) says so.
+/// The mass on the platform; [`plate`](Self::plate) tells whether it includes the platform plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Payload {
     /// Mass, mass units.
@@ -127,7 +127,7 @@ pub struct Payload {
     pub gravity: Vector3<f64>,
     /// Whether the mass of the platform plate is part of the mass.
     pub plate: PlateMass,
-    /// The room that it takes up, platform frame, which the legs keep clear of.
+    /// The space that it occupies, platform frame, which the legs keep clear of.
     pub shape: Option<KeepOutShape>,
 }
 

@@ -1,4 +1,4 @@
-//! What has to remain of each limit, so that later steps (rounding, tolerances, a heavier payload) have room.
+//! Reserves of limits, which leave space for later steps (rounding, tolerances, a heavier payload).
 
 use std::collections::BTreeMap;
 
@@ -7,21 +7,21 @@ use super::envelope::Envelope;
 use super::term::TermKind;
 use platform::manipulator::Body;
 
-/// What has to remain of a limit.
+/// The required reserve of a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reserve {
     /// An amount in the unit of the margin.
     Amount(f64),
-    /// A part of the limit, percent ([`Requirements::reserve`] says of what).
+    /// A share of a reference value, percent ([`Requirements::reserve`] lists the reference values).
     Percent(f64),
 }
 
 /// The reserves on all limits.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reserves {
-    /// Percent of every limit that has no reserve of its own.
+    /// Percentage for every limit without its own reserve.
     pub all: Option<f64>,
-    /// Those of single kinds.
+    /// Reserves of single kinds.
     pub kinds: BTreeMap<TermKind, Reserve>,
 }
 
@@ -34,15 +34,15 @@ impl Reserves {
 }
 
 impl Requirements {
-    /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
+    /// The reserve on a kind of requirement, in the unit of its margin: 0 without a reserve.
     ///
-    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle (the least of these
-    /// where legs have different ones), force or speed, of the least stiffness or frequency, of the leg diameter for
-    /// clearances, of the widest housing (or the least distance of centres, whichever is greater) for the room between
-    /// joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes
-    /// of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod,
-    /// of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or
-    /// speed.
+    /// The reference value of a percentage depends on the kind. For lengths it is the travel (greatest minus least).
+    /// For angles, forces and speeds it is the greatest value, or the least of these if legs differ. For stiffness and
+    /// frequency it is the least value. For clearances it is the leg diameter. For the distance between joints it is
+    /// the greater of the widest housing and the least distance of centres. For the holes of plates it is the greater
+    /// of the required distance and the greatest hole diameter. For envelopes it is the radius or half the shortest
+    /// edge. For cranks it is the shortest rod, half the narrowest range of angles, the least transmission angle, or
+    /// the greatest joint angle, torque or speed.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
         let own = self.reserves.kinds.get(&kind).copied();
@@ -53,12 +53,12 @@ impl Requirements {
         }
     }
 
-    /// The plate that a kind is about.
+    /// The plate of a kind.
     fn plate_of(&self, kind: TermKind) -> Option<&super::PlateDesign> {
         self.plates.of(kind.plate()?)
     }
 
-    /// What percentages of a kind are parts of; 0 where nothing is limited.
+    /// The reference value of percentages of a kind; 0 without a limit.
     pub fn whole(&self, kind: TermKind) -> f64 {
         let h = &self.hardware;
         let spacing = |body: Body| {

@@ -1,25 +1,25 @@
-//! What a margin says when the rounding of its own evaluation is kept in mind.
+//! The meaning of a margin within the rounding of its own evaluation.
 
 use super::term::{Quantity, TermKind, Terms};
 use super::universal::HingeAngle;
 use platform::geom::Pose;
 use platform::manipulator::{Body, inverse_condition};
 
-/// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are
-/// rounded themselves, each good to half of `eps`, and room to spare.
+/// Rounding of a length over the sum of the lengths in its computation. Some ten operations on rounded coordinates have
+/// an error of half of `eps` each; the rest is a safety factor.
 const SHARE: f64 = 64.0 * f64::EPSILON;
 
-/// Rounding, as a share, that no margin is excused by: near singular poses and for legs of almost no length the
-/// arithmetic says nothing, and a margin below zero is a violation.
+/// Greatest share that counts as rounding. Near singular poses and for legs of nearly zero length the arithmetic is
+/// inaccurate; a margin below zero is then a violation.
 const MOST: f64 = 1e-9;
 
-/// What a margin says.
+/// The meaning of a margin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Standing {
     /// Below zero by more than rounding: the requirement is violated.
     Violated,
-    /// Not told from zero by the arithmetic: the design is at its limit, as it is when a distance was chosen equal to
-    /// the least one. It counts as met.
+    /// Equal to zero within rounding: the design is at its limit, for example if a distance was chosen equal to the
+    /// least one. It counts as met.
     AtLimit,
     /// Above zero by more than rounding.
     Met,
@@ -34,8 +34,7 @@ impl Standing {
 }
 
 impl Terms<'_> {
-    /// What a margin of this kind says at the pose where it was found (`None` for kinds on which the pose has no
-    /// influence).
+    /// The meaning of a margin of this kind at its pose (`None` for kinds that do not depend on the pose).
     #[must_use]
     pub fn standing(&self, kind: TermKind, margin: f64, pose: Option<&Pose>) -> Standing {
         if margin.is_finite() && margin.abs() <= self.rounding(kind, pose) {
@@ -47,8 +46,8 @@ impl Terms<'_> {
         }
     }
 
-    /// By how much an error of the direction of a leg is greater in an angle: more than 1 for first angles of universal
-    /// joints near their first axes.
+    /// Amplification of a direction error of a leg in an angle: above 1 for first angles of universal joints near their
+    /// first axes.
     fn amplification(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let (Some((body, HingeAngle::First)), Some(pose)) = (kind.hinge(), pose) else { return 1.0 };
         let end = body.index();
@@ -61,9 +60,8 @@ impl Terms<'_> {
         (0..6).map(of).fold(1.0, f64::max)
     }
 
-    /// The sum of lengths that a length is computed from: that of a plate is greater by what it is long and wide, and
-    /// by as much again as its size is greater than the shortest edge of its hull, whose direction is known that much
-    /// worse.
+    /// The sum of lengths in the computation of a length. For a plate it grows by the extent of the plate, and by its
+    /// ratio to the shortest edge of the hull, whose direction is less accurate.
     fn plate_reach(&self, kind: TermKind, reach: f64) -> f64 {
         let of = |body: Body| {
             self.plate(body).map_or(0.0, |solid| {
@@ -81,15 +79,15 @@ impl Terms<'_> {
 
     /// Bound of the rounding of a margin, in its unit.
     ///
-    /// For holes and plates `r` has the extent `e` of the plate besides, and `e` times `e` over the shortest edge of
-    /// its hull. Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of
-    /// its body and of the distance of the platform from the base origin. Angles: the same over the shortest leg, and
-    /// for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds:
-    /// `64 eps` times the greatest speed times `r` over the shortest leg. Forces: `64 eps` times the greatest force
-    /// over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and over the
-    /// sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles and of
-    /// forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest
-    /// speed or force, or of twice the least stiffness or frequency.
+    /// For holes and plates `r` also includes the extent `e` of the plate, and `e` times `e` over the shortest edge of
+    /// its hull. Lengths: `64 eps` (1.4e-14) times `r`. `r` is the sum of the greatest distances of a joint from the
+    /// origin of its body and of the distance of the platform from the base origin. Angles: the same over the shortest
+    /// leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis.
+    /// Speeds: `64 eps` times the greatest speed times `r` over the shortest leg. Forces: `64 eps` times the greatest
+    /// force over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and
+    /// over the sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles
+    /// and of forces together, times twice the required least value. The bound is at most `1e-9` radians, or `1e-9` of
+    /// the greatest speed or force, or of twice the least stiffness or frequency.
     #[must_use]
     pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let m = self.manipulator;

@@ -1,4 +1,4 @@
-//! The terms: what is required of a manipulator at a pose, and by how much it is met.
+//! The terms: the requirements of a manipulator at a pose, with their margins.
 
 use nalgebra::{Matrix6, Point3, Unit, Vector3};
 
@@ -24,11 +24,11 @@ use platform::manipulator::{Body, Manipulator, jacobian};
 pub enum TermKind {
     /// Leg length minus the least one.
     LegTooShort,
-    /// The greatest leg length minus the length.
+    /// Greatest leg length minus the leg length.
     LegTooLong,
-    /// Swing limit minus the angle between leg and axis at the base.
+    /// Limit minus the joint angle between leg and axis at the base.
     BaseSwing,
-    /// Swing limit minus the angle between leg and axis at the platform.
+    /// Limit minus the joint angle between leg and axis at the platform.
     PlatformSwing,
     /// Limit minus the angle about the first axis of a universal joint at the base.
     BaseFirstAngle,
@@ -38,9 +38,9 @@ pub enum TermKind {
     PlatformFirstAngle,
     /// Limit minus the angle about its second axis.
     PlatformSecondAngle,
-    /// Gap between two legs minus the clearance required.
+    /// Gap between two legs minus the required clearance.
     LegClearance,
-    /// Gap between a leg and a keep-out minus the clearance required.
+    /// Gap between a leg and a keep-out minus the required clearance.
     KeepOut,
     /// Greatest leg force minus the force under a load.
     LegForce,
@@ -48,25 +48,25 @@ pub enum TermKind {
     LegSpeed,
     /// Gap between two housings of the base, or distance of joint centres minus the least one.
     BaseSpacing,
-    /// The same on the platform.
+    /// Gap between two housings of the platform, or distance of joint centres minus the least one.
     PlatformSpacing,
-    /// How far a base joint with its housing stays inside the envelope of the base.
+    /// Distance of a base joint with its housing inside the envelope of the base.
     BaseEnvelope,
-    /// The same on the platform.
+    /// Distance of a platform joint with its housing inside the envelope of the platform.
     PlatformEnvelope,
-    /// How far a joint with its housing stays inside the envelope of the whole machine.
+    /// Distance of a joint with its housing inside the envelope of the whole machine.
     MachineEnvelope,
-    /// By how much the holes under a base joint are farther from the outline of the plate than they have to be.
+    /// Distance of the holes under a base joint from the outline of the plate, minus the required one.
     BaseHoleEdge,
-    /// The same on the platform.
+    /// Distance of the holes under a platform joint from the outline of the plate, minus the required one.
     PlatformHoleEdge,
-    /// By how much the holes and feet of two base joints, or the holes of one, are farther apart than they have to be.
+    /// Distance between the holes and feet of two base joints, or between the holes of one, minus the required one.
     BaseHoleGap,
-    /// The same on the platform.
+    /// Distance between the holes and feet of two platform joints, or between the holes of one, minus the required one.
     PlatformHoleGap,
-    /// Gap between a leg and a plate minus the clearance required.
+    /// Gap between a leg and a plate minus the required clearance.
     PlateClearance,
-    /// Gap between a leg and the payload minus the clearance required.
+    /// Gap between a leg and the payload minus the required clearance.
     PayloadClearance,
     /// Stiffness of the platform against a force in the softest direction minus the least one.
     LinearStiffness,
@@ -76,14 +76,14 @@ pub enum TermKind {
     NaturalFrequency,
     /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
     RodTooShort,
-    /// Distance of the platform joint from the farthest point of that circle minus the rod length.
+    /// Distance of the platform joint from the farthest point of the crank circle minus the rod length.
     RodTooLong,
-    /// Transmission angle of a crank minus the least one: the angle whose sine is that part of a push along the rod
-    /// which turns the crank. At 0 degrees crank and rod are in a plane with the axis.
+    /// Transmission angle of a crank minus the least one. Its sine is the share of a push along the rod that turns the
+    /// crank. At 0 degrees crank and rod are in a plane with the axis.
     CrankTransmission,
-    /// What remains of the limits of the angle of a crank.
+    /// Distance of the angle of a crank from its limits.
     CrankAngle,
-    /// Swing limit minus the angle between a rod and the plane in which its crank turns.
+    /// Limit minus the angle between a rod and the plane in which its crank turns.
     TipSwing,
     /// Greatest torque of a crank minus the torque under a load.
     CrankTorque,
@@ -91,7 +91,7 @@ pub enum TermKind {
     CrankSpeed,
 }
 
-/// What a margin is measured in.
+/// The physical quantity of a margin, with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Design units.
@@ -192,7 +192,7 @@ impl TermKind {
         }
     }
 
-    /// What its margin is measured in.
+    /// The quantity of its margin.
     #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
@@ -213,13 +213,13 @@ impl TermKind {
         }
     }
 
-    /// `true` for what the platform as a whole has, and no leg or joint of its own.
+    /// `true` for requirements of the platform as a whole, without a leg or joint.
     #[must_use]
     pub fn is_of_platform(self) -> bool {
         Self::OF_PLATFORM.contains(&self)
     }
 
-    /// For the angles of universal joints: of which body, and about which axis.
+    /// For angles of universal joints: the body and the axis.
     pub fn hinge(self) -> Option<(Body, HingeAngle)> {
         Some(match self {
             Self::BaseFirstAngle => (Body::Base, HingeAngle::First),
@@ -234,7 +234,7 @@ impl TermKind {
     pub const HINGES: [Self; 4] =
         [Self::BaseFirstAngle, Self::BaseSecondAngle, Self::PlatformFirstAngle, Self::PlatformSecondAngle];
 
-    /// The kinds that the lines of single legs decide, besides [`HINGES`](Self::HINGES).
+    /// The kinds that single leg lines decide, besides [`HINGES`](Self::HINGES).
     const OF_LEG_LINES: [Self; 4] =
         [Self::LegTooShort, Self::LegTooLong, Self::BaseSwing, Self::PlatformSwing];
 
@@ -245,7 +245,7 @@ impl TermKind {
     /// The kinds of stiffness and frequency.
     const OF_PLATFORM: [Self; 3] = [Self::LinearStiffness, Self::AngularStiffness, Self::NaturalFrequency];
 
-    /// `true` when the pose does not matter.
+    /// `true` if it does not depend on the pose.
     #[must_use]
     pub fn is_fixed(self) -> bool {
         matches!(
@@ -254,7 +254,7 @@ impl TermKind {
         ) || self.plate().is_some()
     }
 
-    /// For the margins of holes: of the plate of which body.
+    /// For the margins of holes: the body of the plate.
     pub fn plate(self) -> Option<Body> {
         Some(match self {
             Self::BaseHoleEdge | Self::BaseHoleGap => Body::Base,
@@ -264,20 +264,20 @@ impl TermKind {
     }
 }
 
-/// One requirement: a kind and what it is about.
+/// One requirement: a kind and its leg, joint or pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Term {
     /// The kind.
     pub kind: TermKind,
     /// The leg, or the joint of the body, counted from 0.
     pub first: usize,
-    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for
-    /// what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its
-    /// platform joint; for plates 0 for that of the base, 1 for that of the platform.
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` if there is no other. Both are 0 for
+    /// requirements of the platform as a whole. For the envelope of the machine it is 0 for the base joint of the leg
+    /// and 1 for its platform joint. For plates it is 0 for the base and 1 for the platform.
     pub second: usize,
 }
 
-/// The requirements made ready for one manipulator.
+/// The requirements prepared for one manipulator.
 #[derive(Debug)]
 pub struct Terms<'a> {
     pub(super) manipulator: &'a Manipulator,
@@ -288,20 +288,19 @@ pub struct Terms<'a> {
     hinges: [[Option<Hinge>; 6]; 2],
     /// The plates of the base and of the platform.
     plates: [Option<PlateSolid>; 2],
-    /// Legs whose joints are not ideal, or why they are none.
+    /// Legs with joint offsets, or the reason why they have no lengths.
     coupled: Option<Result<CoupledLegs, NoDriveLength>>,
 }
 
 /// The legs at a pose.
 struct LegsAt {
-    /// Where the bodies of the legs begin and end: at the joints, or at their second axes where these do not meet the
-    /// first ones.
+    /// Ends of the leg bodies: the joints, or their second axes if offset from the first ones.
     ends: [(Point3<f64>, Point3<f64>); 6],
-    /// Lengths of the drives; minus infinity plays no part in what is longer and in what is shorter.
+    /// Lengths of the drives; minus infinity marks a leg to ignore.
     lengths: [f64; 6],
-    /// Legs that are not determined: everything about them is violated.
+    /// Undetermined legs: all their requirements are violated.
     missing: [bool; 6],
-    /// Rates of the drives, where the joints are not ideal and all legs are determined.
+    /// Rates of the drives, if there are joint offsets and all legs are determined.
     states: Option<[DriveState; 6]>,
 }
 
@@ -322,7 +321,7 @@ pub(super) fn angle_deg(u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
 }
 
 impl<'a> Terms<'a> {
-    /// Makes the requirements ready: axes that follow the legs at home are found here.
+    /// Prepares the requirements; axes that follow the legs at home are computed here.
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let legs = required.pushing_legs(&manipulator.legs(), home);
@@ -331,7 +330,7 @@ impl<'a> Terms<'a> {
             required.hardware.is_coupled().then(|| CoupledLegs::new(manipulator, &required.hardware, home));
         if let Some(Ok(coupled)) = &coupled {
             for (i, u) in at_home.iter_mut().enumerate() {
-                // an axis of no direction violates its limits
+                // an axis without direction violates its limits
                 let line = coupled.state_of(i, home).map(|state| state.line);
                 *u = line.map_or(Vector3::repeat(f64::NAN), |line| line.normalize());
             }
@@ -360,21 +359,20 @@ impl<'a> Terms<'a> {
         self.hinges[end][leg].as_ref()
     }
 
-    /// The plate of a body, where the design says something of it.
+    /// The plate of a body, if the design describes it.
     #[must_use]
     pub fn plate(&self, body: Body) -> Option<&PlateSolid> {
         self.plates[body.index()].as_ref()
     }
 
-    /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base
-    /// in the base frame, at the platform in the platform frame.
+    /// The axes of joint angles, unit vectors in leg order from base to platform, in the frame of their body.
     #[must_use]
     pub fn axes(&self) -> &[[Vector3<f64>; 6]; 2] {
         &self.axes
     }
 
-    /// The least gap at the pose of two legs that share no joint, which is the margin of their clearance and the
-    /// clearance itself; `None` where the legs have no diameter or every two share a joint.
+    /// The least gap at the pose between two legs without a shared joint: the margin of the clearance plus the
+    /// clearance itself. `None` for legs without diameter, or if every two share a joint.
     #[must_use]
     pub fn least_leg_gap(&self, pose: &Pose) -> Option<f64> {
         let clearance = self.required.hardware.leg_clearance.unwrap_or(0.0);
@@ -382,7 +380,7 @@ impl<'a> Terms<'a> {
         gaps.map(|(_, margin)| margin + clearance).reduce(f64::min)
     }
 
-    /// Margins of the requirements that do not depend on the pose: positive where they are met.
+    /// Margins of the requirements that do not depend on the pose: positive if met.
     #[must_use]
     pub fn fixed(&self) -> Vec<(Term, f64)> {
         let m = self.manipulator;
@@ -413,7 +411,7 @@ impl<'a> Terms<'a> {
         out
     }
 
-    /// How far the joints of a body stay inside its envelope.
+    /// Distances of the joints of a body inside its envelope.
     fn joints_in_envelopes(&self) -> Vec<(Term, f64)> {
         let envelopes = &self.required.envelopes;
         let bodies = [
@@ -439,7 +437,7 @@ impl<'a> Terms<'a> {
         out
     }
 
-    /// How far the holes of the plates are from outlines and from each other.
+    /// Distances of the holes of the plates from outlines and from each other.
     fn holes(&self, out: &mut Vec<(Term, f64)>) {
         for body in Body::BOTH {
             let (Some(plate), Some(solid)) = (self.required.plates.of(body), self.plate(body)) else {
@@ -455,7 +453,7 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// How far the joints of both ends of each leg stay inside the envelope of the machine.
+    /// Distances of the joints of both ends of each leg inside the envelope of the machine.
     fn machine(&self, ends: &[(Point3<f64>, Point3<f64>); 6], out: &mut Vec<(Term, f64)>) {
         let Some(envelope) = self.required.envelopes.machine else { return };
         for (i, (a, b)) in ends.iter().enumerate() {
@@ -467,8 +465,8 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin
-    /// minus infinity, and the platform has no stiffness there.
+    /// Margins of all requirements at a pose: positive if met. Forces at a singular pose have the margin minus
+    /// infinity, and the platform has no stiffness there.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
         self.some_at(pose, |_| true)
@@ -479,7 +477,7 @@ impl<'a> Terms<'a> {
         self.some_at(pose, |kinds| kinds.contains(&kind)).into_iter().filter(move |(t, _)| t.kind == kind)
     }
 
-    /// The margins at a pose of what is computed together, where `wanted` says of its kinds that it is.
+    /// The margins at a pose of the groups of kinds that `wanted` accepts.
     fn some_at(&self, pose: &Pose, wanted: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
         let mut out = Vec::new();
         if let Some(cranks) = &self.required.cranks {
@@ -513,7 +511,7 @@ impl<'a> Terms<'a> {
         out
     }
 
-    /// The legs at a pose, whatever their joints are.
+    /// The legs at a pose, for any kind of joints.
     fn legs_at(&self, joints: &[(Point3<f64>, Point3<f64>); 6], pose: &Pose) -> LegsAt {
         let mut out = LegsAt {
             ends: *joints,
@@ -538,8 +536,7 @@ impl<'a> Terms<'a> {
         out
     }
 
-    /// Rates of the drives by rows, moments over a length; `None` where the joints are not ideal and a leg is not
-    /// determined.
+    /// Rates of the drives by rows, moments over a length; `None` if joints have offsets and a leg is undetermined.
     pub(super) fn drive_rows(&self, pose: &Pose, length: f64) -> Option<Matrix6<f64>> {
         match &self.coupled {
             None => Some(jacobian(self.manipulator, pose, length)),
@@ -548,12 +545,12 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// `true` where the joints are not ideal.
+    /// `true` if joints have offsets or legs have a lead.
     pub(super) fn are_coupled(&self) -> bool {
         self.coupled.is_some()
     }
 
-    /// How stiff the platform is on its legs, and how slowly it vibrates.
+    /// Stiffness of the platform on its legs, and its natural frequency.
     fn stiffness(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let Some(wanted) = self.required.platform_stiffness else { return };
         let rows = self.drive_rows(pose, self.manipulator.size());
@@ -637,7 +634,7 @@ impl<'a> Terms<'a> {
 
     /// Gaps between a leg and the plates.
     ///
-    /// Each leg stands on both plates: at the plate of an end it counts from the housing of its joint on.
+    /// Each leg is next to both plates: at the plate of an end it counts from the housing of its joint.
     fn plate_clearances(
         &self,
         i: usize,
@@ -682,7 +679,7 @@ impl<'a> Terms<'a> {
             for i in 0..6 {
                 let fastest = rows.map_or(f64::INFINITY, |rows| {
                     let moment = rows.fixed_view::<1, 3>(i, 3).norm();
-                    // lines of legs are unit vectors, screws that turn with them are more
+                    // leg lines are unit vectors; the rates of screws that rotate with them are longer
                     let line = if self.are_coupled() { rows.fixed_view::<1, 3>(i, 0).norm() } else { 1.0 };
                     speed.fastest(line, moment)
                 });

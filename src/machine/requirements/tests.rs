@@ -9,8 +9,8 @@ use platform::geom::Pose;
 use platform::manipulator::Body;
 use platform::manipulator::{Manipulator, jacobian};
 
-/// Six vertical legs of length 10 over a hexagon of radius 4 (singular at home, which lengths and clearances don't
-/// mind).
+/// Six vertical legs of length 10 over a hexagon of radius 4 (singular at home, without effect on lengths and
+/// clearances).
 fn upright() -> (Manipulator, Pose) {
     let ring = || -> Vec<Point3<f64>> {
         let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
@@ -196,7 +196,7 @@ fn weight_is_shared_by_the_legs_and_forces_at_a_singular_pose_are_violations() {
     assert!(values.iter().all(|(_, x)| *x < -1e6), "{values:?}");
 }
 
-/// Two base joints 0.3 - 0.2 apart, where 0.1 is required: not the same number, but the same distance.
+/// Two base joints 0.3 - 0.2 apart with 0.1 required: another double, but the same distance.
 #[test]
 fn a_margin_that_rounding_makes_is_at_the_limit_and_the_next_one_is_not() {
     let standing = |shift: f64, scale: f64, least: f64| {
@@ -216,14 +216,13 @@ fn a_margin_that_rounding_makes_is_at_the_limit_and_the_next_one_is_not() {
         assert!(matches!(standing(0.0, scale, 0.1 + 1e-12), (_, Standing::Violated, false)));
         assert!(matches!(standing(0.0, scale, 0.1 - 1e-12), (_, Standing::Met, true)));
     }
-    // far from the origin coordinates have fewer digits left for the same distance
+    // far from the origin coordinates have fewer digits for the same distance
     assert!(standing(1e4, 1.0, 0.1).0 < -1e-13);
     assert!(matches!(standing(1e4, 1.0, 0.1), (_, Standing::AtLimit, true)));
     assert!(matches!(standing(1e4, 1.0, 0.1 + 1e-6), (_, Standing::Violated, false)));
 }
 
-/// Each kind of limit set to what is measured at home is reached there, whatever the last digit says; a little more is
-/// a violation.
+/// Each kind of limit set to its value at home is reached there within rounding; a little more is a violation.
 #[test]
 fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
     let (m, home) = slanted();
@@ -304,7 +303,7 @@ fn a_kind_alone_has_the_margins_it_has_among_all() {
     }
 }
 
-/// Cells are bounded by batches whose size has nothing to do with the threads.
+/// Cells are bounded in batches whose size is independent of the threads.
 #[test]
 fn proofs_do_not_depend_on_the_number_of_threads() {
     let (m, mut r, space) = several();
@@ -320,7 +319,7 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
         assert!(!close || one.bounds.iter().map(|b| b.cells).max() > Some(40), "{one:?}");
         assert_eq!((one.all_met(), one.all_reserved()), (Some(true), Some(true)), "{one:?}");
     }
-    // a bound that only decides says as much of reserves as one that is close
+    // a bound that only decides gives the same reserves as a close one
     let reserves = |p: &MarginProof| p.bounds.iter().map(MarginBound::keeps_reserve).collect::<Vec<_>>();
     assert_eq!(reserves(&of(1, false)), reserves(&of(1, true)));
 }

@@ -1,7 +1,7 @@
 //! Universal joints: two hinges in a row, each with a limit of its own.
 //!
-//! The first axis `a` is fixed in the body. The second is at a right angle to it and to the leg, and turns with the leg
-//! about the first. With the axis `k` of the joint (`base_axes`, `platform_axes`) the rest direction is `n`, the part
+//! The first axis `a` is fixed in the body. The second is perpendicular to it and to the leg, and rotates with the leg
+//! about the first. Let `k` be the axis of the joint (`base_axes`, `platform_axes`). The rest direction `n` is the part
 //! of `k` across `a` as a unit vector, and `e = a x n`. A leg with the direction `u`, in the frame of the body, stands
 //! at the angles
 //!
@@ -9,8 +9,8 @@
 //! first = atan2(u.e, u.n),   second = atan2(u.a, |u - (u.a) a|).
 //! ```
 //!
-//! Along the first axis the first angle is not determined and the second one is 90 degrees: there the joint is
-//! singular, and both limits count as violated.
+//! Along the first axis the first angle is undetermined and the second one is 90 degrees. The joint is singular there,
+//! and both limits count as violated.
 
 use nalgebra::{Unit, Vector3};
 
@@ -19,32 +19,32 @@ use super::hardware::JointAxes;
 /// The universal joints of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniversalJoint {
-    /// Direction of the first axis of each joint, in leg order, in the frame of the body; none where the joint of a leg
-    /// is of another kind.
+    /// Direction of the first axis of each joint, in leg order, in the frame of the body. None if the joint of a leg is
+    /// of another kind.
     pub first_axes: [Option<Unit<Vector3<f64>>>; 6],
-    /// Greatest angles about the first and about the second axis of each joint, either way, degrees: at most 180, and
-    /// below 90.
+    /// Greatest angles about the first and about the second axis of each joint, in both senses, degrees: at most 180,
+    /// and below 90.
     pub limits_deg: [Option<[f64; 2]>; 6],
-    /// Where the legs are at rest: the first angles count from there.
+    /// The rest directions of the legs, where the first angles are zero.
     pub axes: JointAxes,
-    /// Distance of the two axes, design units: 0 where they meet.
+    /// Distance of the two axes, design units: 0 if they intersect.
     pub offset: f64,
 }
 
 impl UniversalJoint {
-    /// Whether the joints of all legs are universal ones.
+    /// Whether the joints of all legs are universal.
     #[must_use]
     pub fn is_of_all(&self) -> bool {
         self.first_axes.iter().all(Option::is_some)
     }
 }
 
-/// The angle about an axis of a universal joint that has a limit of its own.
+/// The angle about one axis of a universal joint, with its own limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HingeAngle {
     /// About the axis that is fixed in the body.
     First,
-    /// About the axis that turns with the leg.
+    /// About the axis that rotates with the leg.
     Second,
 }
 
@@ -53,7 +53,7 @@ pub enum HingeAngle {
 pub struct Hinge {
     /// The first axis.
     pub first: Vector3<f64>,
-    /// The rest direction; `None` where the axis of the joint is the first axis, so that there is none.
+    /// The rest direction; `None` if the axis of the joint is parallel to the first axis.
     pub rest: Option<Vector3<f64>>,
 }
 
@@ -71,7 +71,7 @@ impl Hinge {
         Some([line.dot(&rest), line.dot(&self.first.cross(&rest)), line.dot(&self.first)])
     }
 
-    /// Both angles of a leg, degrees, the first 0 where it is not determined.
+    /// Both angles of a leg, degrees; the first is 0 if undetermined.
     pub fn angles_deg(&self, line: &Vector3<f64>) -> [f64; 2] {
         let along = line.dot(&self.first);
         let Some([up, across, _]) = self.parts(line) else {
@@ -81,8 +81,7 @@ impl Hinge {
         [across.atan2(up), along.atan2(across.hypot(up))].map(f64::to_degrees)
     }
 
-    /// A limit less its angle, degrees; where the angle is not determined it counts as the greatest there is, 180 and
-    /// 90 degrees.
+    /// A limit minus its angle, degrees; an undetermined angle counts as the greatest possible, 180 or 90 degrees.
     pub(crate) fn margin_deg(&self, line: &Vector3<f64>, angle: HingeAngle, limit_deg: f64) -> f64 {
         let parts = self.parts(line).filter(|[up, across, _]| across.hypot(*up) > 0.0);
         match (angle, parts) {
@@ -96,7 +95,7 @@ impl Hinge {
         }
     }
 
-    /// By how much an error of the direction of a leg is greater in the first angle.
+    /// Amplification of a direction error of a leg in the first angle.
     pub fn amplification(&self, line: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
         line.norm() / self.first.cross(line).norm() + 1.0 / self.first.cross(axis).norm()
     }

@@ -1,10 +1,10 @@
-//! Stiffness of a platform on legs that give way along their lines, and its natural frequencies.
+//! Stiffness of a platform on legs that are elastic along their lines, and its natural frequencies.
 //!
-//! Legs of stiffness `k` hold the platform at a pose with `K = J^T diag(k) J`, where row `i` of `J` is
-//! `(u_i, R b_i x u_i)`: a small motion `x = (d, w)` (shift of the platform origin, rotation vector) needs the force
-//! and torque `K x`. With the mass matrix `M` of platform, payload and legs at the pose, small free motions are sums of
-//! `v sin(omega t)` with `K v = omega^2 M v`. Joints, plates and the stiffness that preloaded legs add are left out.
-//! Sources: Gosselin (1990) for `K`; Merlet, *Parallel Robots* (2006), sec. 8.
+//! Legs of stiffness `k` hold the platform at a pose with `K = J^T diag(k) J`. Row `i` of `J` is `(u_i, R b_i x u_i)`.
+//! A small motion `x = (d, w)` (shift of the platform origin, rotation vector) needs the force and torque `K x`. With
+//! the mass matrix `M` of platform, payload and legs at the pose, small free motions are sums of `v sin(omega t)` with
+//! `K v = omega^2 M v`. Elastic joints and plates and the stiffness from preloaded legs are neglected. Sources:
+//! Gosselin (1990) for `K`; Merlet, *Parallel Robots* (2006), sec. 8.
 
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
@@ -72,11 +72,11 @@ pub fn mass_of(
 /// Least stiffness against forces and against torques.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeastStiffness {
-    /// Against a force through the platform origin in the softest direction, the platform free to turn: force units per
-    /// design unit.
+    /// Against a force through the platform origin in the softest direction, with free rotation of the platform: force
+    /// units per design unit.
     pub linear: f64,
-    /// Against a torque about the softest axis, the platform origin free to move: force units times design units per
-    /// radian.
+    /// Against a torque about the softest axis, with free motion of the platform origin: force units times design units
+    /// per radian.
     pub angular: f64,
 }
 
@@ -104,10 +104,9 @@ pub struct Vibration {
 
 /// The six natural motions, the slowest first: `K v = omega^2 M v`.
 ///
-/// `omega` are the singular values of `sqrt(k) J L^-T` with `M = L L^T`, which no rounding makes imaginary. The
-/// stiffness of a leg is in kilograms per second squared, which is newtons per metre whatever the design unit. `None`
-/// where `M` is not positive definite (a point mass has no inertia about axes through itself), or for a leg of length
-/// zero.
+/// `omega` are the singular values of `sqrt(k) J L^-T` with `M = L L^T`, which stay real under rounding. The stiffness
+/// of a leg is in kilograms per second squared, which equals newtons per metre for any design unit. `None` where `M` is
+/// not positive definite (a point mass has no inertia about axes through itself), or for a leg of length zero.
 #[must_use]
 pub fn vibration(m: &Manipulator, pose: &Pose, leg: f64, mass: &Matrix6<f64>) -> Option<[Vibration; 6]> {
     // in units in which the diagonal of M is one
@@ -129,7 +128,7 @@ pub fn vibration(m: &Manipulator, pose: &Pose, leg: f64, mass: &Matrix6<f64>) ->
     }))
 }
 
-/// How stiff the platform has to be on its legs, at every pose. What is absent is not asked for.
+/// The required stiffness of the platform on its legs, at every pose. Absent entries require nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlatformStiffness {
     /// Least [`LeastStiffness::linear`], force units per design unit.
@@ -141,7 +140,7 @@ pub struct PlatformStiffness {
 }
 
 impl PlatformStiffness {
-    /// What is asked for of a kind of requirement.
+    /// The required value for a kind of requirement.
     #[must_use]
     pub fn least(&self, kind: TermKind) -> Option<f64> {
         match kind {
@@ -153,7 +152,7 @@ impl PlatformStiffness {
     }
 }
 
-/// What vibrates: platform, payload and legs, on legs of a stiffness.
+/// The vibrating masses (platform, payload and legs) with the stiffness of the legs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VibratingMasses {
     /// The bodies.
@@ -169,16 +168,15 @@ impl VibratingMasses {
     }
 }
 
-/// [`least_stiffness`] of legs of stiffness `leg` at a pose, from the leg forces that hold unit loads: with
-/// `F = J^-T (f, t)` the platform gives way to a unit force by `|F|^2 / leg` along it, so that the least stiffness is
-/// `leg` over the square of the greatest singular value of the columns of `J^-T` that belong to forces, or to torques.
-/// Zero at a singular pose.
+/// [`least_stiffness`] of legs of stiffness `leg` at a pose, from the leg forces under unit loads. With
+/// `F = J^-T (f, t)` a unit force moves the platform by `|F|^2 / leg` along it. The least stiffness is `leg` over the
+/// square of the greatest singular value of the columns of `J^-T` for forces, or for torques. Zero at a singular pose.
 #[must_use]
 pub fn least_stiffness_at(m: &Manipulator, pose: &Pose, leg: f64) -> LeastStiffness {
     softest_of(Some(&jacobian(m, pose, m.size())), m.size(), leg)
 }
 
-/// As [`least_stiffness_at`], from rates of drives by rows with their moments over `size`; zero where there are none.
+/// [`least_stiffness_at`] from rates of drives by rows with their moments over `size`; zero without rates.
 pub(super) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> LeastStiffness {
     let none = LeastStiffness { linear: 0.0, angular: 0.0 };
     let Some(inverse) = rows.and_then(|rows| rows.transpose().try_inverse()) else { return none };
@@ -193,14 +191,14 @@ pub(super) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> Le
     }
 }
 
-/// The lowest natural frequency at a pose, hertz: `omega^2 = 1 / max (v^T M v)` over the motions with `v^T K v = 1`,
-/// which needs no inverse of `M`: directions without mass have no frequency. Zero at a singular pose.
+/// The lowest natural frequency at a pose, hertz: `omega^2 = 1 / max (v^T M v)` over the motions with `v^T K v = 1`. It
+/// needs no inverse of `M`; directions without mass have no frequency. Zero at a singular pose.
 #[must_use]
 pub fn lowest_frequency(m: &Manipulator, pose: &Pose, masses: &VibratingMasses) -> f64 {
     lowest_of(Some(&jacobian(m, pose, m.size())), m.size(), &mass_matrix(m, &masses.bodies, pose), masses.leg)
 }
 
-/// As [`lowest_frequency`], from rates of drives by rows with their moments over `size`; zero where there are none.
+/// [`lowest_frequency`] from rates of drives by rows with their moments over `size`; zero without rates.
 pub(super) fn lowest_of(rows: Option<&Matrix6<f64>>, size: f64, mass: &Matrix6<f64>, leg: f64) -> f64 {
     let Some(inverse) = rows.and_then(|rows| rows.try_inverse()) else { return 0.0 };
     let mass = scaled_mass(mass, size);

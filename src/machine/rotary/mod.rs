@@ -1,4 +1,4 @@
-//! Platforms whose legs are rods of constant length on cranks: the form that servo motors drive.
+//! Rotary hexapods: platforms on rods of constant length with cranks, as driven by servo motors.
 //!
 //! Crank `i` turns about the axis `n` (unit) through its centre `c`; at the angle `q` its tip is
 //!
@@ -7,9 +7,9 @@
 //! ```
 //!
 //! and a rod of length `l` joins the tip to the platform joint `b`. For given angles the tips are joints of the base,
-//! so that all that is known of six legs with lengths holds for the rods: forward kinematics is that of the platform on
-//! the tips, with the same certificates. Leg maps are affine between *squared lengths* of legs: they say nothing of
-//! angles, and a platform with other joints needs other cranks.
+//! so all theory of six legs with lengths applies to the rods. Forward kinematics is that of the platform on the tips,
+//! with the same certificates. Leg maps are affine between *squared lengths* of legs and do not apply to angles. A
+//! platform with other joints needs other cranks.
 //!
 //! `docs/theory/rotary.md` has the derivations.
 
@@ -73,9 +73,9 @@ impl Elbow {
 pub struct Crank {
     /// A point of its axis, in the plane in which the tip moves.
     pub centre: Point3<f64>,
-    /// Its axis; angles count by the right hand.
+    /// Its axis; angles follow the right-hand rule.
     pub axis: Unit<Vector3<f64>>,
-    /// Where the tip points at the angle zero; what of it is along the axis is left out.
+    /// Direction of the tip at the angle zero; its part along the axis is ignored.
     pub zero: Vector3<f64>,
     /// Distance of the tip from the axis, design units.
     pub length: f64,
@@ -92,21 +92,21 @@ pub struct RotaryLeg {
     pub platform: Point3<f64>,
     /// The side that the crank stays on.
     pub elbow: Elbow,
-    /// Least and greatest angle, radians; `None`: none.
+    /// Least and greatest angle, radians; `None`: no limits.
     pub limits: Option<(f64, f64)>,
 }
 
-/// Why cranks and rods make no platform.
+/// Reasons why cranks and rods define no platform.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InvalidRotary {
-    /// A length that is not positive, or a number that is not finite; the leg from 0.
+    /// A length is not positive, or a number is not finite; the leg from 0.
     #[error("leg {}: crank and rod have positive finite lengths, and joints finite coordinates", .0 + 1)]
     BadNumber(usize),
     /// The direction of the angle zero is along the axis; the leg from 0.
     #[error("leg {}: the direction of the angle zero is along the axis of the crank", .0 + 1)]
     ZeroAlongAxis(usize),
-    /// Tips and joints that make no platform, at the angles zero.
+    /// Tips and joints define no platform, at the angles zero.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
 }
@@ -125,9 +125,9 @@ pub struct CrankMotion {
 /// Both angles at which a crank can hold a platform joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrankAngles {
-    /// The middle `q_0`: where the tip is nearest to the platform joint, from `-pi` to `pi`.
+    /// The middle `q_0`: the angle of the tip nearest to the platform joint, from `-pi` to `pi`.
     pub middle: f64,
-    /// Half the difference of both angles, from 0 (crank and rod in line, where both are one) to `pi`.
+    /// Half the difference of both angles, from 0 (crank and rod in line, one angle) to `pi`.
     pub half: f64,
 }
 
@@ -154,7 +154,7 @@ fn wrapped(angle: f64) -> f64 {
 pub struct OutOfReach {
     /// The leg, from 0.
     pub leg: usize,
-    /// By how much the rod is too short, design units; negative where it is too long.
+    /// Missing length of the rod, design units; negative if the rod is too long.
     pub by: f64,
 }
 
@@ -209,7 +209,7 @@ impl RotaryPlatform {
         &self.directions
     }
 
-    /// Where the tip of a crank is at an angle, base frame.
+    /// Position of the tip of a crank at an angle, base frame.
     #[must_use]
     pub fn tip(&self, leg: usize, angle: f64) -> Point3<f64> {
         let [e, f] = self.directions[leg];
@@ -236,11 +236,11 @@ impl RotaryPlatform {
         &self.rods
     }
 
-    /// Both angles of each crank that hold the platform at a pose, whatever their limits.
+    /// Both angles of each crank for a pose of the platform, regardless of their limits.
     ///
     /// With `d = R b + p - c`, `|d - r (e cos q + f sin q)| = l` is `x cos q + y sin q = k` for `x = d.e`, `y = d.f`,
     /// `k = (|d|^2 + r^2 - l^2) / (2 r)`: hence `q = atan2(y, x) +- acos(k / sqrt(x^2 + y^2))`. A joint on the axis of
-    /// the crank has no angle of its own.
+    /// the crank determines no angle.
     ///
     /// # Errors
     /// The first leg whose rod does not reach.
@@ -267,8 +267,8 @@ impl RotaryPlatform {
         Ok(out)
     }
 
-    /// Inverse kinematics: the angle of each crank on its side, from `-pi` to `pi` where the crank has no limits, else
-    /// within half a turn of the middle of its limits. Whether it is within them is said by [`Self::within_limits`].
+    /// Inverse kinematics: the angle of each crank on its side. It is from `-pi` to `pi` for a crank without limits,
+    /// otherwise within half a turn of the middle of its limits. [`Self::within_limits`] checks the limits.
     ///
     /// # Errors
     /// The first leg whose rod does not reach.
@@ -277,14 +277,14 @@ impl RotaryPlatform {
         Ok(std::array::from_fn(|i| self.counted(i, both[i].of(self.legs[i].elbow))))
     }
 
-    /// The same angle, counted in the turn in which the limits of the crank are.
+    /// The same angle, within half a turn of the middle of the crank's limits.
     #[must_use]
     pub fn counted(&self, leg: usize, angle: f64) -> f64 {
         let middle = self.legs[leg].limits.map_or(0.0, |(least, most)| 0.5 * (least + most));
         if middle == 0.0 { wrapped(angle) } else { middle + wrapped(angle - middle) }
     }
 
-    /// What remains of the limits of each crank, radians: negative beyond them, infinite where there are none.
+    /// Margins of each crank to its limits, radians: negative beyond them, infinite without limits.
     #[must_use]
     pub fn limit_margins(&self, angles: &[f64; 6]) -> [f64; 6] {
         std::array::from_fn(|i| {
@@ -306,7 +306,7 @@ impl RotaryPlatform {
         (1..=6).filter(|leg| !(margins[leg - 1] >= 0.0)).collect()
     }
 
-    /// All finite poses, real and complex, with the cranks at these angles. Certificates hold for the tips as computed,
+    /// All finite poses, real and complex, with the cranks at these angles. Certificates hold for the computed tips,
     /// rounded to doubles.
     ///
     /// # Errors
@@ -315,9 +315,9 @@ impl RotaryPlatform {
         Ok(solver(options.method).solve(&self.at(angles)?, &self.rods.squared(), options)?)
     }
 
-    /// How directly each crank moves its rod: `u . (n x t)` with the unit vectors `u` along the rod and `t` along the
-    /// crank, from -1 to 1. At 0 crank, rod and axis are in one plane: the crank is singular, both its angles are one
-    /// and it cannot push the platform.
+    /// Transmission of each crank: `u . (n x t)` with the unit vectors `u` along the rod and `t` along the crank, from
+    /// -1 to 1. At 0 crank, rod and axis are in one plane. The crank is singular there: both its angles coincide, and
+    /// it cannot push the platform.
     #[must_use]
     pub fn transmissions(&self, pose: &Pose, angles: &[f64; 6]) -> [f64; 6] {
         let ends = self.ends(angles);
@@ -341,10 +341,10 @@ impl RotaryPlatform {
         rows.iter().all(|x| x.is_finite()).then_some(rows)
     }
 
-    /// How the cranks turn when the platform joints, in leg order, have these velocities and accelerations (base
-    /// frame). Not finite where a crank is singular.
+    /// Motions of the cranks for given velocities and accelerations of the platform joints, in leg order, base frame.
+    /// Not finite where a crank is singular.
     ///
-    /// With the line `m` of the rod, `m . (B' - a') = 0` for the tip `a' = r q' (n x t)`, and once more differentiated
+    /// With the line `m` of the rod, `m . (B' - a') = 0` for the tip `a' = r q' (n x t)`. A further derivative gives
     /// `r q'' m.(n x t) = |B' - a'|^2 + m . B'' + r q'^2 m.t`.
     #[must_use]
     pub fn motions(
@@ -369,9 +369,9 @@ impl RotaryPlatform {
         })
     }
 
-    /// The greatest speed of each crank, radians per second, when the platform origin moves at most so fast in any
-    /// direction and the platform turns at most so fast (radians per second) about any axis: `v |row_v| + w |row_w|` of
-    /// the [Jacobian](Self::crank_jacobian). `None` where a crank is singular.
+    /// The greatest speed of each crank, radians per second, over all motions up to the given speeds of the platform
+    /// (angular speed in radians per second). It is `v |row_v| + w |row_w|` of the [Jacobian](Self::crank_jacobian).
+    /// `None` where a crank is singular.
     #[must_use]
     pub fn greatest_speeds(
         &self,
@@ -386,8 +386,8 @@ impl RotaryPlatform {
         }))
     }
 
-    /// On which side each crank is at a pose: the sign of its [transmission](Self::transmissions). A crank in line with
-    /// its rod is on both, and counts as on the side of the machine.
+    /// Whether each crank is on its side at a pose, by the sign of its [transmission](Self::transmissions). A crank in
+    /// line with its rod counts as on the side of the machine.
     #[must_use]
     pub fn elbows_kept(&self, pose: &Pose, angles: &[f64; 6]) -> [bool; 6] {
         let transmissions = self.transmissions(pose, angles);
@@ -397,8 +397,8 @@ impl RotaryPlatform {
         })
     }
 
-    /// Torques of the cranks about their axes that hold a wrench (force and torque about the platform origin, base
-    /// frame) at rest: `J_q^T t = -wrench`. `None` at singular poses and where a crank is singular.
+    /// Torques of the cranks about their axes in equilibrium with a wrench (force and torque about the platform origin,
+    /// base frame): `J_q^T t = -wrench`. `None` at singular poses and where a crank is singular.
     #[must_use]
     pub fn torques(&self, pose: &Pose, angles: &[f64; 6], wrench: &Vector6<f64>) -> Option<[f64; 6]> {
         let rows = jacobian_of_legs(&self.ends(angles), pose, 1.0);
@@ -410,10 +410,10 @@ impl RotaryPlatform {
     }
 }
 
-/// Why poses for given angles were not computed.
+/// Reasons why poses for given angles were not computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RotaryFkError {
-    /// Tips and joints that make no platform.
+    /// Tips and joints define no platform.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
     /// The computation broke down.

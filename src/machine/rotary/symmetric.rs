@@ -1,4 +1,4 @@
-//! How many poses there are where tips and platform joints have the symmetry of three turns.
+//! The number of poses if tips and platform joints have three-fold symmetry.
 //!
 //! `docs/theory/rotary.md` has the theorem and its proof.
 
@@ -6,30 +6,31 @@ use nalgebra::{Complex, Point3, Vector3};
 
 use super::RotaryPlatform;
 
-/// Joints count as symmetric where they are off by less than this share of the size: a hundred times what sines and
-/// cosines round.
+/// Joints within this share of the size of symmetric places count as symmetric: a hundred times the rounding of sines
+/// and cosines.
 const SYMMETRIC: f64 = 1e-13;
-/// The theorem is used where each number that must not be zero is at least this, as a share of the size to its power.
+/// The theorem applies if each number that must not vanish is at least this, as a share of the size to its power.
 const CLEAR: f64 = 1e-6;
 
-/// Poses of the theorem.
+/// Number of poses by the theorem.
 const POSES: usize = 28;
 
-/// What the theorem takes: radii of both hexagons and half the angles between two legs that are no turned images of
-/// each other.
+/// The quantities of the theorem: radii of both hexagons, and half the angles between two legs that no rotation
+/// exchanges.
 struct Hexagons {
     radii: [f64; 2],
     half_angles: [f64; 2],
 }
 
 impl RotaryPlatform {
-    /// The number of finite poses, complex ones included, of the platform whose tips and joints are the exactly
-    /// symmetric ones nearest to those at these angles; `None` where they are not symmetric to rounding, or too near to
-    /// where the number is another one.
+    /// The number of finite poses, complex ones included, of the platform with three-fold symmetry nearest to the tips
+    /// and joints at these angles. `None` without this symmetry within rounding, or too near to a platform with another
+    /// number.
     ///
-    /// Tips at one height and joints at one height are two hexagons, each kept by a third of a turn about the z axis
-    /// together with the legs; rods are equally long. The tips as doubles are symmetric to rounding only, and can have
-    /// more finite poses than the symmetric ones: these are so far out that the rounding decides whether there are any.
+    /// Tips at one height and joints at one height are two hexagons with equal rods. A third of a turn about the z axis
+    /// maps each hexagon, with the legs, to itself. The tips as doubles are symmetric to rounding only, and can have
+    /// more finite poses than the symmetric ones. Their existence then depends on the rounding, and they are very far
+    /// away.
     #[must_use]
     pub fn symmetric_pose_count(&self, angles: &[f64; 6]) -> Option<usize> {
         let tips: [Point3<f64>; 6] = std::array::from_fn(|i| self.tip(i, angles[i]));
@@ -65,7 +66,7 @@ impl RotaryPlatform {
     }
 }
 
-/// Both hexagons about the z axes through their centroids; `None` where they are none.
+/// Both hexagons about the z axes through their centroids; `None` if the bodies are no such hexagons.
 fn hexagons(bodies: [&[Point3<f64>; 6]; 2], near: &dyn Fn(f64, f64) -> bool) -> Option<Hexagons> {
     let flat = bodies.map(|points| {
         let centroid = points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / 6.0;
@@ -84,7 +85,7 @@ fn hexagons(bodies: [&[Point3<f64>; 6]; 2], near: &dyn Fn(f64, f64) -> bool) -> 
     if image.contains(&None) || !same(&tips) || !same(&joints) {
         return None;
     }
-    // that the mirror planes of both bodies differ by a turn about z changes no number of poses
+    // a rotation between the mirror planes of the bodies about z does not change the number of poses
     let half = |points: &[Complex<f64>; 6]| 0.5 * (points[0].arg() - points[other].arg());
     Some(Hexagons { radii: [tips[0].norm(), joints[0].norm()], half_angles: [half(&tips), half(&joints)] })
 }

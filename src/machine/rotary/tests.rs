@@ -5,14 +5,14 @@ use fk::{FkOptions, NearOutcome, NearSolver, Reality, WhyLost};
 use num::Rng;
 use platform::geom::{Angles, Pose, rotation_vector, turn_between};
 
-/// Reachy Mini by Pollen Robotics in millimetres: `motor_arm_length`, `rod_length`, `head_z_offset`, the poses of the
-/// motors and `branch_position` of `src/reachy_mini/assets/kinematics_data.json` of
-/// github.com/pollen-robotics/reachy_mini, commit 70a7c0b (Apache-2.0), rounded to a micrometre and its symmetry of
-/// three turns and a mirror written out.
+/// Reachy Mini by Pollen Robotics in millimetres, rounded to a micrometre, with its three-fold and mirror symmetry
+/// written out. The data are `motor_arm_length`, `rod_length`, `head_z_offset`, the poses of the motors and
+/// `branch_position`. They come from `src/reachy_mini/assets/kinematics_data.json` of
+/// github.com/pollen-robotics/reachy_mini, commit 70a7c0b (Apache-2.0).
 fn reachy_mini() -> RotaryPlatform {
     let turn = |k: usize| Rotation3::from_axis_angle(&Vector3::z_axis(), (120.0 * k as f64).to_radians());
     let legs = std::array::from_fn(|i| {
-        // legs 3 and 4 are the pair at the back; 5, 6 and 1, 2 are theirs turned
+        // legs 3 and 4 are the pair at the back; 5, 6 and 1, 2 are its rotated images
         let (pair, side) = ([2, 2, 0, 0, 1, 1][i], if i % 2 == 0 { 1.0 } else { -1.0 });
         let place = |x: f64, y: f64, z: f64| Point3::from(turn(pair) * Vector3::new(x, side * y, z));
         RotaryLeg {
@@ -53,7 +53,7 @@ fn drawn(m: &RotaryPlatform, rng: &mut Rng) -> Pose {
 fn both_angles_hold_the_platform_and_the_side_is_kept() {
     let m = reachy_mini();
     let angles = m.ik(&home()).unwrap();
-    // what the maker's own data give: 35.898 degrees, with the sign of the motor
+    // the value from the maker's data: 35.898 degrees, with the sign of the motor
     for (i, angle) in angles.iter().enumerate() {
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
         assert!((angle.to_degrees() - sign * 35.898).abs() < 0.01, "{i}: {}", angle.to_degrees());
@@ -82,7 +82,7 @@ fn a_pose_out_of_reach_names_the_leg_and_what_is_missing() {
     let far = Pose { position: Vector3::new(0.0, 0.0, 300.0), ..home() };
     let missing = m.both_angles(&far).unwrap_err();
     assert!(missing.leg == 0 && missing.by > 0.0);
-    // a rod longer by what is missing reaches, crank and rod in line
+    // a rod longer by the missing length reaches, with crank and rod in line
     let longer = |by: f64| {
         let mut legs = *m.legs();
         for leg in &mut legs {
@@ -125,7 +125,7 @@ fn speeds_are_derivatives_and_torques_do_the_work_of_the_load() {
         }
         let wrench = Vector6::new(0.5, -0.2, -9.0, 20.0, -10.0, 5.0);
         let torques = Vector6::from(m.torques(&pose, &angles, &wrench).unwrap());
-        // what the drives do is what the load takes
+        // the power of the drives equals that of the load
         let work = torques.dot(&speeds) + wrench.dot(&twist);
         assert!(work.abs() < 1e-8 * wrench.norm() * twist.norm(), "{work}");
     }
@@ -166,7 +166,7 @@ fn the_tracker_keeps_the_head_upright_where_newtons_method_flips_it() {
             }
             _ => lost += 1,
         }
-        // plain Newton steps from a pose far off, as after a restart: some end at another assembly mode without a word
+        // plain Newton steps from a distant pose, as after a restart: some end silently at another assembly mode
         let solver = NearSolver::new(&m.at(&angles).unwrap());
         let tilt = Rotation3::new(Vector3::from_fn(|_, _| rng.uniform(-1.5, 1.5)));
         let guess = Pose { rotation: tilt, ..home() };
@@ -200,7 +200,7 @@ fn a_crank_that_would_turn_too_often_is_lost() {
         assert!(stays, "the tracker stays at its angles");
     }
     assert!(tracker.step(&with(f64::INFINITY)).is_err() && tracker.step(&with(f64::NAN)).is_err());
-    // as far as a step goes parts are followed one by one, and small ones reach their end
+    // parts are followed one by one up to the greatest step, and small ones reach their end
     let far = tracker.step(&with(79.0)).unwrap();
     assert!(far.tracked().is_none() && far.evidence().segments > 1, "the crank is not free to turn: {far:?}");
     assert!(tracker.step(&with(1e-3)).unwrap().tracked().is_some());

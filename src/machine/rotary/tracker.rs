@@ -9,14 +9,14 @@ use platform::manipulator::InvalidManipulator;
 
 /// Angles move by at most this much at once, radians.
 const LONGEST: f64 = 0.05;
-/// Most parts of a step: 79 turns, since further ones would take longer parts.
+/// Greatest number of parts of a step: 79 turns, since further ones would need longer parts.
 const PARTS: f64 = 1e4;
 
 /// Follows the pose of a machine with cranks.
 ///
-/// A step goes from the last angles to the new ones by equal parts of at most a twentieth of a radian. In each the
-/// platform on the new tips is followed from the squared distances that the last pose gives its rods to those that the
-/// rods have ([`NearSolver`]): the pose found is joined to the last one, on the new tips, by regular poses.
+/// A step goes from the last angles to the new ones by equal parts of at most a twentieth of a radian. In each part the
+/// platform on the new tips is followed by [`NearSolver`]. It goes from the squared distances of the last pose to the
+/// squared rod lengths. Regular poses on the new tips join the new pose to the last one.
 #[derive(Debug, Clone)]
 pub struct RotaryTracker {
     platform: RotaryPlatform,
@@ -31,7 +31,7 @@ impl RotaryTracker {
         Self { platform, pose, angles }
     }
 
-    /// Where the platform is.
+    /// The current pose of the platform.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.pose
@@ -43,15 +43,14 @@ impl RotaryTracker {
         &self.angles
     }
 
-    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it
-    /// was. `fraction` of the outcome counts from the last angles to the new ones, and the evidence is that of all
-    /// parts: residual and Frobenius ratio at the pose, segments and Newton steps in all, the greatest Kantorovich
-    /// number.
+    /// Moves to other angles; the tracker keeps its pose if that is lost or a singular pose is in the way. `fraction`
+    /// of the outcome counts from the last angles to the new ones. The evidence covers all parts: residual and
+    /// Frobenius ratio at the pose, total segments and Newton steps, the greatest Kantorovich number.
     ///
-    /// Angles that are more than 79 turns away are lost: [`WhyLost::AnglesTooFar`].
+    /// Angles more than 79 turns away count as lost: [`WhyLost::AnglesTooFar`].
     ///
     /// # Errors
-    /// Angles that are not finite, or tips and joints that make no platform.
+    /// Angles are not finite, or tips and joints define no platform.
     pub fn step(&mut self, angles: &[f64; 6]) -> Result<NearOutcome, InvalidManipulator> {
         let largest = (0..6).map(|i| (angles[i] - self.angles[i]).abs()).fold(0.0, f64::max);
         let parts = (largest / LONGEST).ceil().max(1.0);
@@ -90,7 +89,7 @@ impl RotaryTracker {
         }
     }
 
-    /// Makes the evidence of a part that of the way from the last pose on.
+    /// Extends the evidence of a part to the whole way from the last pose.
     fn add(&self, part: &mut NearEvidence, before: Option<&NearEvidence>, reached: &Pose) {
         if let Some(before) = before {
             part.segments += before.segments;

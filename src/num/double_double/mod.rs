@@ -1,7 +1,7 @@
 //! Double-double arithmetic: a real number as the unevaluated sum `hi + lo` of two doubles, about 32 digits.
 //!
-//! Dekker (1971), Knuth (TAOCP 2, 4.2.2) for the error-free transforms; algorithms and bounds for the
-//! operations from Joldes, Muller, Popescu (ACM TOMS 44, 2017). With `u = 2^-53` their relative errors are
+//! The error-free transforms are those of Dekker (1971) and Knuth (TAOCP 2, 4.2.2). Algorithms and bounds of the
+//! operations are from Joldes, Muller, Popescu (ACM TOMS 44, 2017). With `u = 2^-53` their relative errors are
 //!
 //! | operation | algorithm | bound |
 //! |---|---|---|
@@ -9,9 +9,9 @@
 //! | `*` | product with the low parts' cross terms | `7 u^2` |
 //! | `/` | two quotient digits | `15 u^2 + 56 u^3` |
 //!
-//! all below [`DoubleDouble::UNIT`] `= 2^-102 = 16 u^2`, barring overflow and underflow: operands and
-//! results between `2^-400` and `2^400` in modulus, or zero, are safe (low parts of products then stay
-//! normal). Nothing depends on a fused multiply-add: the exact product is Dekker's unless the target has one.
+//! all below [`DoubleDouble::UNIT`] `= 2^-102 = 16 u^2`, without overflow and underflow. Operands and results between
+//! `2^-400` and `2^400` in modulus, or zero, are safe (low parts of products then stay normal). Results do not depend
+//! on a fused multiply-add: the exact product is Dekker's unless the target has one.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -94,7 +94,7 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// What the nearest double leaves, at most half a unit in its last place.
+    /// The remainder beside the nearest double, at most half a unit in its last place.
     #[must_use]
     #[inline]
     pub fn lo(self) -> f64 {
@@ -194,7 +194,7 @@ impl ComplexDoubleDouble {
         Complex64::new(self.re.hi, self.im.hi)
     }
 
-    /// What [`hi`](Self::hi) leaves.
+    /// The remainder beside [`hi`](Self::hi).
     #[must_use]
     #[inline]
     pub fn lo(self) -> Complex64 {

@@ -1,13 +1,12 @@
 //! Intervals of reals with outward-rounded double ends.
 //!
-//! Every operation encloses the exact result for all choices of the operands within their intervals
-//! (Moore 1966). IEEE 754 rounds `+ - * /` and `sqrt` to nearest, so the exact value lies between the
-//! neighbours of the rounded one: each end is moved one double outward. That holds at the edges too: a
-//! sum that overflows to `+inf` has its lower end at the largest double, a product that underflows to
-//! zero its ends at the smallest subnormals. Results that are known exactly (an operand is the point
-//! zero) are not widened, so that real data keep imaginary part zero.
+//! Every operation encloses the exact result for all choices of the operands within their intervals (Moore 1966). IEEE
+//! 754 rounds `+ - * /` and `sqrt` to nearest, so the exact value lies between the neighbours of the rounded one. Each
+//! end is therefore moved outward by one double. This also holds at the limits. A sum that overflows to `+inf` has its
+//! lower end at the largest double. A product that underflows to zero has its ends at the smallest subnormals. Exactly
+//! known results (an operand is the point zero) are not widened, so real data keep imaginary part zero.
 //!
-//! There is no empty interval: operations that could yield one return `Option`.
+//! Empty intervals do not exist: operations that could yield one return `Option`.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -31,7 +30,7 @@ impl Interval {
         (lo <= hi && lo < f64::INFINITY && hi > f64::NEG_INFINITY).then_some(Self { lo, hi })
     }
 
-    /// `[-radius, radius]`; all reals where the radius is negative, infinite or no number.
+    /// `[-radius, radius]`; all reals if the radius is negative, infinite or NaN.
     #[must_use]
     pub fn about_zero(radius: f64) -> Self {
         Self::new(-radius, radius).unwrap_or(Self::WHOLE)
@@ -106,7 +105,7 @@ impl Interval {
         Self::raw(least, mul_up(large, large))
     }
 
-    /// Encloses the products with a double; nothing is known of them where it is not finite.
+    /// Encloses the products with a double; all reals if it is not finite.
     #[must_use]
     #[inline]
     pub fn scaled(self, factor: f64) -> Self {
@@ -118,7 +117,7 @@ impl Interval {
         self * Self::from(factor)
     }
 
-    /// Encloses the square roots of the non-negative numbers in it; `None` when it holds none.
+    /// Encloses the square roots of its non-negative numbers; `None` without any.
     #[must_use]
     #[inline]
     pub fn sqrt(self) -> Option<Self> {
@@ -129,7 +128,7 @@ impl Interval {
         Some(Self::raw(root(self.lo, f64::next_down).max(0.0), root(self.hi, f64::next_up)))
     }
 
-    /// Encloses `x / y`; `None` when the divisor holds zero.
+    /// Encloses `x / y`; `None` if the divisor contains zero.
     #[must_use]
     #[inline]
     pub fn checked_div(self, divisor: Self) -> Option<Self> {
@@ -208,7 +207,7 @@ fn mul_up(x: f64, y: f64) -> f64 {
 }
 
 impl From<f64> for Interval {
-    /// The point `x`; a value that is not finite gives [`Interval::WHOLE`], about which nothing can be proved.
+    /// The point `x`; a value that is not finite gives [`Interval::WHOLE`], which proves nothing.
     #[inline]
     fn from(x: f64) -> Self {
         Self::point(x).unwrap_or(Self::WHOLE)
@@ -251,8 +250,8 @@ impl Mul for Interval {
     fn mul(self, other: Self) -> Self {
         let (a, b, c, d) = (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi);
         let (lo, hi) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
-        // rounding is monotone, so that the ends alone are rounded; zeros, which may be exact or an underflow, and
-        // unbounded ends are told apart product by product
+        // rounding is monotone, so only the ends are rounded; zeros (exact or underflow) and unbounded ends are handled
+        // product by product
         if lo != 0.0 && hi != 0.0 && lo > f64::NEG_INFINITY && hi < f64::INFINITY {
             return Self::raw(below(lo), above(hi));
         }

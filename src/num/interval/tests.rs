@@ -1,4 +1,4 @@
-#![allow(clippy::float_cmp)] // exact ends are what is tested
+#![allow(clippy::float_cmp)] // the tests compare exact ends
 
 use super::*;
 use crate::Rng;
@@ -81,7 +81,7 @@ fn operations_enclose_the_exact_result() {
 
 #[test]
 fn round_to_nearest_alone_does_not_enclose() {
-    // negative control for the oracle: 0.1 + 0.2 is not a double
+    // negative control: 0.1 + 0.2 is not a double
     let sum = Interval::from(0.1 + 0.2);
     assert!(!holds(sum, &(exact(0.1) + exact(0.2))));
     assert!(holds(Interval::from(0.1) + Interval::from(0.2), &(exact(0.1) + exact(0.2))));

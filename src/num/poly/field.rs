@@ -17,9 +17,9 @@ const ROOT_BITS: u32 = 60;
 pub struct EnclosedRoot {
     /// The lower bound.
     pub low: f64,
-    /// The upper bound, the lower one where the root is a double.
+    /// The upper bound, equal to the lower one if the root is a double.
     pub high: f64,
-    /// How often it is a root.
+    /// Its multiplicity.
     pub multiplicity: usize,
 }
 
@@ -56,7 +56,7 @@ pub struct RootCount {
 }
 
 impl From<&IntPoly> for RootCount {
-    /// The enclosures by Descartes' rule: they share nothing with the count.
+    /// The enclosures by Descartes' rule, which is independent of the count.
     fn from(p: &IntPoly) -> Self {
         let repeated = super::gcd(p, &p.derivative()).degree().unwrap_or(0);
         Self {
@@ -83,13 +83,13 @@ impl FieldPoly {
         &self.0
     }
 
-    /// The degree, `None` for zero.
+    /// The degree; `None` for zero.
     #[must_use]
     pub fn degree(&self) -> Option<usize> {
         self.0.len().checked_sub(1)
     }
 
-    /// A multiple with integer coefficients without a common factor, where there is one.
+    /// A multiple with integer coefficients without a common factor, if there is one.
     #[must_use]
     pub fn integers(&self) -> Option<IntPoly> {
         let scaled = without_common_factor(&self.0, self.0.last());
@@ -98,7 +98,7 @@ impl FieldPoly {
         whole.map(IntPoly::new)
     }
 
-    /// Quotient and remainder; the divisor is not zero.
+    /// Quotient and remainder; the divisor must be nonzero.
     #[must_use]
     pub fn divided(&self, divisor: &Self) -> (Self, Self) {
         let mut rest = self.0.clone();
@@ -178,7 +178,7 @@ impl FieldPoly {
         monic.0.iter().map(|c| c.surd().magnitude_bits()).max().unwrap_or(0).max(0) + 1
     }
 
-    /// The root of a square-free polynomial with `low < x <= high`, closer.
+    /// The root of a square-free polynomial with `low < x <= high`, refined.
     fn refined(&self, low: &Dyadic, high: &Dyadic) -> (Dyadic, Dyadic) {
         let (mut low, mut high) = (low.clone(), high.clone());
         let above = self.sign_at(&high);
@@ -201,14 +201,15 @@ impl FieldPoly {
     }
 }
 
-/// Numbers over the one that leads: integers without a common factor, that one positive, where all ratios are fractions.
+/// Numbers divided by the leading one. If all ratios are fractions, they become integers without a common factor, with
+/// a positive leading one.
 #[must_use]
 pub fn without_common_factor(numbers: &[Algebraic], lead: Option<&Algebraic>) -> Vec<Algebraic> {
     let Some(lead) = lead else { return numbers.to_vec() };
     let ratios: Vec<Algebraic> = numbers.iter().map(|x| x / lead).collect();
     let fractions: Option<Vec<Rational>> = ratios.iter().map(|x| x.as_rational().cloned()).collect();
     let Some(list) = fractions else { return ratios };
-    // the first that is not zero is positive there
+    // the first nonzero number is positive there
     let backwards = list.iter().find(|x| !x.is_zero()).is_some_and(Signed::is_negative);
     let whole = primitive(&list).into_iter().map(|x| if backwards { -x } else { x });
     whole.map(Algebraic::Rational).collect()
@@ -306,7 +307,7 @@ mod tests {
         assert_eq!(found.real.iter().map(|r| r.multiplicity).collect::<Vec<_>>(), [1, 2]);
         assert!([found.real[0].low, found.real[0].high].iter().all(|x| (x - 1.0).abs() <= 0.0));
         assert!(found.real[1].low < 2f64.sqrt() && 2f64.sqrt() < found.real[1].high);
-        // a multiple of a polynomial of integers is that
+        // a multiple of an integer polynomial is recognised as one
         let scaled = FieldPoly::new(vec![-&near.0[0], near.0[0].clone()]);
         assert_eq!(scaled.integers(), Some(IntPoly::from_i64(&[-1, 1])));
     }

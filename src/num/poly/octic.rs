@@ -4,10 +4,10 @@
 
 use crate::batch::{ComplexBatch, LANES};
 
-/// Sweeps before giving up; well separated roots take about ten.
+/// Greatest number of sweeps; well-separated roots take about ten.
 const SWEEPS: usize = 40;
 
-/// Approximate roots of `c[0] + .. + c[8] x^8`, as [`roots_in_lanes`].
+/// Approximate roots of `c[0] + .. + c[8] x^8`, by [`roots_in_lanes`].
 #[inline(always)]
 pub fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> {
     roots_in_lanes::<LANES>(c, accuracy)
@@ -16,8 +16,8 @@ pub fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> 
 /// Approximate roots of `c[0] + .. + c[N] x^N` in the first `N` of eight lanes, relative corrections below `accuracy`
 /// in the last sweep.
 ///
-/// Ehrlich-Aberth iteration on all roots side by side, from circles whose radii are the slopes of the Newton polygon.
-/// `None` when an end coefficient is zero or not finite, or when some root does not settle (multiple roots converge
+/// Ehrlich-Aberth iteration on all roots in parallel, from circles whose radii are the slopes of the Newton polygon.
+/// `None` if an end coefficient is zero or not finite, or if some root does not converge (multiple roots converge
 /// linearly).
 #[inline(always)]
 pub fn roots_in_lanes<const N: usize>(c: &[f64], accuracy: f64) -> Option<ComplexBatch> {
@@ -120,7 +120,7 @@ fn starting_points<const N: usize>(c: &[f64]) -> ComplexBatch {
         for k in edge[0]..edge[1] {
             // spread the points of an edge over the circle
             let place = (k * LANES / length + edge[0]) % LANES;
-            // a little apart where two edges have nearly one radius
+            // slightly apart for two edges of nearly equal radius
             let radius = radius * (1.0 + 0.01 * k as f64);
             z.re[k] = radius * COSINE[place];
             z.im[k] = -radius * COSINE[(place + 2) % LANES];
@@ -165,7 +165,7 @@ mod tests {
                 }
             }
         }
-        // as many coefficients as the degree asks for
+        // the number of coefficients must match the degree
         assert!(roots_in_lanes::<4>(&[1.0; 9], 1e-8).is_none());
     }
 

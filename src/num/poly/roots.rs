@@ -17,15 +17,15 @@ pub enum RootsError {
     NoPolynomial,
 }
 
-/// Sweeps after which the iterates are returned as they are.
+/// Number of sweeps after which the current iterates are returned.
 const SWEEPS: usize = 120;
 
 /// The roots of `c[0] + c[1] x + .. + c[n] x^n`, with multiplicity, in no particular order.
 ///
-/// Method: Ehrlich (1967) and Aberth (1973): Newton corrections with every other iterate's repulsion, from
-/// starting points on circles whose radii are read off the Newton polygon of the moduli (Bini 1996). Leading
-/// coefficients that are exactly zero lower the degree. Simple roots come out to a few units of rounding
-/// times their condition, an `m`-fold root to about the `m`-th root of rounding.
+/// The method is that of Ehrlich (1967) and Aberth (1973): Newton corrections with the repulsion of every other
+/// iterate. Starting points are on circles with radii from the Newton polygon of the moduli (Bini 1996). Leading
+/// coefficients that are exactly zero lower the degree. Simple roots are accurate to a few units of rounding times
+/// their condition, an `m`-fold root to about the `m`-th root of rounding.
 ///
 /// # Errors
 /// [`RootsError::NoPolynomial`] for non-finite or all-zero coefficients.
@@ -70,8 +70,8 @@ pub fn roots(coefficients: &[Complex64]) -> Result<Vec<Complex64>, RootsError> {
     Ok(z)
 }
 
-/// [`roots`] as far as relative steps of `tolerance`, at most `sweeps` of them: start values for methods that know the
-/// function better than by its coefficients. Each root rests once its step is that small.
+/// [`roots`] up to relative steps of `tolerance`, with at most `sweeps` sweeps, as start values for methods with a
+/// better function than the coefficients. Each root rests once its step is small enough.
 ///
 /// # Errors
 /// [`RootsError`]: no polynomial, or an iteration that does not end.
@@ -90,7 +90,7 @@ pub fn approximate_roots(
     Ok(z)
 }
 
-/// The sweeps of [`approximate_roots`], eight roots side by side.
+/// The sweeps of [`approximate_roots`], eight roots in parallel.
 struct Sweeps<'a> {
     c: &'a [Complex64],
     z: &'a mut [Complex64],
@@ -121,7 +121,7 @@ impl pulp::WithSimd for Sweeps<'_> {
                 let (moved, size) = (step.norm_sqr(), next.norm_sqr());
                 for k in start..end {
                     let lane = k - start;
-                    // two roots in one place stay there
+                    // coincident iterates stay together
                     if moving[k] && moved[lane].is_finite() {
                         z[k] = next.lane(lane);
                         moving[k] = !(moved[lane] <= tolerance * tolerance * size[lane]);
@@ -135,7 +135,7 @@ impl pulp::WithSimd for Sweeps<'_> {
     }
 }
 
-/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`; where `|x| > 1` from the reversed polynomial,
+/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`; for `|x| > 1` from the reversed polynomial,
 /// see [`newton_correction`].
 #[inline(always)]
 fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBatch {
@@ -169,7 +169,7 @@ fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBat
     top * (bottom - top * repulsion).reciprocal()
 }
 
-/// `p(x) / p'(x)`, from the reversed polynomial where `|x| > 1` so that powers do not overflow.
+/// `p(x) / p'(x)`; for `|x| > 1` from the reversed polynomial, so that powers do not overflow.
 fn newton_correction(c: &[Complex64], x: Complex64) -> Complex64 {
     let n = c.len() - 1;
     let horner = |coefficient: &dyn Fn(usize) -> Complex64, y: Complex64| {

@@ -3,13 +3,13 @@
 use super::values::ConstraintGroup;
 use machine::requirements::TermKind;
 
-/// Which requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
+/// A requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
 pub(crate) type TermId = (TermKind, usize, usize, usize);
 
-/// Stands for the pose of what has none.
+/// The pose index of constraints without a pose.
 pub(crate) const NO_POSE: usize = usize::MAX;
 
-/// Singular values within this factor of the extreme one are modelled together with it.
+/// Singular values within this factor of the extreme one are modelled jointly.
 pub(crate) const CLUSTER: f64 = 1.6;
 
 /// A constraint near a point.
@@ -33,7 +33,7 @@ pub(crate) struct AffineCone {
     pub slack: f64,
 }
 
-/// A cluster of singular values with gradients instead of pulls.
+/// A cluster of singular values with gradients by the variables.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearCluster {
     pub sigma: f64,
@@ -71,7 +71,7 @@ impl AffineCone {
 }
 
 impl LinearItem {
-    /// How far the model is from being violated after a step, with slack.
+    /// Value of the linear model after a step, with slack: negative if it is violated.
     pub(super) fn room(&self, d: &[f64], slack: f64, spare: f64) -> f64 {
         match &self.cone {
             Some(cone) => affine(cone.head.0, &cone.head.1, d) + cone.slack * slack - cone.norm(d),
@@ -93,12 +93,12 @@ impl LinearCluster {
 }
 
 impl LinearPiece {
-    /// Whether a singular value is modelled together with others, by cones.
+    /// Whether several singular values are modelled jointly, by cones.
     pub(super) fn has_cluster(&self) -> bool {
         matches!(&self.bound, LinearBound::Spectral { low, high, .. } if !low.others.is_empty() || !high.others.is_empty())
     }
 
-    /// What the piece allows the objective after a step.
+    /// Upper bound of the objective by this piece after a step.
     pub(super) fn upper(&self, d: &[f64]) -> f64 {
         match &self.bound {
             LinearBound::Spectral { f, h, low, high } => {
@@ -118,7 +118,7 @@ impl LinearPiece {
     }
 }
 
-/// Everything the next step has to know.
+/// The data of the next step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Linearised {
     pub items: Vec<LinearItem>,

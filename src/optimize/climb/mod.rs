@@ -1,9 +1,9 @@
-//! Sequential convex programming with a trust region and an exact penalty: the one climb of both searches.
+//! Sequential convex programming with a trust region and an exact penalty, the common climb of both searches.
 //!
-//! Each step solves one conic program and is judged by the true values over all held poses.
-//! Merit: weighted gains less `penalty` times the largest violation of each group.
-//! Smooth constraints and pieces get their curvature from damped BFGS updates of the Lagrangian (Powell 1978).
-//! Cones and clusters of singular values carry their own curvature.
+//! Each step solves one conic program; the true values over all held poses judge it. The merit is the weighted gains
+//! minus `penalty` times the largest violation of each group. Smooth constraints and pieces get their curvature from
+//! damped BFGS updates of the Lagrangian (Powell 1978). Cones and clusters of singular values carry their own
+//! curvature.
 
 mod linear;
 mod program;
@@ -21,7 +21,7 @@ pub(crate) use linear::{
 };
 pub(crate) use values::{ConstraintGroup, PointValues, Task};
 
-/// A problem that can be climbed: its values and its linear models at a point.
+/// A problem for the climb: its values and its linear models at a point.
 pub(crate) trait Climbable {
     /// Weights, floors and dropped constraints.
     fn task(&self) -> &Task;
@@ -34,22 +34,23 @@ pub(crate) trait Climbable {
         Vec::new()
     }
 
-    /// Constraints are held with this to spare.
+    /// Margin with which constraints are held.
     fn backoff(&self) -> f64;
 
-    /// Number of poses at which the requirements are held.
+    /// Number of held poses of the requirements.
     fn poses(&self) -> usize;
 
-    /// Values at a point; the values so far as soon as these are `refused`: further poses only make them worse.
+    /// Values at a point. The evaluation stops once the values so far are `refused`, since further poses only make them
+    /// worse.
     fn judge(&self, x: &[f64], refused: &dyn Fn(&PointValues) -> bool) -> PointValues;
 
-    /// Linear models of everything that can matter within `radius`; `None` where a number is not finite.
+    /// Linear models of everything relevant within `radius`; `None` if a number is not finite.
     fn linearise(&self, x: &[f64], radius: f64) -> Option<Linearised>;
 
-    /// Counts the conic programs of the search.
+    /// The counter of conic programs.
     fn conic(&self) -> &ConicTally;
 
-    /// Whether the climb is to end with its present point.
+    /// Whether the climb must end at its current point.
     fn is_stopped(&self) -> bool {
         false
     }
@@ -59,19 +60,19 @@ pub(crate) trait Climbable {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effort {
     pub iterations: usize,
-    /// The climb stops when the model promises less.
+    /// The climb stops if the model predicts less gain.
     pub tolerance: f64,
     /// First price of a violation.
     pub penalty: f64,
 }
 
 impl Effort {
-    /// Enough to compare starts.
+    /// Effort that suffices to compare starts.
     pub(crate) const RANK: Self = Self { iterations: 30, tolerance: 1e-5, penalty: PENALTY };
-    /// To the accuracy of the conic solver.
+    /// Effort up to the accuracy of the conic solver.
     pub(crate) const POLISH: Self = Self { iterations: 80, tolerance: 1e-8, penalty: PENALTY };
 
-    /// Only a polished run is worth the program that measures stationarity.
+    /// Whether the run measures stationarity; only for a polished run is the additional program worthwhile.
     fn measures_stationarity(self) -> bool {
         self.tolerance < 1e-6
     }
@@ -86,33 +87,33 @@ pub struct HistoryStep {
     pub violation: f64,
     /// Trust radius.
     pub radius: f64,
-    /// Poses at which the requirements were held.
+    /// Number of held poses of the requirements.
     pub poses: usize,
-    /// Gain of the merit that the model promised.
+    /// Merit gain predicted by the model.
     pub predicted: f64,
-    /// Gain of the merit found; for a refused step at the poses that refused it.
+    /// True merit gain; for a refused step at the poses that refused it.
     pub actual: f64,
-    /// `true` when the step was taken.
+    /// `true` if the step was taken.
     pub accepted: bool,
 }
 
-/// The end of a run.
+/// The result of a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Run {
     pub x: Vec<f64>,
     pub judged: PointValues,
-    /// Constraints were held with this to spare.
+    /// Margin with which constraints were held.
     backoff: f64,
     pub converged: bool,
-    /// Gain still promised for a unit of the variables, less the violation.
+    /// Predicted gain per unit of the variables, minus the violation.
     pub stationarity: f64,
     pub history: Vec<HistoryStep>,
     pub failure: Option<SolverFailure>,
 }
 
-/// Price of a violation that a climb begins with.
+/// Penalty of a violation at the start of a climb.
 pub(crate) const PENALTY: f64 = 10.0;
-/// Price beyond which it is not raised.
+/// Greatest penalty of a violation.
 const LARGEST_PENALTY: f64 = 1e6;
 /// Trust region of the first step, in units of the variables.
 const FIRST_RADIUS: f64 = 0.15;
@@ -120,26 +121,26 @@ const FIRST_RADIUS: f64 = 0.15;
 const LARGEST_RADIUS: f64 = 0.5;
 /// Trust region at which a climb ends.
 const SMALLEST_RADIUS: f64 = 1e-9;
-/// A step is taken if it gains more than this share of the promise.
+/// A step is taken if it gains more than this share of the predicted gain.
 const ACCEPTED: f64 = 0.05;
-/// Sizes of the stationarity that count as none.
+/// Stationarity below this counts as zero.
 const STATIONARY: f64 = 1e-3;
 /// Radius at which stationarity is measured.
 const PROBE_RADIUS: f64 = 1e-3;
 
 impl Run {
-    /// The same with the steps that led to its start.
+    /// The run with the steps that led to its start.
     pub(crate) fn after(mut self, mut earlier: Vec<HistoryStep>) -> Self {
         earlier.append(&mut self.history);
         Self { history: earlier, ..self }
     }
 
-    /// Whether nothing more is to be gained near the end: the model promised nothing, or less than its accuracy shows.
+    /// Whether no gain remains near the end: the model predicts none, or less than its accuracy.
     pub(crate) fn is_settled(&self) -> bool {
         self.converged || self.stationarity.abs() < STATIONARY
     }
 
-    /// Violations below half of the spare are inside it.
+    /// Whether violations are below half of the margin.
     pub(crate) fn is_feasible(&self) -> bool {
         self.judged.violation() <= 0.5 * self.backoff
     }
@@ -210,7 +211,7 @@ impl State<'_> {
         }
     }
 
-    /// First-order gain promised within [`PROBE_RADIUS`] for a unit of the variables.
+    /// First-order gain predicted within [`PROBE_RADIUS`], per unit of the variables.
     fn stationarity(&self) -> f64 {
         let Some(near) = self.problem.linearise(&self.x, PROBE_RADIUS) else { return f64::INFINITY };
         match self.program(&near, PROBE_RADIUS, false).solve() {
@@ -259,7 +260,7 @@ pub(crate) fn climb(problem: &dyn Climbable, start: &[f64], effort: Effort) -> R
         let predicted = step.merit - now;
         if !(predicted > effort.tolerance * (1.0 + 1e-2 * s.penalty * s.judged.violation())) {
             converged = s.judged.violation() <= 0.5 * backoff;
-            // with no objective the penalty has no weight to find
+            // without an objective the penalty has no weight to find
             if converged || s.penalty >= LARGEST_PENALTY || task.weights.iter().all(|w| *w <= 0.0) {
                 converged = true;
                 break;

@@ -9,11 +9,11 @@ use super::linear::{AffineCone, LinearBound, LinearCluster, LinearItem, LinearPi
 use super::values::ConstraintGroup;
 use num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
 
-/// A subproblem point with a larger violation (data of order one) is refused.
+/// Subproblem points with a larger violation (data of order one) are refused.
 const ACCEPTED_RESIDUAL: f64 = 1e-6;
-/// Violation at which a row that was left out is added (data of order one).
+/// Violation at which an omitted row is added (data of order one).
 const UNSEEN: f64 = 1e-9;
-/// Rows of a group, and pieces of an objective, that the program begins with.
+/// Initial number of rows of a group and of pieces of an objective in the program.
 const FIRST: usize = 6;
 
 /// The data of one step.
@@ -26,25 +26,25 @@ pub(super) struct Program<'a> {
     pub curvature: Option<&'a DMatrix<f64>>,
 }
 
-/// A step with what the model promises.
+/// A step with its predicted values.
 #[derive(Debug, Clone)]
 pub(super) struct ClimbStep {
     pub d: Vec<f64>,
-    /// Weighted gain less penalised slacks, curvature included.
+    /// Weighted gain minus penalised slacks, curvature included.
     pub merit: f64,
     /// Multipliers of the smooth constraints and pieces, by their position.
     pub items: Vec<f64>,
     pub pieces: Vec<f64>,
 }
 
-/// Which constraints and pieces are written into the program.
+/// The constraints and pieces in the program.
 struct Held {
     items: Vec<bool>,
     pieces: Vec<bool>,
 }
 
 impl Held {
-    /// Of every group and objective those with the least values.
+    /// The initial choice: those with the least values of every group and objective.
     fn first(near: &Linearised) -> Self {
         let mut items = vec![false; near.items.len()];
         let mut pieces = vec![false; near.pieces.len()];
@@ -66,7 +66,7 @@ impl Held {
     }
 }
 
-/// A program that is being written, with the places of its variables.
+/// A program under construction, with the indices of its variables.
 struct Draft {
     p: ConicProgram,
     /// Variable of each objective in use.
@@ -98,8 +98,8 @@ fn add(p: &mut ConicProgram, row: ConicRow) -> usize {
 impl Program<'_> {
     /// Solves for the step; refuses a point whose plain residual is too large.
     ///
-    /// Few rows bind. The program begins with the rows of least value and adds those that its point violates.
-    /// Without further ones the point solves the program with all rows.
+    /// Few rows are active. The program begins with the rows of least value and adds those that its point violates.
+    /// Once none is violated, the point solves the program with all rows.
     pub(super) fn solve(&self) -> Result<ClimbStep, SolverFailure> {
         let mut held = Held::first(self.near);
         loop {
@@ -157,7 +157,7 @@ impl Program<'_> {
         (draft, [items, pieces])
     }
 
-    /// Marks the rows that the point violates; `false` when there are none.
+    /// Marks the rows that the point violates; `false` if there are none.
     fn add_violated(&self, held: &mut Held, draft: &Draft, point: &[f64]) -> bool {
         let d = &point[..self.x.len()];
         let mut any = false;
@@ -213,7 +213,7 @@ impl Program<'_> {
         }
     }
 
-    /// Writes a constraint; the row of its multiplier when it is linear.
+    /// Writes a constraint and returns the row of its multiplier if it is linear.
     fn item(&self, draft: &mut Draft, item: &LinearItem) -> Option<usize> {
         let s = draft.slacks[&item.group];
         if let Some(cone) = &item.cone {
@@ -263,7 +263,7 @@ fn second_order(p: &mut ConicProgram, head: ConicRow, cone: &AffineCone) {
     p.second_order(std::iter::once(head).chain(tail).collect());
 }
 
-/// `y <= value + f (low - sigma_6) - h (high - sigma_1)`, `low` at most the least and `high` at least the greatest
+/// `y <= value + f (low - sigma_6) - h (high - sigma_1)`. `low` is at most the least and `high` at least the greatest
 /// eigenvalue of the linear models of the clusters, pair by pair.
 ///
 /// A pair: `lambda_min [[a, b], [b, c]] >= z` is the cone `a + c - 2 z >= |(a - c, 2 b)|`.

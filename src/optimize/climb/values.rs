@@ -1,37 +1,37 @@
-//! What a climb wants, and what it finds at a point.
+//! The task of a climb, and its values at a point.
 
 use std::collections::BTreeMap;
 
 use machine::requirements::TermKind;
 
-/// Constraints that share one slack.
+/// Constraints with a common slack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ConstraintGroup {
     /// Requirements of one kind.
     Term(TermKind),
     /// `|det A|`.
     Determinant,
-    /// Joints that slide on families stay near the others.
+    /// Distance of joints on families from the others.
     Reach,
-    /// An objective that must not fall below a value.
+    /// A lower bound of an objective.
     Floor(usize),
 }
 
-/// What is wanted in one run.
+/// The task of one run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Task {
     /// Weight of each objective; 0 leaves it out.
     pub weights: Vec<f64>,
     /// Least gain of each objective.
     pub(crate) floors: Vec<Option<f64>>,
-    /// Constraints that are not held.
+    /// Constraints that are ignored.
     pub dropped: Vec<ConstraintGroup>,
-    /// Constraints whose violation costs a hundredth.
+    /// Constraints whose violation has a hundredth of the penalty.
     pub soft: Option<ConstraintGroup>,
 }
 
 impl Task {
-    /// Relative price of a violation.
+    /// Relative penalty of a violation.
     pub(crate) fn cost(&self, group: ConstraintGroup) -> f64 {
         if self.soft == Some(group) { 0.01 } else { 1.0 }
     }
@@ -60,7 +60,7 @@ impl PointValues {
         task.weights.iter().zip(&self.gains).filter(|(w, _)| **w > 0.0).map(|(w, g)| w * g).sum()
     }
 
-    /// Counts the value of a constraint, which is to be at least `spare`.
+    /// Records the value of a constraint, which must be at least `spare`.
     pub(crate) fn hold(&mut self, group: ConstraintGroup, value: f64, spare: f64) {
         let worst = self.violations.entry(group).or_insert(0.0);
         let miss = spare - value;

@@ -1,5 +1,5 @@
-//! Infeasible problems: the least violation, an irreducible set of requirements that exclude each other, and the proof
-//! of it where the requirements are convex.
+//! Infeasible problems: the least violation, and an irreducible set of conflicting requirements with a proof for convex
+//! ones.
 
 use std::collections::BTreeMap;
 
@@ -23,11 +23,11 @@ pub(crate) fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> 
     Task { weights: vec![0.0; n], floors: vec![None; n], dropped, soft: None }
 }
 
-/// Runs towards the least violation after which it is asked whether they are enough.
+/// Number of runs towards the least violation before the test whether they are enough.
 const ELASTIC_BATCH: usize = 16;
 
-/// Least violation, objectives left out, from where the runs of a task ended, once from each end, as long as none meets
-/// the requirements and other ends are to be expected.
+/// The least violation without objectives, from the ends of the runs of a task, each distinct end once. The runs
+/// continue while none meets the requirements and other ends are expected.
 pub(super) fn elastic(
     model: &Model<'_>,
     task: &Task,
@@ -48,8 +48,8 @@ pub(super) fn elastic(
     with_least_whole(model, &plain, runs, watch)
 }
 
-/// Runs in the order of their violations, poses added to the first until it is worse at none. More poses only add to a
-/// violation, so that the run with the least is among those whose violation without them is no greater.
+/// Runs in the order of their violations; poses are added to the first until none is worse. Further poses only increase
+/// a violation, so the run with the least one is among those whose violation without them is no greater.
 fn with_least_whole(
     model: &Model<'_>,
     task: &Task,
@@ -72,14 +72,12 @@ fn with_least_whole(
     whole
 }
 
-/// Runs towards the least violation of all requirements where these are not to be met from any of some points, which
-/// are all looked at; `None` where that is not shown.
+/// Runs towards the least violation, if the requirements appear infeasible from all of some points; otherwise `None`.
 ///
-/// From the point that misses least the least violation is looked for. The requirements that are missed there are part
-/// of what is wanted, so that what cannot meet those cannot meet all: they alone are tried from the points, without the
-/// others, which have optima of their own between them. Where every run misses them, and ends so alike that no other
-/// end is to be expected ([`expects_no_other`]), the requirements count as not to be met, as far as local searches can
-/// tell.
+/// The search for the least violation starts at the point with the least one. The requirements missed there are
+/// necessary, so failing to meet them means failing to meet all. They alone are tried from the points, since the other
+/// requirements would create local optima. The requirements count as infeasible, within the power of local searches, if
+/// every run misses them and no other end is expected ([`expects_no_other`]).
 pub(super) fn unmet(
     model: &Model<'_>,
     points: &[Vec<f64>],
@@ -115,10 +113,10 @@ pub(super) fn unmet(
     None
 }
 
-/// A point with the poses at which the requirements are held first.
+/// A point, and the initial held poses of the requirements.
 type SettleStart<'r> = (&'r [f64], &'r [HeldPose]);
 
-/// Where runs ended.
+/// Ends of runs.
 fn ends(from: &[RefinedRun]) -> Vec<SettleStart<'_>> {
     from.iter().map(|r| (r.run.x.as_slice(), r.poses.as_slice())).collect()
 }
@@ -133,7 +131,7 @@ fn settle(
     watch: &mut ProgressReport<'_, '_, '_>,
 ) -> Vec<RefinedRun> {
     let run = |k: usize| refine_adding(adding, model, task, from[k].0, from[k].1.to_vec(), k as u64);
-    // what leaves requirements out says nothing of the best platform
+    // a run without some requirements gives no information about the best platform
     let tick = &mut |done: usize, _: &RefinedRun| watch.tell(Stage::Conflict, (done, from.len()), None);
     let mut out = parallel(from.len(), threads, run, tick);
     out.sort_by(|a, b| by_violation(task, a, b));
@@ -147,15 +145,15 @@ fn by_violation(task: &Task, a: &RefinedRun, b: &RefinedRun) -> std::cmp::Orderi
 
 /// Number of the first population of an attempt, beyond those of a search.
 const POPULATIONS: usize = 3000;
-/// Starts of an attempt besides the ends of earlier runs, and the generations of the population they come from: few,
-/// since the basin that draws a population together may hold the compromise that is to be left.
+/// Number of starts of an attempt besides the ends of earlier runs, and generations of their population. Both are
+/// small, since the basin that attracts a population may contain the compromise to be left.
 const FRESH: (usize, usize) = (6, 5);
 
-/// Runs of an attempt that are made before it is asked whether one of them is enough.
+/// Number of runs of an attempt before the test whether one of them is enough.
 const BATCH: usize = 4;
 
-/// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are
-/// where all requirements together led, which need not be near to where fewer of them can be met.
+/// Tries to meet the requirements that a task keeps, from the ends of other runs and from a separate population. The
+/// earlier ends come from all requirements together, and may be far from points that meet fewer of them.
 pub(super) fn attempt(
     model: &Model<'_>,
     task: &Task,
@@ -190,27 +188,26 @@ pub(super) fn attempt(
     Err(runs)
 }
 
-/// Runs whose ends differ by their violation or elsewhere: what is tried from all of them would be tried again from the
-/// same end.
+/// Runs with distinct violations or ends: other runs would only repeat an attempt from the same end.
 fn apart(task: &Task, runs: &[RefinedRun]) -> Vec<RefinedRun> {
     distinct(runs.iter(), |r| r.run.judged.total_violation(task)).into_iter().cloned().collect()
 }
 
-/// What becomes of requirements that no run met.
+/// The result for requirements that no run met.
 pub(crate) enum ConflictOutcome {
-    /// An irreducible set of constraints that could not be met together.
+    /// An irreducible set of constraints that no run met together.
     Conflict(ConstraintConflict),
-    /// Looking for one, a point was found that meets all of them.
+    /// The search for a conflict found a point that meets all requirements.
     Met(Box<RefinedRun>),
-    /// The elastic problem did not settle, the search was told to end, or the set that was left could be met after all.
+    /// The elastic problem did not converge, the search was stopped, or the remaining set turned out to be feasible.
     Unsettled,
 }
 
-/// Looks for an irreducible set of constraints that could not be met together.
+/// Searches for an irreducible set of constraints that no run meets together.
 ///
-/// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the
-/// others still cannot be met. Those that hold at the least violation are left out together first, and stay out at once
-/// where the others still cannot be met.
+/// Deletion filter (Chinneck, Dravnieks 1991): constraints are removed one kind at a time, and stay out if the others
+/// still cannot be met. Those that hold at the least violation are removed together first, and stay out if the others
+/// still cannot be met.
 pub(super) fn conflict(
     model: &Model<'_>,
     settled: &[RefinedRun],
@@ -223,11 +220,11 @@ pub(super) fn conflict(
     let all: Vec<ConstraintGroup> = best.run.judged.violations.keys().copied().collect();
     let mut dropped: Vec<ConstraintGroup> = Vec::new();
     let mut from = apart(&no_objective(model, Vec::new()), settled);
-    // those that hold at the least violation go first: they are most likely to take no part
+    // those that hold at the least violation go first: they are least likely to take part
     let mut order = all.clone();
     order.sort_by(|a, b| best.run.judged.violations[a].total_cmp(&best.run.judged.violations[b]));
     let mut alone: BTreeMap<ConstraintGroup, RefinedRun> = BTreeMap::new();
-    // all of these at once where the others cannot be met even then
+    // all of these at once, if the others cannot be met even then
     let idle: Vec<ConstraintGroup> =
         order.iter().copied().filter(|group| best.run.judged.violations[group] <= 0.0).collect();
     if idle.len() > 1
@@ -249,7 +246,7 @@ pub(super) fn conflict(
             Err(runs) => (dropped, from) = (without, runs),
         }
     }
-    // runs that were told to end show nothing, here and below
+    // interrupted runs show nothing, here and below
     if model.is_stopped() {
         return ConflictOutcome::Unsettled;
     }
@@ -268,7 +265,7 @@ pub(super) fn conflict(
         if let Some(from) = alone.get(&group) {
             let run = least_alone(model, from, group, &task);
             if run.run.is_feasible() {
-                // nothing has to give after all
+                // no requirement has to be relaxed after all
                 let whole = refine(model, &no_objective(model, Vec::new()), &run.run.x, run.poses, o.seed);
                 let met = whole.run.is_feasible();
                 return if met { ConflictOutcome::Met(Box::new(whole)) } else { ConflictOutcome::Unsettled };
@@ -277,7 +274,7 @@ pub(super) fn conflict(
                 found = amounts(model, &run.poses, &run.run.x, &task).get(&group).copied();
             }
         }
-        // the same where the sum of all violations is least and no other gives, as when nothing else is in conflict
+        // the same if the sum of all violations is least and no other is violated, as without any other conflict
         if others_hold(model, least, group) {
             found = Some(found.map_or(of(&group), |x| x.min(of(&group))));
         }
@@ -289,7 +286,7 @@ pub(super) fn conflict(
     ConflictOutcome::Conflict(ConstraintConflict { demands, proved })
 }
 
-/// The constraint of a group, as answers name it.
+/// The constraint of a group, as named in answers.
 pub(super) fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
     match group {
         ConstraintGroup::Term(kind) => Demand::Requirement(kind),
@@ -299,9 +296,9 @@ pub(super) fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
     }
 }
 
-/// The run with the least violation of one group while the others of the conflict are to hold.
+/// The run with the least violation of one group while the others of the conflict hold.
 fn least_alone(model: &Model<'_>, from: &RefinedRun, group: ConstraintGroup, task: &Task) -> RefinedRun {
-    // a group that costs a hundredth of the others gives way first
+    // a group with a hundredth of the penalty is relaxed first
     let task = Task { soft: Some(group), ..task.clone() };
     refine(model, &task, &from.run.x, from.poses.clone(), 1)
 }
@@ -359,7 +356,7 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
             ConstraintGroup::Floor(_) => {
                 out.insert(*group, *value);
             }
-            // the spare is not part of what is required
+            // the margin is not part of the requirement
             ConstraintGroup::Determinant | ConstraintGroup::Reach => {
                 out.insert(*group, (*value - model.backoff).max(0.0));
             }
@@ -372,25 +369,25 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
     out
 }
 
-/// Radius within which all bounded variables lie around any point.
+/// Radius around any point that contains all bounded variables.
 const EVERYWHERE: f64 = 100.0;
 
-/// What rounding can cost a coefficient, relative to the largest length that takes part in it. Every coefficient is a
-/// sum of at most a few dozen products and quotients of the data, each of which costs less than `2^-52` of the largest
-/// of them: this leaves room for four thousand.
+/// Rounding error of a coefficient, relative to the largest length in it. Every coefficient is a sum of at most a few
+/// dozen products and quotients of the data. Each of these costs less than `2^-52` of the largest; the bound allows
+/// four thousand.
 const ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// An interval that holds the coefficient whatever rounding did to it.
+/// An interval that contains the exact coefficient despite rounding.
 fn enclosed(x: f64, scale: f64) -> Interval {
     Interval::new((x - ROUNDING * scale).next_down(), (x + ROUNDING * scale).next_up())
         .unwrap_or(Interval::WHOLE)
 }
 
-/// `true` when no values of the variables within their bounds meet the requirements of `groups` at these poses, by a
-/// certificate that is judged in intervals.
+/// `true` if no values of the variables within their bounds meet the requirements of `groups` at these poses. A
+/// certificate judged in intervals proves it.
 ///
-/// Only where every one of them is a cone that is exact far from the point: greatest lengths and swing with given axes,
-/// the lines affine in the variables. `false` means that nothing is proved.
+/// It applies only to cones that are exact far from the point: greatest lengths and joint angles with given axes. Lines
+/// must be affine in the variables. `false` means that nothing is proved.
 pub(crate) fn proved_empty(
     model: &Model<'_>,
     poses: &[HeldPose],
@@ -401,7 +398,7 @@ pub(crate) fn proved_empty(
     let Some(all) = model.linearise(poses, x, task, model.sign(x), EVERYWHERE) else { return false };
     let own = all.items.iter().filter(|i| groups.contains(&i.group));
     let n = x.len();
-    // what the lines are made of, in the unit of the rows
+    // the sizes of the line components, in the unit of the rows
     let ends = model.shape.ends(x);
     let positions = poses.iter().map(|p| p.pose.position.amax()).fold(ends.lift.amax(), f64::max);
     let coordinates =
@@ -414,7 +411,7 @@ pub(crate) fn proved_empty(
             coefficients: gradient.iter().enumerate().map(|(j, g)| (j, -g)).collect(),
             rhs: value + spare,
         };
-        // what is proved is about the requirement itself, without the spare
+        // the proof concerns the requirement itself, without the margin
         let head = row(&cone.head, model.backoff * cone.slack);
         let block: Vec<ConicRow> =
             std::iter::once(head).chain(cone.tail.iter().map(|t| row(t, 0.0))).collect();
@@ -437,7 +434,7 @@ pub(crate) fn proved_empty(
         );
     }
     match p.solve(&model.conic) {
-        // the ranges of the variables take part as they are, without multipliers
+        // the ranges of the variables enter unchanged, without multipliers
         ConicAnswer::Infeasible(ray) => {
             ray.get(..rows.len()).is_some_and(|ray| refuted(&rows, &cones, ray, &ranges).is_some())
         }

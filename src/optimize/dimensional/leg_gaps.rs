@@ -8,7 +8,7 @@ use machine::requirements::{KeepOutShape, LegBody, LegSegment};
 use platform::geom::LinePair;
 use platform::manipulator::Body;
 
-/// A gap with its gradient; `part` tells apart the gaps of a pair of legs.
+/// A gap with its gradient; `part` distinguishes the gaps of a pair of legs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap<P> {
     pub value: f64,

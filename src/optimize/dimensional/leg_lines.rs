@@ -1,4 +1,4 @@
-//! The legs at a pose: lines, lengths, rows of the Jacobian and the forces that hold a load, with gradients.
+//! The legs at a pose: lines, lengths, rows of the Jacobian and forces under a load, with gradients.
 
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
@@ -8,10 +8,10 @@ use machine::requirements::{HeldLines, LegsWeight, Load};
 use num::ordered::Sloped;
 use platform::geom::Pose;
 
-/// A pose at which the requirements are held.
+/// A held pose of the requirements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HeldPose {
-    /// As given, before home is lifted.
+    /// The given pose, before home is lifted.
     pub pose: Pose,
     /// Whether it moves with home.
     pub follows: bool,
@@ -42,7 +42,7 @@ impl LegLines {
         Self { rotation, position, base: ends.base, arm, line, length, direction }
     }
 
-    /// A gradient with respect to the unit vector of a leg as one with respect to its line.
+    /// The gradient by the line of a leg, from that by its unit vector.
     fn along_line(&self, leg: usize, g: &Vector3<f64>) -> Vector3<f64> {
         let u = &self.direction[leg];
         (g - u * u.dot(g)) / self.length[leg]
@@ -70,22 +70,22 @@ impl LegLines {
         let (force, moment): (Vector3<f64>, Vector3<f64>) =
             (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / length);
         let (u, arm) = (&self.direction[leg], &self.arm[leg]);
-        // moment . (arm x u): u x moment pulls at the arm, moment x arm at u
+        // moment . (arm x u): the gradient is u x moment at the arm, moment x arm at u
         pull.at_arm(leg, &u.cross(&moment));
         pull.line(leg, self.along_line(leg, &(force + moment.cross(arm))));
     }
 }
 
-/// The legs at a pose, ready to hold loads.
+/// The legs at a pose, factorised for loads.
 pub(super) struct HeldLegs<'a> {
     legs: &'a LegLines,
     length: f64,
     lines: HeldLines,
-    /// What gradients need; `None` where they are not wanted, and at a singular pose.
+    /// The inverse for gradients; `None` without gradients, and at a singular pose.
     inverse: Option<Matrix6<f64>>,
 }
 
-/// Leg forces that hold a load, and what their derivatives need.
+/// Leg forces in equilibrium with a load, and the data for their derivatives.
 pub(super) struct Forces<'a> {
     pub values: Vector6<f64>,
     held: &'a HeldLegs<'a>,
@@ -106,7 +106,7 @@ impl<'a> HeldLegs<'a> {
         Some(Forces { values, held: self, weight: load.legs.as_ref() })
     }
 
-    /// Adds the gradient of `-g . (w, R b x w / L)`, `w` the weight of a leg on its platform joint.
+    /// Adds the gradient of `-g . (w, R b x w / L)`, with the weight `w` of a leg on its platform joint.
     fn pull_weight<P: Gradient>(
         &self,
         pull: &mut P,
@@ -126,8 +126,8 @@ impl<'a> HeldLegs<'a> {
 }
 
 impl Forces<'_> {
-    /// Force of a leg and its gradient: `dF_i = - sum_j y . (F_j d(column j) + d(weight of leg j))`, `y` row `i` of the
-    /// inverse.
+    /// Force of a leg and its gradient `dF_i = - sum_j y . (F_j d(column j) + d(weight of leg j))`, with row `i` of the
+    /// inverse as `y`.
     pub(super) fn of<P: Gradient>(&self, leg: usize) -> (f64, P) {
         let (mut pull, held) = (P::none(), self.held);
         if let Some(inverse) = &held.inverse {

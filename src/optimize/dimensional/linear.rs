@@ -17,7 +17,7 @@ use machine::requirements::Objective;
 use machine::requirements::TermKind;
 use platform::manipulator::Body;
 
-/// Legs at a held pose with the motions of the variables.
+/// Legs at a held pose, with their velocities by the variables.
 struct Near<'a> {
     l: LegLines,
     at: &'a HeldPose,
@@ -32,7 +32,7 @@ impl Near<'_> {
 }
 
 impl Model<'_> {
-    /// Linear models at a point of what can matter within `radius`.
+    /// Linear models at a point of everything relevant within `radius`.
     pub(crate) fn linearise(
         &self,
         poses: &[HeldPose],

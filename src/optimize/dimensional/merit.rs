@@ -1,7 +1,7 @@
-//! The objectives as gains, to be large, in units of their own, with what the subproblems need of them.
+//! The objectives as gains, each in its unit and to be maximised, with their models for the subproblems.
 //!
-//! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the
-//! frequency of the payload on a single leg, the greatest load for forces.
+//! Units are 1 for condition and singular values, the size of the design for lengths, and the stiffness of a leg. They
+//! are the frequency of the payload on a single leg, and the greatest load for forces.
 
 use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 
@@ -32,7 +32,7 @@ pub(crate) struct Spectral {
     pub high: Cluster,
 }
 
-/// An extreme singular value with those close to it: their values, and the pulls of the blocks `(kk, ko, oo)`.
+/// An extreme singular value with those close to it: their values, and the gradients of the blocks `(kk, ko, oo)`.
 #[derive(Debug, Clone)]
 pub(super) struct Cluster {
     pub sigma: f64,
@@ -40,18 +40,18 @@ pub(super) struct Cluster {
     pub others: Vec<(f64, PoseGradient, PoseGradient)>,
 }
 
-/// What bounds an objective from above.
+/// An upper bound of an objective.
 #[derive(Debug, Clone)]
 pub(crate) enum MeritPiece {
     /// `y <= value + gradient`.
     Linear(f64, PoseGradient),
-    /// By the least and the greatest singular value.
+    /// The bound by the least and the greatest singular value.
     Spectral(Box<Spectral>),
-    /// Both: length of a leg, for the stroke.
+    /// Length of a leg, a bound on both sides for the stroke.
     Length(usize, f64, PoseGradient),
 }
 
-/// Everything the objectives are evaluated with.
+/// The data for the evaluation of the objectives.
 #[derive(Debug, Clone)]
 pub(crate) struct Merit<'a> {
     loads: &'a [Load],
@@ -85,7 +85,7 @@ impl<'a> Merit<'a> {
         }
     }
 
-    /// Factor that turns a gain into the value of the objective, sign included.
+    /// Factor from a gain to the value of the objective, sign included.
     pub(super) fn unit(&self, o: Objective, stiffness: f64) -> f64 {
         match o {
             Objective::LegForce => -self.force_unit,
@@ -97,7 +97,7 @@ impl<'a> Merit<'a> {
         }
     }
 
-    /// `true` when the objective is a worst case over the poses.
+    /// `true` if the objective is a worst case over the poses.
     pub(crate) fn is_over_poses(o: Objective) -> bool {
         !matches!(
             o,
@@ -108,7 +108,7 @@ impl<'a> Merit<'a> {
         )
     }
 
-    /// The slowest motions, where masses are known.
+    /// The slowest motions, if masses are known.
     fn slowest<P: Gradient>(&self, l: &LegLines) -> Option<Vec<RayleighQuotient<P>>> {
         stiffness::frequencies(l, self.size, self.vibrating.as_ref()?)
     }
@@ -118,7 +118,7 @@ impl<'a> Merit<'a> {
         self.vibrating.map_or(1.0, |masses| masses.on_one_leg() * std::f64::consts::TAU)
     }
 
-    /// The least gain at one pose, of the objectives over poses.
+    /// The least gain at one pose, for objectives over poses.
     pub(super) fn at_pose(&self, o: Objective, terms: &RequirementTerms<'_>, l: &LegLines) -> f64 {
         match o {
             Objective::WorstConditioning => {
@@ -310,7 +310,7 @@ fn decomposed(j: &Matrix6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f
 }
 
 impl Spectral {
-    /// The gradient of the piece, clusters taken apart.
+    /// The gradient of the piece; clusters have none here.
     pub(super) fn pull(&self) -> PoseGradient {
         let mut pull = self.low.own.scaled(self.f);
         pull.add(&self.high.own, -self.h);

@@ -1,10 +1,10 @@
-//! Dimensional synthesis: chooses the dimensions of a platform such that it meets all its requirements and is otherwise
-//! as good as can be found.
+//! Dimensional synthesis: chooses the dimensions of a platform that meets all its requirements, with the best
+//! objectives found.
 //!
-//! Variables are offsets, triangles, the height of home and joint axes; requirements are those of
-//! [`machine::requirements`], in formulas of this module with derivatives. Sequential convex programming from many
-//! starts, over poses that are added where the requirements are met least. Definitions, method and limits:
-//! `docs/theory/dimensional-synthesis.md`.
+//! Variables are offsets, triangles, the height of home and joint axes. Requirements are those of
+//! [`machine::requirements`], in formulas of this module with derivatives. The method is sequential convex programming
+//! from many starts, over poses that are added where the requirements have the least margin. Definitions, method and
+//! limits: `docs/theory/dimensional-synthesis.md`.
 
 mod conflict;
 mod leg_gaps;

@@ -1,4 +1,4 @@
-//! The problem ready to be searched: values and linear models of everything at a point.
+//! The problem prepared for the search: values and linear models at a point.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -23,24 +23,24 @@ pub(crate) struct Model<'a> {
     pub terms: RequirementTerms<'a>,
     pub merit: Merit<'a>,
     pub objectives: Vec<Objective>,
-    /// Constraints are held with this to spare, so that what lies between the poses meets them too.
+    /// Margin with which constraints are held, so that poses in between meet them too.
     pub(crate) backoff: f64,
     pub affine: bool,
     /// Counts the conic programs of the search.
     pub conic: ConicTally,
-    /// Set when the search is to end with what it has.
+    /// Set to stop the search with its current result.
     stop: Arc<AtomicBool>,
 }
 
 /// Points of the Halton sequence, and random ones, in the sample of the mean.
 const SAMPLE: usize = 24;
-/// Seed of these poses: they are part of the problem, the same for every seed of the search.
+/// Seed of these poses: they are part of the problem and equal for every seed of the search.
 const AVERAGED: u64 = 1;
-/// Points between, of either kind, that every run starts with.
+/// Number of intermediate points, of either kind, at the start of every run.
 const BETWEEN: usize = 12;
-/// Seed of these points, the same for every seed of the search.
+/// Seed of these points, equal for every seed of the search.
 const BETWEEN_CORNERS: u64 = 2;
-/// Spare relative to the size (or the limit) where poses lie between those that are held, and where none do.
+/// Margin relative to the size (or the limit): with poses between the held ones, and without.
 const BACKOFF: (f64, f64) = (1e-6, 2e-8);
 
 impl<'a> Model<'a> {
@@ -49,9 +49,8 @@ impl<'a> Model<'a> {
         Self::with_axes(problem, problem.axes_wanted())
     }
 
-    /// The same with axes along the legs at home instead of chosen ones, which come last among the variables; `None`
-    /// without chosen ones, or when nothing else is chosen. What meets the requirements here does so with axes to
-    /// choose.
+    /// The model with axes along the legs at home in place of chosen ones, which are the last variables. `None` if no
+    /// axes or only axes are chosen. A point that meets the requirements here also does so with chosen axes.
     pub(crate) fn without_axes(&self) -> Option<Self> {
         if self.shape.axes == [None; 2] {
             return None;
@@ -86,7 +85,7 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Ends the search when it is told to.
+    /// Stops the search on request.
     pub(crate) fn heed(&self, flow: ControlFlow<()>) {
         if flow.is_break() {
             self.stop.store(true, Ordering::Relaxed);
@@ -97,8 +96,8 @@ impl<'a> Model<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that
-    /// are listed.
+    /// The initial poses of every run: home, corners, the ends of the axes, a few points in between, and the listed
+    /// poses.
     pub(crate) fn first_poses(&self) -> Vec<HeldPose> {
         let (mut out, space) = (listed(self.problem), &self.problem.space);
         let mut points = space.cube_points(BETWEEN, &mut Rng::new(BETWEEN_CORNERS));
@@ -121,7 +120,7 @@ impl<'a> Model<'a> {
         (0..self.objectives.len()).filter(used).map(|m| (m, self.objectives[m]))
     }
 
-    /// `sign det A` less the least value, and its gradient, where the variables keep the class of the design.
+    /// `sign det A` minus the least value, and its gradient, if the variables keep the class of the design.
     pub(super) fn determinant(&self, x: &[f64], sign: f64) -> Option<(f64, Vec<f64>)> {
         let (det, gradient) = self.shape.determinant(x)?;
         Some((sign * det - self.problem.min_abs_det, gradient.into_iter().map(|g| sign * g).collect()))
@@ -133,12 +132,12 @@ impl<'a> Model<'a> {
     }
 }
 
-/// A model with a task at the poses that are held.
+/// A model with a task at the held poses.
 struct HeldTask<'h, 'a> {
     model: &'h Model<'a>,
     poses: &'h [HeldPose],
     task: &'h Task,
-    /// Sign of `det A` that is kept.
+    /// Kept sign of `det A`.
     sign: f64,
 }
 
@@ -155,7 +154,7 @@ impl Climbable for HeldTask<'_, '_> {
         &self.model.conic
     }
 
-    /// The joint axes: shorter ones only make the limits harder to meet.
+    /// The joint axes: shorter vectors only make the limits harder to meet.
     fn unit_vectors(&self) -> Vec<usize> {
         let axes = self.model.shape.axes.iter().flatten();
         axes.flat_map(|first| (0..6).map(move |leg| first + 3 * leg)).collect()
@@ -190,7 +189,7 @@ impl Climbable for HeldTask<'_, '_> {
 }
 
 impl Model<'_> {
-    /// Climbs from a point, which has the sign of `det A` that is kept.
+    /// Climbs from a point and keeps its sign of `det A`.
     pub(super) fn climb(&self, poses: &[HeldPose], task: &Task, start: &[f64], effort: Effort) -> Run {
         climb(&HeldTask { model: self, poses, task, sign: self.sign(start) }, start, effort)
     }

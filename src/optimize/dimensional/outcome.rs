@@ -1,4 +1,4 @@
-//! The answer: a refined run, with its objectives over many poses evaluated by code that the search does not use.
+//! The answer: a refined run, with its objectives over many poses evaluated by separate code.
 
 use nalgebra::{Unit, Vector3};
 
@@ -17,18 +17,18 @@ use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use synthesis::{Normalisation, leg_vector};
 
-/// A quantity that was chosen.
+/// A chosen quantity.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "VariableRecord", transform = num::nullable))]
 pub struct ChosenVariable {
     // no component of a joint axis
-    /// Which.
+    /// The name of the quantity.
     pub name: String,
-    /// Its value in the design that the search began with.
+    /// Its value in the initial design.
     pub start: f64,
     /// Its value in the platform.
     pub value: f64,
-    /// Least and greatest value that it may have.
+    /// Its least and greatest allowed value.
     pub bounds: [f64; 2],
 }
 
@@ -37,25 +37,25 @@ pub struct ChosenVariable {
 pub struct DimensionalSolution {
     /// The platform, legs in the order of the design.
     pub manipulator: Manipulator,
-    /// Home, lifted when its height was chosen.
+    /// Home, lifted if its height was chosen.
     pub home: Pose,
     /// Chosen axes of the base joints (base frame) and of the platform joints (platform frame).
     pub axes: [Option<[Unit<Vector3<f64>>; 6]>; 2],
-    /// The variables, axes left out.
+    /// The variables, without axes.
     pub variables: Vec<ChosenVariable>,
-    /// The same as the search sees them, axes included; a start for another search.
+    /// The same in the form of the search, axes included; a start for another search.
     pub point: Vec<f64>,
-    /// Offsets in cyclic order, when they were chosen.
+    /// Offsets in cyclic order, if they were chosen.
     pub offsets: Option<[f64; 6]>,
     /// Value of each objective over the held poses, in its own unit.
     pub objectives: Vec<(Objective, f64)>,
-    /// First-order gain still promised for a unit of the variables; near 0 at a local optimum.
+    /// Predicted first-order gain per unit of the variables; near 0 at a local optimum.
     pub stationarity: f64,
-    /// Whether the model of the last step promised no further gain.
+    /// Whether the model of the last step predicted no further gain.
     pub converged: bool,
-    /// Poses at which the requirements were held in the end, home lifted.
+    /// Poses at which the requirements were held at the end, home lifted.
     pub poses: Vec<Pose>,
-    /// Steps of the run that found it.
+    /// Steps of the run that found the platform.
     pub history: Vec<HistoryStep>,
 }
 
@@ -72,7 +72,7 @@ pub enum Demand {
     Level(Objective),
 }
 
-/// The code of the requirement, or what is held besides.
+/// The code of the requirement, or the name of the other constraint.
 impl std::fmt::Display for Demand {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
@@ -84,26 +84,24 @@ impl std::fmt::Display for Demand {
     }
 }
 
-/// A constraint that takes part in a conflict.
+/// A constraint in a conflict, with its necessary relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Give {
-    /// Which.
+    /// The constraint.
     pub demand: Demand,
-    /// By how much it would have to give for the others of the conflict to be met, in its own unit; `None` when even
-    /// that was not found.
+    /// Least relaxation, in its own unit, with which the others of the conflict can be met. `None` if none was found.
     pub alone: Option<f64>,
-    /// Its violation where the sum of all violations (each in its scale) is least; 0 where it holds there because
-    /// others give.
+    /// Its violation where the sum of all violations (each in its scale) is least; 0 if it holds there because others
+    /// are violated.
     pub together: f64,
 }
 
-/// Why nothing was found: an irreducible set of constraints that no start could meet together.
+/// The reason for a failure: an irreducible set of constraints that no start could meet together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstraintConflict {
-    /// Without any one of them the others were met.
+    /// The constraints; without any single one the others were met.
     pub demands: Vec<Give>,
-    /// Whether the set is proved to be in conflict: the constraints are convex and a checked certificate separates
-    /// them.
+    /// Whether the conflict is proved: the constraints are convex and a checked certificate separates them.
     pub proved: bool,
 }
 
@@ -111,42 +109,42 @@ pub struct ConstraintConflict {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum DimensionalOutcome {
-    /// A local optimum, the best of all starts; the requirements hold at all poses that were looked at.
+    /// A local optimum, the best of all starts; the requirements hold at all evaluated poses.
     Optimal(Box<DimensionalSolution>),
-    /// Requirements hold, evidence of local optimality is missing.
+    /// Requirements hold, but evidence of local optimality is missing.
     NotConverged(Box<DimensionalSolution>),
-    /// From every start the violation settled above zero.
+    /// From every start the violation converged above zero.
     Infeasible(ConstraintConflict),
-    /// Neither.
+    /// Neither a solution nor a conflict was found.
     Undecided(Option<SolverFailure>),
 }
 
-/// Everything the search found.
+/// All results of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DimensionalReport {
     /// The answer.
     pub outcome: DimensionalOutcome,
-    /// Starts that were climbed from.
+    /// Number of starts of climbs.
     pub starts: usize,
-    /// Starts that led to a feasible point in the first pass.
+    /// Number of starts with a feasible point in the first pass.
     pub feasible: usize,
-    /// Where nothing that meets the requirements was found: the platform with the least violation. It misses some.
+    /// The platform with the least violation, if none meets the requirements. It misses some of them.
     pub nearest: Option<Box<DimensionalSolution>>,
-    /// Other local optima that meet the requirements at the poses that were held, best first: ends of polished runs
-    /// whose value differs from that of the answer and of each other, and so do their variables.
+    /// Other local optima that meet the requirements at the held poses, best first. They are ends of polished runs with
+    /// distinct values and distinct variables.
     pub others: Vec<DimensionalSolution>,
     /// Weighted gains of the polished runs, best first; `None` when infeasible.
     pub polished: Vec<Option<f64>>,
     /// Seed of the populations.
     pub seed: u64,
-    /// Whether the search was told to end; the answer is then the best until then.
+    /// Whether the search was interrupted; the answer is then the best until then.
     pub interrupted: bool,
-    /// Conic programs that were solved.
+    /// Number of solved conic programs.
     pub conic_programs: u64,
 }
 
 impl DimensionalReport {
-    /// The solution, when there is one.
+    /// The solution, if there is one.
     #[must_use]
     pub fn solution(&self) -> Option<&DimensionalSolution> {
         match &self.outcome {
@@ -166,7 +164,7 @@ pub(super) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> D
     }
 }
 
-/// A refined run as a platform, whether or not it meets the requirements; `None` where its legs make none.
+/// A refined run as a platform, whether or not it meets the requirements; `None` if its legs form none.
 pub(super) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> Option<DimensionalSolution> {
     let x = &refined.run.x;
     let manipulator = model.shape.manipulator(x).ok()?;
@@ -181,7 +179,7 @@ pub(super) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> 
         value: x[j],
         bounds: shape.bounds[j].into(),
     };
-    // every objective is reported, the ones left out of the last level too
+    // every objective is reported, including those left out of the last level
     let all = Task { weights: vec![1.0; task.weights.len()], ..task.clone() };
     let gains = model.judge(&refined.poses, x, &all, model.sign(x)).gains;
     let objectives = model.objectives.iter().zip(gains).map(|(o, g)| (*o, g * model.unit(*o))).collect();
@@ -200,7 +198,7 @@ pub(super) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> 
     })
 }
 
-/// The axis with the smallest cap for every joint, over the held poses and a sample of the region.
+/// The axis of the smallest cone for every joint, over the held poses and a sample of the region.
 fn axes(model: &Model<'_>, refined: &RefinedRun) -> [Option<[Unit<Vector3<f64>>; 6]>; 2] {
     let ends = model.shape.ends(&refined.run.x);
     let all: Vec<LegLines> =
@@ -219,10 +217,9 @@ fn axes(model: &Model<'_>, refined: &RefinedRun) -> [Option<[Unit<Vector3<f64>>;
 
 /// Every objective of a platform, in the order of the problem and in its unit (see the theory page).
 ///
-/// `space` has the home of the platform. `points` Halton points and as many random ones are looked at besides home,
-/// corners and listed poses; the mean is that over all of them. `also` are poses of the space at which the worst case
-/// is looked for besides, those of a search for instance. NaN where the platform has no value (forces at a singular
-/// pose).
+/// `space` has the home of the platform. Besides home, corners and listed poses it evaluates `points` Halton points and
+/// as many random ones; the mean is over all of them. `also` are additional poses for the worst case, for instance
+/// those of a search. NaN if the platform has no value (forces at a singular pose).
 #[must_use]
 pub fn evaluate(
     p: &DimensionalProblem,
@@ -239,7 +236,7 @@ pub fn evaluate(
     p.objectives.iter().map(|(o, _)| value(p, m, (&poses, also.len()), *o)).collect()
 }
 
-/// The first poses, as many as told, are not in the mean.
+/// The value of an objective; the first `apart` poses are left out of the mean.
 fn value(p: &DimensionalProblem, m: &Manipulator, (poses, apart): (&[Pose], usize), o: Objective) -> f64 {
     let length = p.characteristic_length;
     let over = |f: &dyn Fn(&Pose) -> f64| poses.iter().map(f).fold(f64::INFINITY, f64::min);
@@ -325,8 +322,8 @@ impl Cap {
 
 /// Axis (unit vector) that minimises the greatest angle to the directions, and the cosine of that angle.
 ///
-/// `max_c min_k u_k . c` over `|c| <= 1`; at the optimum two or three directions are on the rim, and the incremental
-/// algorithm of Welzl (1991) finds them. `None` for no direction, or when no open half space holds all.
+/// `max_c min_k u_k . c` over `|c| <= 1`. At the optimum two or three directions are on the rim; the incremental
+/// algorithm of Welzl (1991) finds them. `None` without directions, or if no open half space contains all.
 pub(crate) fn smallest_cap(directions: &[Vector3<f64>]) -> Option<(Vector3<f64>, f64)> {
     let first = directions.first()?;
     let mut cap = Cap { axis: *first, cos: 1.0 };

@@ -1,4 +1,4 @@
-//! Fronts of two or three objectives: platforms of which none is better in every objective.
+//! Fronts of two or three objectives: platforms of which none is better than another in every objective.
 
 use std::ops::ControlFlow;
 
@@ -11,11 +11,11 @@ use super::search::{
 use crate::climb::Task;
 use num::parallel::parallel;
 
-/// Points of the dense evaluation, and as many random ones.
+/// Number of Halton points of the dense evaluation, and of random ones.
 const POINTS: usize = 1000;
-/// Weight of the bounded objectives, so that they are not left worse than need be.
+/// Small weight of the bounded objectives, which avoids unnecessary losses.
 const AUGMENTED: f64 = 1e-3;
-/// Dense values closer than this, relative to the range of the objective, count as equal.
+/// Dense values within this, relative to the range of the objective, count as equal.
 const SAME: f64 = 1e-4;
 
 /// A member of a front.
@@ -32,27 +32,26 @@ pub struct ParetoPoint {
 pub struct ParetoReport {
     /// Members, by falling gain of the first objective; none dominates another in the dense evaluation.
     pub front: Vec<ParetoPoint>,
-    /// Runs that met their bounds, and were dominated by others or equal to one.
+    /// Number of runs that met their bounds but were dominated by others or equal to one.
     pub dominated: usize,
-    /// Bounds that no run met.
+    /// Number of bounds that no run met.
     pub unmet: usize,
-    /// The search under the same requirements where there is no front because it found nothing: infeasible or
-    /// undecided.
+    /// The search under the same requirements if it found nothing, so that there is no front: infeasible or undecided.
     pub failure: Option<Box<DimensionalReport>>,
-    /// Whether the search was told to end; the front then consists of what was found until then, possibly nothing.
+    /// Whether the search was interrupted; the front is then the part found so far, possibly empty.
     pub interrupted: bool,
-    /// Conic programs that were solved.
+    /// Number of solved conic programs.
     pub conic_programs: u64,
 }
 
-/// The front by sweeping bounds of all objectives but the first (epsilon constraints, augmented by small weights).
+/// The front by a sweep of bounds on all objectives but the first (epsilon constraints, augmented by small weights).
 ///
-/// First every objective is optimised alone; the extremes span the bounds, `points` steps each. Every run starts from
-/// the extremes and from its neighbours. Members are kept when no other is at least as good in every objective by the
-/// dense evaluation. When `progress` says to break the front found until then is returned.
+/// First every objective is optimised alone; the extremes span the bounds, with `points` steps each. Every run starts
+/// from the extremes and from its neighbours. Members are kept if no other is at least as good in every objective of
+/// the dense evaluation. If `progress` returns break, the front found so far is returned.
 ///
 /// # Errors
-/// [`InvalidProblem`], also unless there are two or three objectives.
+/// [`InvalidProblem`], also for fewer than two or more than three objectives.
 pub fn pareto(
     problem: &DimensionalProblem,
     points: usize,

@@ -1,7 +1,7 @@
-//! Holes in the plates, and plates that the legs keep clear of, as functions of the joints with gradients.
+//! Holes in the plates and clearances of the legs from plates, as functions of the joints with gradients.
 //!
-//! The plate of a body is the set of all points within its margin of the hull of the joints, between two faces. Its
-//! normal is taken as constant where gradients are formed: it is, unless joints leave their common plane.
+//! The plate of a body is the set of all points within its margin of the hull of the joints, between two faces.
+//! Gradients take its normal as constant, which is exact unless joints leave their common plane.
 
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
@@ -17,7 +17,7 @@ use platform::manipulator::Body;
 
 /// Joints nearer than this share of the size are one corner of an outline.
 const SAME: f64 = 1e-9;
-/// A leg whose line is nearer to a plate than this share of the size runs into it.
+/// A leg whose line is within this share of the size of a plate runs into it.
 const TOUCHING: f64 = 1e-12;
 /// The plate of a body before its joints are known.
 #[derive(Debug, Clone)]
@@ -33,7 +33,7 @@ pub(crate) struct PlateModel<'a> {
     size: f64,
 }
 
-/// The plate where its joints are.
+/// The plate with placed joints.
 #[derive(Debug, Clone)]
 pub(crate) struct PlacedPlate<'a> {
     model: &'a PlateModel<'a>,
@@ -60,7 +60,7 @@ impl<'a> PlateModel<'a> {
         Self { body, plate, height: plate.joint_height(hardware, body), legs, others, size }
     }
 
-    /// The plate under joints; `towards` leads from it to the legs, in the frame of the body.
+    /// The plate under joints; `towards` points from it to the legs, frame of the body.
     pub(super) fn place(&'a self, ends: &JointEnds, towards: &Vector3<f64>) -> PlacedPlate<'a> {
         let at = self.body.of((&ends.base, &ends.platform));
         let own = self.legs.iter().map(|&leg| at[leg]);
@@ -96,7 +96,7 @@ impl PlacedPlate<'_> {
         self.pull(pull, self.model.leg(seat), l, &Vector3::new(g.x, g.y, 0.0));
     }
 
-    /// Adds a gradient with respect to the middle of a hole. Bolts may turn with the direction to their seat.
+    /// Adds a gradient with respect to the middle of a hole. Bolts may rotate with the direction to their seat.
     fn pull_hole<P: Gradient>(&self, pull: &mut P, hole: &PlateHole, g: &Vector2<f64>) {
         let at = self.solid.seats[hole.seat].at;
         let bolts = self.model.plate.bolts.filter(|_| hole.number > 0);
@@ -118,8 +118,8 @@ impl PlacedPlate<'_> {
         }
     }
 
-    /// How much farther the holes are from the outline than they have to be, for each hole and each edge of the outline
-    /// that bounds its depth.
+    /// Distances of the holes from the outline minus the required ones, for each hole and each edge of the outline that
+    /// bounds its depth.
     pub(super) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let kind = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
@@ -135,11 +135,11 @@ impl PlacedPlate<'_> {
         for seat in 0..self.solid.seats.len() {
             for hole in self.solid.holes_of(model.plate, seat) {
                 if hole.number == 0 && self.hull.contains(&seat) {
-                    // the middle of a hole at a corner of the hull: its depth is the margin wherever the corner goes
+                    // the middle of a hole at a corner of the hull: its depth is always the margin
                     tell((seat, 0), (model.plate.margin - hole.radius, P::none()));
                     continue;
                 }
-                // joints on the line of an edge are inside, whatever rounding says
+                // joints on the line of an edge count as inside despite rounding
                 self.solid.outline.sides(&hole.at, SAME * model.size, &mut |side| {
                     let mut pull = P::none();
                     self.pull_hole(&mut pull, &hole, &side.inwards);
@@ -152,10 +152,10 @@ impl PlacedPlate<'_> {
         }
     }
 
-    /// How much farther the holes and feet of two joints are apart than they have to be, and the holes of one.
+    /// Distances between the holes and feet of two joints minus the required ones, and between the holes of one joint.
     ///
-    /// Of two joints those holes that are no farther apart than the nearest ones and the width of their pattern: others
-    /// are not the nearest ones of a platform nearby.
+    /// Only near holes of two joints are used: they are within the least distance plus the width of their pattern.
+    /// Others are never the nearest ones of a similar platform.
     pub(super) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let plate = model.plate;
@@ -170,7 +170,7 @@ impl PlacedPlate<'_> {
             let holes = gaps.iter().filter(|gap| gap.pair == HolePair::Holes);
             let nearest = holes.map(|gap| gap.margin).fold(f64::INFINITY, f64::min);
             if i == j {
-                // holes of one joint leave the same between them for all joints, and no place changes it
+                // all joints have the same distances between their own holes, independent of the variables
                 if i == 0 {
                     tell([0, 0], 0, (nearest, P::none()));
                 }
@@ -216,8 +216,7 @@ impl PlacedPlate<'_> {
         }
     }
 
-    /// Gaps between a leg and the plate, signed: of a leg that runs into it, by how much it would have to be moved out
-    /// of it.
+    /// Signed gaps between a leg and the plate; for a leg that runs into the plate, minus the way out of it.
     pub(super) fn clearances<P: Gradient>(
         &self,
         l: &LegLines,
@@ -225,7 +224,7 @@ impl PlacedPlate<'_> {
         see: &mut impl FnMut(usize, f64, P),
     ) {
         let cut = (reach / l.length[leg]).min(1.0);
-        // at its own plate a leg begins where the housing of its joint ends
+        // at its own plate a leg begins at the end of the housing of its joint
         for (number, part) in body.parts_beyond(l.length[leg], self.model.body, reach) {
             let LegSegment { from, to, .. } = part;
             let [x, y] = [from, to].map(|s| self.local(l, &l.at(leg, s)));
@@ -253,8 +252,8 @@ impl PlacedPlate<'_> {
         }
     }
 
-    /// The share of a segment that is nearest to the plate, the signed distance there, what moves the plate, and the
-    /// direction away from it, plate coordinates.
+    /// The nearest point of a segment to the plate: its share, the signed distance, the moving parts of the plate, and
+    /// the outward direction in plate coordinates.
     fn gap_of_segment<P: Gradient>(
         &self,
         l: &LegLines,
@@ -282,8 +281,7 @@ impl PlacedPlate<'_> {
         (share, distance, (pull, n))
     }
 
-    /// For a segment that runs into the plate: out of the face that the joints stand on or over an edge, whichever is
-    /// less.
+    /// For a segment that runs into the plate: the shorter way, out of the joint face or over an edge.
     fn depth_of_segment<P: Gradient>(
         &self,
         l: &LegLines,
@@ -323,11 +321,11 @@ impl PlacedPlate<'_> {
     }
 }
 
-/// More holes of a joint, and more joints of a body, than there are.
+/// Upper bound of the holes of a joint, and of the joints of a body.
 const PARTS: usize = 128;
 
-/// What stays as a leg changes: the share of its line at which a point is, its distance from the base joint, or from
-/// the platform joint.
+/// The invariant of a point as a leg changes: the share of its line, its distance from the base joint, or from the
+/// platform joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PlateSlide {
     Share,
@@ -336,7 +334,7 @@ enum PlateSlide {
 }
 
 impl LegLines {
-    /// Adds the gradient of `g . (a + s d)` for a point that slides or does not.
+    /// Adds the gradient of `g . (a + s d)` for a point with or without sliding.
     fn pull_sliding<P: Gradient>(
         &self,
         pull: &mut P,
@@ -348,7 +346,7 @@ impl LegLines {
             self.pull_point(pull, leg, (share, slides == PlateSlide::FromBase), g);
             return;
         }
-        // b - c u: all of a motion along the line, the share of one across it
+        // b - c u: the whole of a motion along the line, the share of one across it
         let u = &self.direction[leg];
         let along = u * u.dot(g);
         pull.at_base(leg, g);

@@ -1,8 +1,8 @@
-//! Differential evolution: populations that find the basins from which the convex steps climb.
+//! Differential evolution: populations that find the basins in which the convex steps start.
 //!
-//! Storn, Price (1997), with steps towards one of the best (Zhang, Sanderson 2009) for half of the trials. Requirements
-//! by the rule of Deb (2000): points that meet them by their gain, all before the others by their violation. A trial is
-//! given up at the first pose that shows that it is no better than its parent.
+//! The method is that of Storn, Price (1997), with steps towards one of the best (Zhang, Sanderson 2009) for half of
+//! the trials. Requirements follow the rule of Deb (2000): points that meet them are ranked by their gain, before all
+//! others by their violation. A trial ends at the first pose at which it is no better than its parent.
 
 use super::leg_lines::{HeldPose, LegLines};
 use super::model::Model;
@@ -10,10 +10,10 @@ use super::worst_pose::PointJudging;
 use crate::climb::{PENALTY, PointValues, Task};
 use num::Rng;
 
-/// What a point is worth.
+/// The merit of a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PointMerit {
-    /// Sum of the violations, 0 when they are inside the spare.
+    /// Sum of the violations, 0 within the margin.
     violation: f64,
     gain: f64,
 }
@@ -31,7 +31,7 @@ impl PointMerit {
         self.gain - penalty * self.violation
     }
 
-    /// Whether values and violations agree, relatively.
+    /// Whether values and violations agree within a relative tolerance.
     pub(super) fn is_close(&self, other: &Self, within: f64) -> bool {
         is_close(self.gain, other.gain, within) && is_close(self.violation, other.violation, within)
     }
@@ -41,7 +41,7 @@ impl PointMerit {
     }
 }
 
-/// Whether two numbers agree, relatively.
+/// Whether two numbers agree within a relative tolerance.
 pub(super) fn is_close(a: f64, b: f64, within: f64) -> bool {
     (a - b).abs() <= within * a.abs().max(b.abs())
 }
@@ -53,23 +53,23 @@ pub(crate) struct Member {
     pub worth: PointMerit,
 }
 
-/// Members for each variable, and the least and greatest number of them.
+/// Number of members per variable, and the least and greatest total.
 const MEMBERS: (usize, usize, usize) = (6, 24, 60);
-/// A population whose members differ by less has settled, and further trials are left to the climbs.
+/// A population with a smaller spread has converged, and climbs replace further trials.
 const SETTLED: f64 = 1e-3;
-/// Share of the population whose members count as best.
+/// The best members are one in this many.
 const BEST: usize = 8;
 
-/// Judges points, the pose that refused the last one first.
+/// Judges points, beginning with the pose that refused the last one.
 pub(crate) struct Judge<'m, 'a> {
     model: &'m Model<'a>,
     task: &'m Task,
     poses: Vec<HeldPose>,
 }
 
-/// Poses that judge the trials of most generations.
+/// Number of poses that judge the trials of most generations.
 const FEW: usize = 24;
-/// Generations after which all poses are looked at again.
+/// Number of generations between evaluations at all poses.
 const REVIEW: usize = 10;
 
 impl<'m, 'a> Judge<'m, 'a> {
@@ -81,12 +81,12 @@ impl<'m, 'a> Judge<'m, 'a> {
         Self { model, task, poses }
     }
 
-    /// The poses, those that refused points last first.
+    /// The poses, beginning with those that refused points last.
     pub(super) fn poses(&self) -> &[HeldPose] {
         &self.poses
     }
 
-    /// Indices of the poses that bind at a point, the worst of all for some requirement or objective last.
+    /// Indices of the active poses at a point; the worst for some requirement or objective is last.
     fn binding(&self, x: &[f64]) -> Vec<usize> {
         let mut worst = PointJudging::new(self.model, x, self.task, self.model.sign(x));
         let mut binding: Vec<usize> = Vec::new();
@@ -100,20 +100,20 @@ impl<'m, 'a> Judge<'m, 'a> {
         binding
     }
 
-    /// Up to `count` poses that bind at a point, the worst ones first.
+    /// Up to `count` active poses at a point, the worst ones first.
     pub(super) fn worst(&self, x: &[f64], count: usize) -> Vec<HeldPose> {
         self.binding(x).into_iter().rev().take(count).map(|k| self.poses[k]).collect()
     }
 
-    /// Brings the poses that bind at a point to the front.
+    /// Moves the active poses at a point to the front.
     fn review(&mut self, x: &[f64]) {
-        // a pose that moves to the front leaves the places behind it as they are
+        // moving a pose to the front keeps the order of those behind its place
         for k in self.binding(x) {
             self.poses[..=k].rotate_right(1);
         }
     }
 
-    /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
+    /// The merit of a point over the first `count` poses; `None` as soon as it is no better than `bar`.
     pub(super) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&PointMerit>) -> Option<PointMerit> {
         let worth = |judged: &PointValues| {
             let within = judged.violation() <= 0.5 * self.model.backoff;
@@ -187,7 +187,7 @@ fn spread(all: &[Member], free: &[usize]) -> f64 {
     free.iter().map(range).fold(0.0, f64::max)
 }
 
-/// Mixtures of the ends of climbs, whose places are now known to be good: `count` trials from the best of them.
+/// Mixtures of the ends of climbs, which are good places: `count` trials from the best of them.
 pub(crate) fn offspring(
     judge: &mut Judge<'_, '_>,
     ends: &[&[f64]],
@@ -224,7 +224,7 @@ fn trial(model: &Model<'_>, all: &[Member], i: usize, free: &[usize], rng: &mut 
         let start = if towards_best { own + factor * (all[from].x[j] - own) } else { all[from].x[j] };
         let (low, high) = model.shape.bounds[j];
         let value = start + factor * (all[a].x[j] - all[b].x[j]);
-        // half way to the bound that was crossed
+        // half way to the violated bound
         x[j] = if value < low {
             f64::midpoint(own, low)
         } else if value > high {
@@ -244,7 +244,7 @@ impl Model<'_> {
         x
     }
 
-    /// Turns the joint axes along the legs at home.
+    /// Sets the joint axes along the legs at home.
     pub(super) fn aim(&self, x: &mut [f64]) {
         if self.shape.axes == [None; 2] {
             return;

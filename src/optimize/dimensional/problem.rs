@@ -8,8 +8,8 @@ use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
 use synthesis::components::ComponentsError;
 
-/// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or
-/// the sizes of any design.
+/// Variables of base and platform: the triangles of an octahedral design, with fixed centroids and planes, or the sizes
+/// of any design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Triangles {
     /// Nothing.
@@ -29,33 +29,33 @@ pub struct Variables {
     pub offsets: bool,
     /// The triangles of an octahedral design, or the sizes of base and platform of any other.
     pub triangles: Triangles,
-    /// The legs on the rational families of replaceable legs they belong to; not with offsets or triangles.
+    /// The legs on their rational families of replaceable legs; not with offsets or triangles.
     pub components: bool,
     /// Height of home, and of all poses around it, over the base.
     pub home_height: bool,
-    /// Axes of the base and of the platform joints, from which the swing is measured.
+    /// Axes of the base and of the platform joints, the reference of the joint angles.
     pub joint_axes: [bool; 2],
     /// One offset for the three edges of the base and one for those of the platform.
     pub symmetric: bool,
-    /// The symmetry of the whole platform at home that is kept. With [`KeptSymmetry::ThreeFold`] offsets are as with
-    /// `symmetric`, and triangles change in size alone.
+    /// The kept symmetry of the whole platform at home. With [`KeptSymmetry::ThreeFold`] offsets are as with
+    /// `symmetric`, and triangles only change in size.
     pub symmetry: KeptSymmetry,
-    /// Legs whose ends on the base and on the platform stay where they are: a body with such an end keeps its triangle
-    /// and its size, and such legs slide on no family that moves the end. Offsets put further joints beside those of
-    /// the design, which stay.
+    /// Legs with fixed ends on the base and on the platform. A body with such an end keeps its triangle and its size,
+    /// and such legs do not slide on families that move the end. Offsets add joints beside those of the design, which
+    /// stay.
     pub fixed_ends: [[bool; 6]; 2],
     /// Least and greatest offset of each side, cyclic order.
     pub offset_bounds: [(f64, f64); 6],
     /// Least and greatest parameter of a family.
     pub parameter_bounds: (f64, f64),
-    /// Least and greatest diagonal entry of the stretch less 1; the other entry is at most half of the width.
+    /// Least and greatest diagonal entry of the stretch minus 1; the other entry is at most half of the width.
     pub stretch_bounds: (f64, f64),
     /// Least and greatest change of the height, in sizes of the design.
     pub height_bounds: (f64, f64),
 }
 
 impl Default for Variables {
-    /// Nothing is chosen; bounds -1 to 2 of offsets and parameters, -0.5 to 1 of stretches, -0.5 to 1 of the height.
+    /// No variables; bounds -1 to 2 of offsets and parameters, -0.5 to 1 of stretches, -0.5 to 1 of the height.
     fn default() -> Self {
         Self {
             offsets: false,
@@ -102,32 +102,32 @@ impl Variables {
     }
 }
 
-/// How several objectives are combined.
+/// The combination of several objectives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mode {
     /// The weighted sum of the values, each over its value at the start of the run.
     Weighted,
-    /// One after the other; each later level may lose this share of the values before.
+    /// One after the other; each later level may give up this share of the earlier values.
     Lexicographic {
         /// Share, for instance 0.01.
         slack: f64,
     },
 }
 
-/// Which platform meets the requirements and is best?
+/// The problem: the platform that meets the requirements and has the best objectives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DimensionalProblem {
-    /// The design that the variables start from.
+    /// The initial design of the variables.
     pub manipulator: Manipulator,
-    /// What the platform has to satisfy.
+    /// The requirements of the platform.
     pub requirements: Requirements,
-    /// The poses over which it has to.
+    /// The poses of the requirements.
     pub space: PoseSpace,
-    /// What may be chosen.
+    /// The variables.
     pub variables: Variables,
     /// Objectives with weights, or in the order of their levels.
     pub objectives: Vec<(Objective, f64)>,
-    /// How they are combined.
+    /// Their combination.
     pub mode: Mode,
     /// `L`, design units.
     pub characteristic_length: f64,
@@ -135,11 +135,11 @@ pub struct DimensionalProblem {
     pub min_abs_det: f64,
 }
 
-/// A problem that cannot be asked.
+/// Reasons why a problem is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InvalidProblem {
-    /// Nothing may be chosen.
+    /// There are no variables.
     #[error("no variable is left to be chosen")]
     NoVariables,
     /// No objective.
@@ -154,7 +154,7 @@ pub enum InvalidProblem {
     /// No leg belongs to a rational family.
     #[error("no leg of the design belongs to a rational family of replaceable legs")]
     NoFamily,
-    /// The leg vectors are dependent: there is no leg map to hold.
+    /// The leg vectors are dependent, so there is no leg map to keep.
     #[error("the legs of the design are dependent: it is architecturally singular")]
     DependentLegs,
     /// Offsets or triangles together with components.
@@ -179,7 +179,7 @@ pub enum InvalidProblem {
         /// Its value.
         value: f64,
     },
-    /// Bounds that leave nothing.
+    /// Bounds without any value.
     #[error(
         "the bounds of {variable} are {low} and {high}; both have to be finite, and the first no larger than the second"
     )]
@@ -191,27 +191,27 @@ pub enum InvalidProblem {
         /// Upper bound.
         high: f64,
     },
-    /// Axes are chosen for swing limits below 90 degrees only.
+    /// Axes can be chosen only for limits of joint angles below 90 degrees.
     #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
     SwingTooWide(f64),
-    /// Axes of universal joints are not chosen.
+    /// Axes of universal joints cannot be chosen.
     #[error(
         "the axes of universal joints are not chosen: joint_axes is for ball joints, and the {0} has universal ones"
     )]
     UniversalAxes(Body),
-    /// A design without the symmetry that is to be kept.
+    /// The design lacks the symmetry to be kept.
     #[error("symmetry = \"three_fold\" needs a design that has it, and {why}")]
     NotThreeFold {
-        /// What it lacks.
+        /// The missing symmetry.
         why: &'static str,
     },
-    /// No platform can have what is asked for.
+    /// No platform can have the requested properties.
     #[error(
         "a platform on the six edges without shared joints that has a mirror plane is architecturally singular: its offsets are 1/2, or in \
          pairs t and 1 - t, so that det A = prod (1 - t) - prod t = 0"
     )]
     MirrorIsSingular,
-    /// A mirror plane where no offsets are chosen.
+    /// A mirror plane without offsets as variables.
     #[error("a mirror plane is not kept by a search that chooses no offsets")]
     MirrorWithoutOffsets,
     /// A symmetry of designs that are not octahedral.
@@ -223,7 +223,7 @@ pub enum InvalidProblem {
 }
 
 impl DimensionalProblem {
-    /// Checks that the problem is complete and its numbers are possible.
+    /// Checks that the problem is complete and its numbers are valid.
     ///
     /// # Errors
     /// The first violation.
@@ -274,7 +274,7 @@ impl DimensionalProblem {
         Ok(())
     }
 
-    /// Whether the design has the symmetry that is to be kept, to a billionth of its size.
+    /// Whether the design has the symmetry to be kept, within a billionth of its size.
     fn validate_symmetry(&self) -> Result<(), InvalidProblem> {
         match self.variables.symmetry {
             KeptSymmetry::None => return Ok(()),
@@ -306,7 +306,7 @@ impl DimensionalProblem {
         Ok(())
     }
 
-    /// Whether the axes of base and platform joints are chosen: asked for, and limited.
+    /// Whether the axes of base and platform joints are chosen: requested, and with limits.
     pub(crate) fn axes_wanted(&self) -> [bool; 2] {
         let h = &self.requirements.hardware;
         let wanted = |k: usize, swing: Option<machine::requirements::Swing>| {
@@ -321,7 +321,7 @@ impl DimensionalProblem {
     }
 }
 
-/// How exactly a design has a symmetry, in sizes of the design.
+/// Tolerance of a symmetry, in sizes of the design.
 const SYMMETRIC: f64 = 1e-9;
 
 fn positive(quantity: &'static str, value: f64) -> Result<(), InvalidProblem> {

@@ -1,22 +1,21 @@
-//! Derivatives by reverse accumulation: what a function pulls at on the joints, and what the variables do to the
-//! joints.
+//! Derivatives by reverse accumulation: gradients by the joints, and velocities of the joints by the variables.
 
 use nalgebra::{Rotation3, Vector3};
 
-/// Directions in which the joints move when one variable grows at unit rate.
+/// Velocities of the joints for unit rate of one variable.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rate {
     /// Leg, velocity of its base end (base frame) and of its platform end (platform frame).
     pub ends: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
-    /// Velocity of home, and of every pose that is given relative to it.
+    /// Velocity of home, and of every pose given relative to it.
     pub lift: Vector3<f64>,
     /// Joint axis: body (0 base, 1 platform), leg, component.
     pub axis: Option<(usize, usize, usize)>,
 }
 
-/// What a formula leaves of its gradient: a [`PoseGradient`], or nothing where the value alone is wanted.
+/// The accumulator of a gradient: a [`PoseGradient`], or nothing if only the value is needed.
 pub(super) trait Gradient: Copy {
-    /// Whether anything is kept; formulas skip their derivatives otherwise.
+    /// Whether gradients are kept; formulas skip their derivatives otherwise.
     const KEPT: bool;
     fn none() -> Self;
     /// Adds to the gradient with respect to a base end.

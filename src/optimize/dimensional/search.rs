@@ -1,4 +1,4 @@
-//! Populations, climbs from their best members, and the best ends polished while poses are added until none is worse.
+//! Populations, climbs from their best members, and polishing of the best ends with added poses until none is worse.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -17,23 +17,22 @@ use crate::climb::{Effort, PENALTY, Run, Task};
 use num::Purpose;
 use num::parallel::parallel;
 
-/// Options of the search; none of them changes what is feasible.
+/// Options of the search; none of them changes the requirements of a feasible design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ShapeSearchOptions {
-    /// Seed of the populations. Same seed, same answer, whatever the number of threads.
+    /// Seed of the populations. The same seed gives the same answer for any number of threads.
     pub seed: u64,
     /// Worker threads (0 counts as 1).
     pub threads: usize,
-    /// Populations that evolve apart from each other.
+    /// Number of separate populations.
     pub populations: usize,
     /// Generations of each.
     pub generations: usize,
-    /// Members of each population from which the first pass climbs.
+    /// Number of members of each population with climbs in the first pass.
     pub starts: usize,
-    /// Runs that are polished.
+    /// Number of polished runs.
     pub polished: usize,
-    /// When everything ends, the judging of what was found too, if at a time. The search itself ends where `progress`
-    /// says so.
+    /// Optional end time of everything, including the judgement of the results. `progress` ends the search itself.
     pub until: Option<Instant>,
 }
 
@@ -46,33 +45,33 @@ impl Default for ShapeSearchOptions {
 /// A stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// Populations that evolve.
+    /// Evolution of populations.
     Populations,
     /// Climbs of the first pass.
     Climbs,
     /// Polished runs, or steps of a front.
     Polishing,
-    /// Runs that look for what excludes each other where nothing meets the requirements.
+    /// Search for conflicting requirements, if no run meets all of them.
     Conflict,
 }
 
-/// How far the search is.
+/// Progress of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Stage.
     pub stage: Stage,
     /// Done in this stage.
     pub done: usize,
-    /// Of how many.
+    /// Total number.
     pub total: usize,
     /// Best value of the first objective so far among runs that meet the requirements, in its unit.
     pub best: Option<f64>,
-    /// The least violation so far at the poses that were held, in the scale of the constraint that is missed most, and
-    /// that constraint; `None` before the first run.
+    /// The least violation so far at the held poses, in the scale of the most violated constraint, and that constraint.
+    /// `None` before the first run.
     pub violation: Option<(Demand, f64)>,
 }
 
-/// In words for people.
+/// The progress in words.
 impl std::fmt::Display for Progress {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.best, self.violation) {
@@ -95,30 +94,30 @@ impl std::fmt::Display for Progress {
     }
 }
 
-/// Every so many populations one evolves longer: young populations have many basins, old ones the deep ones.
+/// One in this many populations evolves longer: young populations cover many basins, old ones the deep ones.
 const LONG_EVERY: usize = 3;
-/// How many times as many generations such a population has.
+/// Factor of the generations of such a population.
 const LONG_FACTOR: usize = 4;
-/// Poses of the first pass.
+/// Number of poses of the first pass.
 const FEW_POSES: usize = 16;
-/// Batches of runs that are polished while others promise more.
+/// Greatest number of batches of polished runs while others are more promising.
 const BATCHES: usize = 6;
-/// Generations of mixtures of the ends.
+/// Number of generations of mixtures of the ends.
 const GENERATIONS_OF_ENDS: usize = 2;
-/// How many starts there are for each mixture of a generation.
+/// Number of starts per mixture of a generation.
 const STARTS_PER_MIXTURE: usize = 4;
-/// Rounds of adding poses in the first pass.
+/// Greatest number of rounds of adding poses in the first pass.
 const SHORT_ROUNDS: usize = 3;
-/// Rounds of adding poses.
+/// Greatest number of rounds of adding poses.
 const ROUNDS: usize = 12;
-/// Members that differ by more in some variable are starts of their own.
+/// Members that differ by more in some variable are separate starts.
 const DISTINCT_STARTS: f64 = 0.1;
-/// Ends whose values differ by less, relatively, count as one.
+/// Ends whose values differ by less, relatively, count as equal.
 const DISTINCT_GAINS: f64 = 1e-4;
-/// The same for ends of the first pass, which are climbed to roughly.
+/// The same for ends of the first pass, whose climbs are less accurate.
 const SAME_END: f64 = 1e-3;
 
-/// A polished run with the poses it ended with.
+/// A polished run with its final poses.
 #[derive(Debug, Clone)]
 pub(crate) struct RefinedRun {
     pub run: Run,
@@ -126,16 +125,16 @@ pub(crate) struct RefinedRun {
     pub complete: bool,
 }
 
-/// How long poses are added to a run.
+/// The rule for adding poses to a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PoseAdding {
-    /// Until the result is worse at none.
+    /// Until the result is worse at no further pose.
     UntilNoneIsWorse,
-    /// As long as the run meets the requirements too: more poses only make worse what misses one already.
+    /// While the run meets the requirements too: more poses only increase an existing violation.
     WhileMet,
 }
 
-/// Climbs, adds the poses at which the result is worse, and climbs again.
+/// Climbs, adds the poses at which the result is worse, and repeats.
 pub(super) fn refine(
     model: &Model<'_>,
     task: &Task,
@@ -146,7 +145,7 @@ pub(super) fn refine(
     refine_adding(PoseAdding::UntilNoneIsWorse, model, task, start, poses, seed)
 }
 
-/// See [`refine`].
+/// [`refine`] with a rule for adding poses.
 pub(crate) fn refine_adding(
     adding: PoseAdding,
     model: &Model<'_>,
@@ -156,8 +155,8 @@ pub(crate) fn refine_adding(
     seed: u64,
 ) -> RefinedRun {
     let mut run = model.climb(&poses, task, start, Effort::POLISH);
-    // a run with an objective is given up if it misses a requirement at the first poses, one without goes on to what
-    // can be met
+    // a run with an objective ends if it misses a requirement at the first poses; one without continues to the best it
+    // can meet
     let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible();
     let mut complete = false;
     for round in 0..ROUNDS {
@@ -177,7 +176,7 @@ pub(crate) fn refine_adding(
     RefinedRun { run, poses, complete }
 }
 
-/// A point with the poses that matter most near it.
+/// A point with its most important poses.
 pub(crate) struct SearchStart {
     pub x: Vec<f64>,
     few: Vec<HeldPose>,
@@ -218,7 +217,7 @@ pub(super) fn better(task: &Task, a: &Run, b: &Run) -> std::cmp::Ordering {
     })
 }
 
-/// The tasks of the levels: weights and the share that later levels may take.
+/// The first task of the levels: weights and the share that later levels may give up.
 fn first_task(p: &DimensionalProblem) -> Task {
     let n = p.objectives.len();
     let weights = match p.mode {
@@ -228,7 +227,7 @@ fn first_task(p: &DimensionalProblem) -> Task {
     Task { weights, floors: vec![None; n], dropped: Vec::new(), soft: None }
 }
 
-/// What a search for one task found.
+/// The result of the search for one task.
 pub(crate) struct SearchedShape {
     /// Best first; feasible ones before the others.
     pub refined: Vec<RefinedRun>,
@@ -236,7 +235,7 @@ pub(crate) struct SearchedShape {
     pub feasible: usize,
 }
 
-/// A short climb over few poses, and again with those at which its end is worse.
+/// A short climb over few poses, repeated with those at which its end is worse.
 fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> Run {
     let mut few = start.few.clone();
     let mut run = model.climb(&few, task, &start.x, Effort::RANK);
@@ -253,7 +252,7 @@ fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> Run {
     run
 }
 
-/// Tells how far the search is, and heeds the answer.
+/// Reports progress; stops when the caller asks.
 pub(crate) struct ProgressReport<'w, 'm, 'a> {
     model: &'m Model<'a>,
     best: Option<f64>,
@@ -269,7 +268,7 @@ impl<'w, 'm, 'a> ProgressReport<'w, 'm, 'a> {
         Self { model, best: None, violation: None, progress }
     }
 
-    /// Learns what a run misses.
+    /// Records the violation of a run.
     fn see(&mut self, run: &Run) {
         let worst = run.judged.violations.iter().max_by(|a, b| a.1.total_cmp(b.1));
         let missed = worst.map(|(group, x)| (demand(self.model, *group), *x));
@@ -294,7 +293,7 @@ impl<'w, 'm, 'a> ProgressReport<'w, 'm, 'a> {
 
 /// An end of the first pass.
 struct FirstPassEnd {
-    /// In all variables.
+    /// Values of all variables.
     x: Vec<f64>,
     run: Run,
 }
@@ -310,17 +309,16 @@ impl FirstPassEnd {
     }
 }
 
-/// The ends of the first pass, and what refining some of them taught.
+/// The ends of the first pass, and the poses learnt from refining some of them.
 struct FirstPass {
     points: Vec<FirstPassEnd>,
     tried: Vec<usize>,
-    /// Poses that refine starts with.
+    /// Initial poses of the refinement.
     poses: Vec<HeldPose>,
 }
 
 impl FirstPass {
-    /// The most promising ends with different values that were not tried yet and promise more than `best`, by their
-    /// worth over the poses known.
+    /// The most promising untried ends with different values, better than `best`, by their merit over the known poses.
     fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
         let mut judge = Judge::over(model, task, self.poses.clone());
         let worths: Vec<Option<PointMerit>> =
@@ -328,12 +326,11 @@ impl FirstPass {
         let tried: Vec<PointMerit> = self.tried.iter().filter_map(|k| worths[*k]).collect();
         let mut order: Vec<(usize, PointMerit)> =
             worths.into_iter().enumerate().filter_map(|(k, w)| Some((k, w?))).collect();
-        // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one
-        // that misses nothing
+        // the merit of the climbs: a small violation at new poses can outweigh a poor value without one
         order.sort_by(|a, b| b.1.merit(PENALTY).total_cmp(&a.1.merit(PENALTY)).then(a.0.cmp(&b.0)));
         let mut chosen: Vec<(usize, PointMerit)> = Vec::new();
         for (k, worth) in order {
-            // symmetric platforms have the same optimum many times
+            // symmetric platforms have the same optimum repeatedly
             let known = chosen.iter().map(|c| &c.1).chain(&tried);
             let is_known = known.into_iter().any(|w| w.is_close(&worth, DISTINCT_GAINS));
             let promises_more = worth.merit(PENALTY) > best;
@@ -344,7 +341,7 @@ impl FirstPass {
         chosen.into_iter().map(|c| c.0).collect()
     }
 
-    /// Poses that mattered to refined ends matter to the others.
+    /// Records poses of refined ends, which are also important for the others.
     fn learn(&mut self, poses: impl Iterator<Item = HeldPose>) {
         for at in poses {
             if !self.poses.contains(&at) {
@@ -354,7 +351,7 @@ impl FirstPass {
     }
 }
 
-/// Populations, short climbs from their best members and from mixtures of the ends, and the best ends polished.
+/// Populations, short climbs from their best members and from mixtures of the ends, and polishing of the best ends.
 pub(crate) fn search_task(
     model: &Model<'_>,
     task: &Task,
@@ -377,29 +374,28 @@ pub(crate) fn search_task(
     SearchedShape { refined, starts: climbed, feasible }
 }
 
-/// Whether `runs` climbs that led to `ends` different ends let expect no other.
+/// Whether no other end is expected after `runs` climbs with `ends` different ends.
 ///
-/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs, and no other is
-/// expected where that is below `w + 1/2` (Boender, Rinnooy Kan 1987). Its premise, starts drawn independently, holds
-/// for populations apart from each other but not within one.
+/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs. No other end is
+/// expected if the estimate is below `w + 1/2` (Boender, Rinnooy Kan 1987). It assumes independent starts, which holds
+/// between separate populations but not within one.
 pub(super) fn expects_no_other(runs: usize, ends: usize) -> bool {
     let (n, w) = (runs as f64, ends as f64);
     n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
 }
 
-/// What the steps of a search for one task share.
+/// Common data of the steps of a search for one task.
 #[derive(Clone, Copy)]
 struct TaskSearch<'s, 'a> {
     model: &'s Model<'a>,
-    /// The model of the first pass: joint axes follow from the legs instead of being variables.
+    /// The model of the first pass: joint axes follow from the legs and are not variables.
     coarse: &'s Model<'a>,
     task: &'s Task,
     options: &'s ShapeSearchOptions,
 }
 
 impl TaskSearch<'_, '_> {
-    /// The points that are given, and the design itself unless its offsets are variables, in the variables of the first
-    /// pass.
+    /// The given points, and the design itself unless its offsets are variables, in the variables of the first pass.
     fn given(&self, given: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let start = &self.model.shape.start;
         let mut out: Vec<Vec<f64>> = given.iter().filter(|x| x.len() == start.len()).cloned().collect();
@@ -412,7 +408,7 @@ impl TaskSearch<'_, '_> {
         out
     }
 
-    /// The best members of some populations, of which the first of all knows what is given, and what is given itself.
+    /// The best members of some populations and the given points, which also start the first population.
     fn starts(
         &self,
         populations: std::ops::Range<usize>,
@@ -422,7 +418,7 @@ impl TaskSearch<'_, '_> {
         let o = self.options;
         let (first, last) = (populations.start, populations.end);
         let given = if first == 0 { given } else { &[] };
-        // the long ones, which are the last of their batches, begin first
+        // the long ones, which are last in their batches, begin first
         let number = |i: usize| last - 1 - i;
         let evolved = |i: usize| {
             let known = if number(i) == 0 { given } else { &[] };
@@ -440,11 +436,11 @@ impl TaskSearch<'_, '_> {
         members.into_iter().flatten().chain(given).collect()
     }
 
-    /// Short climbs from the best members of the populations, batch after batch while other ends are to be expected,
-    /// then from mixtures of the ends they led to.
+    /// Short climbs from the best members of the populations, batch after batch while other ends are expected, then
+    /// from mixtures of their ends.
     ///
-    /// With them, where the requirements are not to be met from anywhere ([`unmet`]), runs towards the least violation:
-    /// no further climbs are made then.
+    /// If the requirements appear infeasible ([`unmet`]), it also returns runs towards the least violation, without
+    /// further climbs.
     fn first_pass(
         &self,
         given: &[Vec<f64>],
@@ -478,7 +474,7 @@ impl TaskSearch<'_, '_> {
         (runs, None)
     }
 
-    /// See [`unmet`], asked where no climb met the requirements.
+    /// [`unmet`], called if no climb met the requirements.
     fn unmet(&self, runs: &[Run], watch: &mut ProgressReport<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
         if runs.iter().any(Run::is_feasible) {
             return None;
@@ -489,7 +485,7 @@ impl TaskSearch<'_, '_> {
         unmet(model, &ends, self.options.threads, watch)
     }
 
-    /// Whether hardly another end is to be expected from further climbs; ends count as one by their worth over the same
+    /// Whether further climbs are unlikely to reach another end; ends count as equal by their merit over the same
     /// poses.
     fn are_all_found(&self, runs: &[Run]) -> bool {
         let mut judge = Judge::new(self.coarse, self.task);
@@ -502,7 +498,7 @@ impl TaskSearch<'_, '_> {
         expects_no_other(runs.len(), ends.len())
     }
 
-    /// A short climb from each start; `known` climbs of `total` were done before.
+    /// A short climb from each start; `known` climbs of `total` are already done.
     fn climbs(
         &self,
         starts: &[SearchStart],
@@ -518,7 +514,7 @@ impl TaskSearch<'_, '_> {
         parallel(starts.len(), self.options.threads, climbed, tick)
     }
 
-    /// The most promising ends polished, batch after batch, while others promise more than the best of them.
+    /// Polishes the most promising ends, batch after batch, while others are more promising than the best result.
     fn polished(&self, mut ends: FirstPass, watch: &mut ProgressReport<'_, '_, '_>) -> Vec<RefinedRun> {
         let Self { model, coarse, task, options } = *self;
         let has_objective = task.weights.iter().any(|w| *w > 0.0);
@@ -548,14 +544,14 @@ impl TaskSearch<'_, '_> {
     }
 }
 
-/// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
+/// Finds the best platform that meets the requirements; the method is in `docs/theory/dimensional-synthesis.md`.
 ///
 /// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local
-/// optimum, the best of all starts. Requirements hold at the held poses, to which the worst ones found between them
-/// were added until none was worse; [`machine::requirements::assess`] checks that at poses of its own.
+/// optimum, the best of all starts. Requirements hold at the held poses, to which the worst poses between them were
+/// added until none was worse. [`machine::requirements::assess`] checks this at separate poses.
 ///
 /// # Errors
-/// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
+/// [`InvalidProblem`]. An infeasible problem is a regular outcome.
 pub fn optimize(
     problem: &DimensionalProblem,
     given: &[Vec<f64>],
@@ -565,11 +561,11 @@ pub fn optimize(
     searched(problem, given, options, true, progress)
 }
 
-/// As [`optimize`], for a question that is asked again in another way where nothing is found: where no run meets the
-/// requirements no conflict is looked for, and the outcome is undecided.
+/// [`optimize`] for a question that is repeated in another form after a failure. If no run meets the requirements, no
+/// conflict is searched and the outcome is undecided.
 ///
 /// # Errors
-/// As [`optimize`].
+/// The errors of [`optimize`].
 pub fn optimize_without_conflict(
     problem: &DimensionalProblem,
     options: &ShapeSearchOptions,
@@ -578,12 +574,12 @@ pub fn optimize_without_conflict(
     searched(problem, &[], options, false, progress)
 }
 
-/// Why a problem cannot be asked; `None` where it can.
+/// The reason why a problem is invalid; `None` for a valid one.
 pub fn why_not(problem: &DimensionalProblem) -> Option<InvalidProblem> {
     Model::new(problem).err()
 }
 
-/// See [`optimize`]; `explains`: a conflict is looked for where no run meets the requirements.
+/// See [`optimize`]; `explains`: search for a conflict if no run meets the requirements.
 fn searched(
     problem: &DimensionalProblem,
     given: &[Vec<f64>],
@@ -611,15 +607,15 @@ fn searched(
     })
 }
 
-/// A platform that meets the requirements of a problem at the poses that the search holds, a local optimum; `None`
-/// where no run meets them.
+/// A platform that meets the requirements of a problem at the held poses of the search, a local optimum; `None` if no
+/// run meets them.
 ///
-/// That they are met is what is looked for, without an objective; the objectives are climbed for from the platform
-/// found. `known` are values of variables by their names, from which the first run starts: those of a problem with
-/// fewer variables, for instance.
+/// The search first meets the requirements without an objective, and then climbs for the objectives from the platform
+/// found. `known` are values of variables by name, from which the first run starts, for instance those of a problem
+/// with fewer variables.
 ///
 /// # Errors
-/// As [`optimize`].
+/// The errors of [`optimize`].
 pub fn meet(
     problem: &DimensionalProblem,
     known: &[ChosenVariable],
@@ -650,16 +646,16 @@ pub fn meet(
     Ok(solution(&model, &task, best))
 }
 
-/// What polished runs lead to.
+/// The conclusion from polished runs.
 struct Conclusion {
     outcome: DimensionalOutcome,
-    /// The platform with the least violation, where none meets the requirements.
+    /// The platform with the least violation, if none meets the requirements.
     nearest: Option<Box<DimensionalSolution>>,
     /// See [`DimensionalReport::others`].
     others: Vec<DimensionalSolution>,
 }
 
-/// The answer that the polished runs of the first task lead to.
+/// The answer from the polished runs of the first task.
 fn concluded(
     model: &Model<'_>,
     task: Task,
@@ -692,16 +688,15 @@ fn concluded(
     Conclusion { outcome: outcome(model, &last_task, &refined[0]), nearest: None, others }
 }
 
-/// Runs that meet the requirements, best first, and end elsewhere than the first and each other.
+/// Runs that meet the requirements, best first, with ends distinct from the first and from each other.
 fn other_optima<'r>(task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
     let others = refined.iter().skip(1).filter(|r| r.run.is_feasible());
     let mut kept = distinct(refined.iter().take(1).chain(others), |r| r.run.judged.gain(task));
     kept.split_off(kept.len().min(1))
 }
 
-/// Runs whose ends differ, the first of each end kept. Ends with one value count as one, because symmetric platforms
-/// have the same end many times, and so do ends with nearly the same variables, which are one end approached from two
-/// sides.
+/// Runs with distinct ends, the first of each end. Ends with equal values count as one, since symmetric platforms have
+/// the same end repeatedly. Ends with nearly equal variables also count as one, as approached from two sides.
 pub(super) fn distinct<'r>(
     runs: impl Iterator<Item = &'r RefinedRun>,
     value: impl Fn(&RefinedRun) -> f64,
@@ -718,8 +713,8 @@ pub(super) fn distinct<'r>(
     kept
 }
 
-/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is
-/// returned where one `explains`. Runs that only lessen the violation take their places among the others.
+/// Handles the case that no run meets the requirements. Climbs restart from runs without an objective that do, or the
+/// conflict is returned if the question `explains`. Runs that only reduce the violation are merged with the others.
 fn met_or_conflict(
     model: &Model<'_>,
     task: &Task,
@@ -750,14 +745,14 @@ fn met_or_conflict(
     None
 }
 
-/// Puts runs among others, best first.
+/// Merges runs into a list, best first.
 fn among(task: &Task, refined: &mut Vec<RefinedRun>, more: Vec<RefinedRun>) {
     refined.extend(more);
     refined.sort_by(|a, b| better(task, &a.run, &b.run));
 }
 
-/// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and
-/// its runs.
+/// One objective after the other, each run giving up at most a share `slack` of the earlier ones; returns the last task
+/// and its runs.
 fn through_levels(
     model: &Model<'_>,
     mut task: Task,

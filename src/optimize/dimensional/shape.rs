@@ -1,5 +1,4 @@
-//! From variables to joints: where the skeleton of the design puts the ends of the legs, the height of home, joint
-//! axes.
+//! From variables to joints: leg ends by the skeleton of the design, the height of home, joint axes.
 
 use std::sync::Arc;
 
@@ -12,27 +11,27 @@ use num::small::symmetric_eigen3;
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Manipulator, Octahedral};
 
-/// Variables of the joint axes of one body: three components for each leg.
+/// Number of variables of the joint axes of one body: three components for each leg.
 const AXIS_VARIABLES: usize = 18;
 
-/// A joint of one body, by where it comes from; joints of the design are sorted before those of legs.
+/// A joint of one body by its origin; joints of the design sort before those of legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum JointId {
-    /// A joint of the design, which legs share as they do there.
+    /// A joint of the design, with the legs that share it there.
     OfDesign(usize),
-    /// The end of a leg that leaves the joint it had: a joint of its own.
+    /// The end of a leg that leaves its joint and has a separate one.
     OfLeg(usize),
 }
 
 /// The joint of each leg on the base and on the platform.
 pub(crate) type LegJoints = [(JointId, JointId); 6];
 
-/// The joints of a design as they are.
+/// The joints of a design without changes.
 pub(super) fn joints_of(m: &Manipulator) -> LegJoints {
     m.pairs().map(|(base, platform)| (JointId::OfDesign(base), JointId::OfDesign(platform)))
 }
 
-/// The variables in their order, as they are laid out.
+/// The variables in their order.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct VariableLayout {
     names: Vec<String>,
@@ -63,7 +62,7 @@ pub(super) struct Shape {
     pub names: Vec<String>,
     pub bounds: Vec<(f64, f64)>,
     pub start: Vec<f64>,
-    /// Variable of the height, and the vector by which home moves for its unit.
+    /// Variable of the height, and the displacement of home for its unit.
     lift: Option<(usize, Vector3<f64>)>,
     /// First variable of the axes of base and platform joints.
     pub axes: [Option<usize>; 2],
@@ -81,7 +80,7 @@ pub(crate) struct JointEnds {
     pub lift: Vector3<f64>,
 }
 
-/// Unit normal of the plane that fits the base joints best, towards the platform at home.
+/// Unit normal of the plane of best fit of the base joints, towards the platform at home.
 fn upwards(m: &Manipulator, home: &Pose) -> Vector3<f64> {
     let legs = m.legs();
     let [centre, _] = m.mean_leg_ends();
@@ -93,7 +92,7 @@ fn upwards(m: &Manipulator, home: &Pose) -> Vector3<f64> {
     if n.dot(&(tip - centre)) < 0.0 { -n } else { n }
 }
 
-/// The skeleton that the variables ask for.
+/// The skeleton for the variables.
 fn skeleton(
     m: &Manipulator,
     v: &Variables,
@@ -110,7 +109,7 @@ fn skeleton(
         (true, false) => Arc::new(OctahedralSides::of(m, v, layout)?),
         (false, true) => Arc::new(OnFamilies::of(m, v, layout)?),
         (true, true) => {
-            // what is wrong with the design itself is said first
+            // report faults of the design itself first
             OctahedralSides::of(m, v, layout)?;
             return Err(InvalidProblem::ComponentsAndOffsets);
         }
@@ -146,22 +145,22 @@ impl Shape {
         Ok(Self { skeleton, names, bounds, start, lift, axes, joints, original: m.clone() })
     }
 
-    /// `det A` of the leg map from the design and its gradient, where the variables keep the class of the design.
+    /// `det A` of the leg map from the design and its gradient, if the variables keep the class of the design.
     pub(super) fn determinant(&self, x: &[f64]) -> Option<(f64, Vec<f64>)> {
         self.skeleton.determinant(x)
     }
 
-    /// How far the ends of sliding legs may still go out.
+    /// Remaining distances of the ends of sliding legs from their limit.
     pub(super) fn rooms(&self, ends: &JointEnds) -> Vec<ReachLeft> {
         self.skeleton.rooms(&ends.base, &ends.platform)
     }
 
-    /// `true` when the lines of all legs are affine functions of the variables (axes apart).
+    /// `true` if the lines of all legs are affine functions of the variables (axes excluded).
     pub(crate) fn is_affine(&self) -> bool {
         self.skeleton.is_affine()
     }
 
-    /// Offsets of the octahedral hexagon in cyclic order, when they are variables.
+    /// Offsets of the octahedral hexagon in cyclic order, if they are variables.
     pub(super) fn offsets(&self, x: &[f64]) -> Option<[f64; 6]> {
         self.offset_variables().map(|at| at.map(|k| x[k]))
     }
@@ -171,7 +170,7 @@ impl Shape {
         self.axes.iter().flatten().any(|first| (*first..first + AXIS_VARIABLES).contains(&j))
     }
 
-    /// The variables that are not a component of a joint axis.
+    /// The variables that are not components of a joint axis.
     pub(super) fn free(&self) -> Vec<usize> {
         (0..self.start.len()).filter(|j| !self.is_axis(*j)).collect()
     }
@@ -186,7 +185,7 @@ impl Shape {
         JointEnds { base, platform, lift }
     }
 
-    /// What each variable moves.
+    /// Velocities for each variable.
     pub(super) fn rates(&self, x: &[f64]) -> Vec<Rate> {
         let mut out = self.skeleton.rates(x);
         if let Some((k, v)) = self.lift {
@@ -200,7 +199,7 @@ impl Shape {
         out
     }
 
-    /// Joints of a body that end no leg and stay in the platform found.
+    /// Joints of a body without legs, which stay in the result.
     pub(crate) fn joints_without_legs(&self, body: Body) -> Vec<Vector3<f64>> {
         if self.joints != joints_of(&self.original) {
             return Vec::new();
@@ -231,7 +230,7 @@ impl Shape {
     }
 }
 
-/// The joints of a body counted from 0 in their order, for each leg, and how many there are.
+/// The number of the joint of each leg on a body, counted from 0 in their order, and the number of joints.
 fn numbered(joints: [JointId; 6]) -> ([usize; 6], usize) {
     let mut all = joints.to_vec();
     all.sort_unstable();

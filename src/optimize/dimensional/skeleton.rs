@@ -1,4 +1,4 @@
-//! Where the joints come from: joints as they are, offsets on the sides of an octahedral hexagon, legs on families.
+//! The origins of the joints: unchanged joints, offsets on the sides of an octahedral hexagon, legs on families.
 
 use std::fmt::Debug;
 
@@ -15,9 +15,9 @@ use synthesis::components::{
 };
 use synthesis::{Normalisation, determinant_gradient, leg_vector, offset_determinant};
 
-/// The ends of the legs as functions of the variables: what a kind of design has to say of itself.
+/// The ends of the legs as functions of the variables: the interface of a kind of design.
 pub(crate) trait Skeleton: Debug + Send + Sync {
-    /// The joints that the legs end at.
+    /// The joints at the ends of the legs.
     fn joints(&self, m: &Manipulator) -> LegJoints {
         joints_of(m)
     }
@@ -30,12 +30,12 @@ pub(crate) trait Skeleton: Debug + Send + Sync {
         vec![Rate::default(); x.len()]
     }
 
-    /// `det A` of the leg map from the design and its gradient, where the variables keep the class of the design.
+    /// `det A` of the leg map from the design and its gradient, if the variables keep the class of the design.
     fn determinant(&self, _x: &[f64]) -> Option<(f64, Vec<f64>)> {
         None
     }
 
-    /// How far ends may still go out.
+    /// Remaining distances of ends from their limit.
     fn rooms(&self, _base: &[Vector3<f64>; 6], _platform: &[Vector3<f64>; 6]) -> Vec<ReachLeft> {
         Vec::new()
     }
@@ -51,17 +51,17 @@ pub(crate) trait Skeleton: Debug + Send + Sync {
     }
 }
 
-/// How far the end of a leg may still go out, in reaches of its body.
+/// Remaining distance of the end of a leg from its limit, in reaches of its body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ReachLeft {
     pub leg: usize,
     pub body: Body,
     pub value: f64,
-    /// By the end.
+    /// Gradient by the end.
     pub gradient: Vector3<f64>,
 }
 
-/// Joints as they are.
+/// Unchanged joints.
 #[derive(Debug)]
 pub(super) struct Fixed([Leg; 6]);
 
@@ -81,9 +81,9 @@ impl Skeleton for Fixed {
 #[derive(Debug)]
 pub(crate) struct ScaledBodies {
     legs: [Leg; 6],
-    /// Of the base, base frame, and of the platform, platform frame.
+    /// Centre of the base, base frame, and of the platform, platform frame.
     centres: [Vector3<f64>; 2],
-    /// Variables of the two sizes; `None` for a body that keeps its own.
+    /// Variables of the two sizes; `None` for a body of fixed size.
     sizes: [Option<usize>; 2],
 }
 
@@ -97,7 +97,7 @@ impl ScaledBodies {
         Self { legs: m.legs(), centres: m.mean_leg_ends(), sizes }
     }
 
-    /// The end of a leg seen from the mean of all ends on its body.
+    /// The end of a leg relative to the mean of all ends on its body.
     fn arm(&self, body: usize, leg: usize) -> Vector3<f64> {
         let end = [self.legs[leg].base, self.legs[leg].platform][body];
         end.coords - self.centres[body]
@@ -126,7 +126,7 @@ impl Skeleton for ScaledBodies {
     }
 }
 
-/// A triangle that is stretched in its plane about its centroid.
+/// A triangle stretched in its plane about its centroid.
 #[derive(Debug, Clone)]
 struct StretchedTriangle {
     centre: Vector3<f64>,
@@ -148,7 +148,7 @@ impl StretchedTriangle {
         Self { centre, plane, axes, first, kind }
     }
 
-    /// Entries `xx, xy, yy` of the stretch less the identity.
+    /// Entries `xx, xy, yy` of the stretch minus the identity.
     fn stretch(&self, x: &[f64]) -> [f64; 3] {
         match (self.first, self.kind) {
             (Some(k), Triangles::Sizes) => [x[k], 0.0, x[k]],
@@ -167,7 +167,7 @@ impl StretchedTriangle {
         [0, 1, 2].map(|v| self.centre + self.displaced(v, [1.0 + xx, xy, 1.0 + yy]))
     }
 
-    /// Variables with the directions in which they move the vertices.
+    /// Variables with the velocities of the vertices.
     fn rates(&self) -> Vec<(usize, [Vector3<f64>; 3])> {
         let unit: &[[f64; 3]] = match self.kind {
             Triangles::Fixed => &[],
@@ -189,7 +189,7 @@ pub(crate) struct OctahedralSides {
     offsets: Option<[usize; 6]>,
 }
 
-/// Vertices of both triangles between which leg `i` in cyclic order slides: the one it starts at and the next.
+/// Vertices of both triangles between which leg `i` in cyclic order slides: the one at its start and the next.
 fn side(i: usize) -> [usize; 2] {
     [i / 2, (i / 2 + 1) % 3]
 }
@@ -203,7 +203,7 @@ impl OctahedralSides {
     ) -> Result<Self, InvalidProblem> {
         let o = Octahedral::recognise(m).map_err(InvalidProblem::NotOctahedral)?;
         let three_fold = v.symmetry == KeptSymmetry::ThreeFold;
-        // an equilateral triangle stays one when its size alone changes
+        // an equilateral triangle stays equilateral if only its size changes
         let chosen =
             if three_fold && v.triangles == Triangles::Shapes { Triangles::Sizes } else { v.triangles };
         let offsets = v.offsets.then(|| {
@@ -360,7 +360,7 @@ fn moved(p: &MovingPoint, parameters: &[f64]) -> (Vector3<f64>, Vec<Vector3<f64>
     (point, (0..parameters.len().min(3)).map(rate).collect())
 }
 
-/// A family for each leg, different ones as far as possible (augmenting paths); a leg without family has `None`.
+/// A family for each leg, different ones as far as possible (augmenting paths); `None` for a leg without family.
 fn assigned(rational: &[&Component]) -> [Option<usize>; 6] {
     fn place(leg: usize, own: &[Vec<usize>; 6], held: &mut [Option<usize>], seen: &mut [bool]) -> bool {
         for &c in &own[leg] {
@@ -385,7 +385,7 @@ fn assigned(rational: &[&Component]) -> [Option<usize>; 6] {
     std::array::from_fn(|leg| held.iter().position(|h| *h == Some(leg)).or_else(|| own[leg].first().copied()))
 }
 
-/// Legs on the rational families they belong to, and what tells the determinant of the leg map.
+/// Legs on their rational families, and the data for the determinant of the leg map.
 #[derive(Debug)]
 pub(crate) struct OnFamilies {
     sliding: Vec<Sliding>,
@@ -397,11 +397,12 @@ pub(crate) struct OnFamilies {
 
 /// Singular values of the leg vectors below this, over the largest, count as zero.
 const DEPENDENT: f64 = 1e-9;
-/// An end within this of a joint, in sizes of the design, is at it.
+/// An end within this of a joint, in sizes of the design, coincides with it.
 const SAME_JOINT: f64 = 1e-9;
 
 impl OnFamilies {
-    /// The rational families of a design with a leg on each as far as there are any; lays out their parameters.
+    /// The rational families of a design with legs assigned to them as far as possible, with their parameters as
+    /// variables.
     pub(super) fn of(
         m: &Manipulator,
         v: &Variables,
@@ -460,7 +461,7 @@ impl OnFamilies {
         let vectors = legs.map(|l| leg_vector(&l));
         let a = Matrix6::from_fn(|i, j| (0..16).map(|p| vectors[i][p] * self.inverse[(p, j)]).sum());
         let det: f64 = a.determinant();
-        // cofactors by products, so that a singular A does no harm
+        // cofactors by products, so that a singular A causes no error
         let cofactor = Matrix6::from_fn(|i, j| {
             let minor: f64 = a.remove_row(i).remove_column(j).determinant();
             if (i + j) % 2 == 0 { minor } else { -minor }
@@ -480,7 +481,7 @@ impl OnFamilies {
         (det, on_base, on_platform)
     }
 
-    /// How far an end may still go out, in reaches, and the gradient.
+    /// Remaining distance of an end from its limit, in reaches, and the gradient.
     fn room_of(&self, body: Body, end: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let n = &self.normalisation;
         let (centre, unit) =
@@ -491,7 +492,7 @@ impl OnFamilies {
 }
 
 impl Skeleton for OnFamilies {
-    /// Ends that slide are joints of their own.
+    /// Sliding ends are separate joints.
     fn joints(&self, m: &Manipulator) -> LegJoints {
         let mut out = joints_of(m);
         for s in &self.sliding {

@@ -1,10 +1,10 @@
 //! The softest loads and the slowest motions of a platform at a pose, as smooth functions of the legs.
 //!
-//! For a fixed unit load `w` the platform gives way by `|F|^2 / k` along it, `F = J^-T w`; the least stiffness is the
-//! least of `k / |F|^2` over all unit forces, or torques. For a fixed motion `v` the quotient `v^T K v / v^T M v` is no
-//! smaller than the square of the lowest natural frequency (Rayleigh). Each is smooth in the legs where the least value
-//! has kinks; the loads and motions are those that are softest at the point, and their sums and differences, among
-//! which the softest one of a nearby platform is found.
+//! Under a fixed unit load `w` the platform moves by `|F|^2 / k` along it, with `F = J^-T w`. The least stiffness is
+//! the least of `k / |F|^2` over all unit forces, or torques. For a fixed motion `v` the quotient `v^T K v / v^T M v`
+//! is at least the square of the lowest natural frequency (Rayleigh). Each quotient is smooth in the legs, while the
+//! least value has kinks. The loads and motions are the softest at the point with their sums and differences, which
+//! include the softest one of a nearby platform.
 //!
 //! Derivatives, with `x = J^-1 F`: `d |F|^2 = -2 sum F_i dJ_i . x`, and `d (v^T K v) = 2 k sum (J v)_i dJ_i . v`.
 
@@ -15,17 +15,17 @@ use super::pull::Gradient;
 use machine::requirements::{VibratingMasses, mass_of, scaled_mass};
 use num::small::{bounded_svd, symmetric_eigen3};
 
-/// A value no smaller than the one looked for, and equal to it for the softest load or motion.
+/// An upper bound of the least value, equal to it for the softest load or motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RayleighQuotient<P> {
     pub value: f64,
     pub pull: P,
 }
 
-/// Motions next to the slowest one that are mixed with it.
+/// Number of motions next to the slowest one that are mixed with it.
 const MIXED: usize = 3;
 
-/// Least part of the greatest softness that a motion has, for its quotient to be one.
+/// Least share of the greatest softness of a motion with a valid quotient.
 const SOFT: f64 = 1e-12;
 
 /// Stiffness of legs of stiffness 1 against forces, or against torques, in design units and radians. `None` at a
@@ -89,7 +89,7 @@ pub(super) fn frequencies<P: Gradient>(
     (!found.is_empty() && found.iter().all(|q| q.value.is_finite())).then_some(found)
 }
 
-/// Adds sums and differences of the first vectors, where gradients are wanted: without them the least value alone is.
+/// Adds sums and differences of the first vectors for gradients; without gradients only the least value is needed.
 fn mix<P: Gradient, const N: usize>(list: &mut Vec<nalgebra::SVector<f64, N>>, first: usize) {
     if !P::KEPT {
         return;
@@ -105,7 +105,7 @@ fn mix<P: Gradient, const N: usize>(list: &mut Vec<nalgebra::SVector<f64, N>>, f
     }
 }
 
-/// Adds `factor` times the gradient of twice the kinetic energy of a leg for the twist `v`, `(v, L w)`: with the
+/// Adds `factor` times the gradient of twice the kinetic energy of a leg for the twist `v`, `(v, L w)`. With the
 /// velocity `c = v + w x R b` of its end, `a = u . c` and `B = T / |d|^2` it is `(m_a - B) a^2 + B |c|^2`.
 fn leg_mass<P: Gradient>(
     l: &LegLines,

@@ -1,9 +1,9 @@
-//! The requirements as functions of the legs, positive where they are met, with gradients.
+//! The requirements as functions of the legs, positive if met, with gradients.
 //!
-//! Lengths are in sizes of the design, forces and speeds in their limits.
-//! A joint angle is `(d . c - cos(limit) |d|) / size`, which is smooth.
-//! For a given axis and a limit below 90 degrees it is concave in `d`.
-//! Gaps, room in envelopes, plates, parts of legs, loads, forces and speeds are those of `machine::requirements`.
+//! Lengths are in sizes of the design, forces and speeds relative to their limits. A joint angle is
+//! `(d . c - cos(limit) |d|) / size`, which is smooth. For a given axis and a limit below 90 degrees it is concave in
+//! `d`. Gaps, distances in envelopes, plates, parts of legs, loads, forces and speeds are those of
+//! `machine::requirements`.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -20,7 +20,7 @@ use num::ordered::{OrderedNumber, Sloped};
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
-/// A convex form of `value >= 0`: the head at least the norm of the line of the leg, both divided by the size.
+/// A convex form of `value >= 0`: the head is at least the norm of the line of the leg, both divided by the size.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum ConvexForm {
     /// `greatest >= |d|`.
@@ -38,7 +38,7 @@ pub(super) struct PoseTerm<P> {
     pub exact: Option<ConvexForm>,
 }
 
-/// What the requirements are evaluated with besides the legs.
+/// The data for the evaluation of the requirements besides the legs.
 #[derive(Debug, Clone)]
 pub(crate) struct RequirementTerms<'a> {
     pub required: &'a Requirements,
@@ -51,7 +51,7 @@ pub(crate) struct RequirementTerms<'a> {
     plates: Vec<PlateModel<'a>>,
 }
 
-/// Value with which a singular pose violates the limits of forces, in limits.
+/// Value of a singular pose in the limits of forces, in limits.
 const SINGULAR_FORCE: f64 = -10.0;
 
 impl<'a> RequirementTerms<'a> {
@@ -66,7 +66,7 @@ impl<'a> RequirementTerms<'a> {
         Self { required, size, home, joints: shape.joints, axes: shape.axes, plates }
     }
 
-    /// The plates under the joints, on the far side of them from the legs at home.
+    /// The plates under the joints, on the side away from the legs at home.
     fn placed_plates(&self, ends: &JointEnds) -> impl Iterator<Item = PlacedPlate<'_>> {
         let line =
             |i: usize| self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
@@ -99,8 +99,8 @@ impl<'a> RequirementTerms<'a> {
         self.stiffness(l, see);
     }
 
-    /// The requirements at a pose among which are those of a kind, a leg and another leg (keep-out, load), by a small
-    /// part of the work of [`visit`](Self::visit): what is computed together with them is seen too.
+    /// Visits the requirements at a pose for a kind, a leg and another leg (keep-out, load), at a fraction of the cost
+    /// of [`visit`](Self::visit). Requirements that are computed together with them are visited too.
     pub(crate) fn visit_some<P: Gradient>(
         &self,
         l: &LegLines,
@@ -121,8 +121,8 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each
-    /// less what it has to be.
+    /// Stiffness over the required one, and half of the square of the natural frequency over its required value, each
+    /// minus its required value.
     fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(wanted) = self.required.platform_stiffness else { return };
         let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
@@ -224,8 +224,8 @@ impl<'a> RequirementTerms<'a> {
         PoseTerm { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
     }
 
-    /// Angles of universal joints: `(d.n - cos(limit) |d'|) / size` for the first, `d'` the part of the line across the
-    /// first axis, and `(sin(limit) |d| -+ d.a) / size` for both sides of the second.
+    /// Angles of universal joints. The first is `(d.n - cos(limit) |d'|) / size`, with the part `d'` of the line across
+    /// the first axis. The second is `(sin(limit) |d| -+ d.a) / size` for both sides.
     fn hinges<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         let hardware = &self.required.hardware;
         for kind in TermKind::HINGES {
@@ -274,7 +274,7 @@ impl<'a> RequirementTerms<'a> {
         } else {
             (l.rotation, self.home.rotation)
         };
-        // everything in the frame of the body
+        // all in the frame of the body
         let across = |v: &Vector3<f64>| first.cross(&v.cross(&first));
         let d = turn.inverse() * l.line[i];
         let aside = across(&d);
@@ -286,7 +286,7 @@ impl<'a> RequirementTerms<'a> {
         let spread = across(&axis);
         let id = (kind, i, i, 0);
         let Some(rest) = spread.try_normalize(0.0) else {
-            // no rest direction: as far from it as an angle can be
+            // no rest direction: the greatest possible angle from it
             let value = -(1.0 + limit.cos()) * aside.norm() / self.size;
             return PoseTerm { id, value, pull: P::none(), exact: None };
         };
@@ -371,7 +371,7 @@ impl<'a> RequirementTerms<'a> {
         });
     }
 
-    /// Legs clear of both plates: at the plate of an end a leg counts from the housing of its joint on.
+    /// Clearance of the legs from both plates: at the plate of an end a leg begins at the housing of its joint.
     fn plate_clearances<P: Gradient>(
         &self,
         l: &LegLines,
@@ -472,7 +472,7 @@ impl<'a> RequirementTerms<'a> {
         self.plates(ends, see);
     }
 
-    /// Holes of the plates: far enough from outlines and from each other.
+    /// Distances of the holes of the plates from outlines and from each other.
     fn patterns<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
             let edge = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
@@ -482,7 +482,7 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    /// Joints inside the envelope of their body.
+    /// Distances of joints inside the envelope of their body.
     fn plates<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         let envelopes = &self.required.envelopes;
         let bodies = [
@@ -508,7 +508,7 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    /// Both ends of each leg inside the envelope of the machine.
+    /// Distances of both ends of each leg inside the envelope of the machine.
     fn machine<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(envelope) = self.required.envelopes.machine else { return };
         let kind = TermKind::MachineEnvelope;
@@ -533,7 +533,7 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    /// Pairs of legs that stand for pairs of different joints of a body, each pair of joints once.
+    /// Pairs of legs that represent pairs of different joints of a body, each pair of joints once.
     pub(crate) fn separate_joints(&self, body: Body) -> Vec<(usize, usize)> {
         let joint = self.joints.map(|p| body.of(p));
         let firsts: Vec<usize> = (0..6).filter(|&i| !joint[..i].contains(&joint[i])).collect();
@@ -541,13 +541,13 @@ impl<'a> RequirementTerms<'a> {
         pairs.flat_map(|(n, &i)| firsts[n + 1..].iter().map(move |&j| (i, j))).collect()
     }
 
-    /// Legs that stand for the housings of a body, each housing about a joint once.
+    /// Legs that represent the housings of a body, each housing about a joint once.
     fn different_housings(&self, body: Body) -> Vec<usize> {
         let of = |i: usize| (body.of(self.joints[i]), self.required.hardware.housing(body, i));
         (0..6).filter(|&i| (0..i).all(|k| of(k) != of(i))).collect()
     }
 
-    /// Pairs of legs that stand for pairs of housings about different joints of a body, each pair once.
+    /// Pairs of legs that represent pairs of housings about different joints of a body, each pair once.
     fn separate_housings(&self, body: Body) -> Vec<(usize, usize)> {
         let legs = self.different_housings(body);
         let pairs = legs.iter().enumerate();
@@ -555,15 +555,14 @@ impl<'a> RequirementTerms<'a> {
         pairs.filter(|&(i, j)| body.of(self.joints[i]) != body.of(self.joints[j])).collect()
     }
 
-    /// The housings of the joints of two legs, where one of them has one.
+    /// The housings of the joints of two legs, if at least one has a housing.
     fn housings(&self, body: Body, i: usize, j: usize) -> Option<[Housing; 2]> {
         let hardware = &self.required.hardware;
         Housing::pair(hardware.housing(body, i), hardware.housing(body, j))
     }
 }
 
-/// `factor` times each quotient, less what it has to be; without quotients the pose is singular and there is no
-/// stiffness.
+/// `factor` times each quotient, minus its required value; without quotients the pose is singular and has no stiffness.
 fn quotients<P: Gradient>(
     kind: TermKind,
     found: Option<Vec<RayleighQuotient<P>>>,

@@ -1,6 +1,6 @@
-//! Poses at which a requirement is met least: they are held from then on.
+//! Poses at which a requirement has the least margin; they are held from then on.
 //!
-//! A look goes pose after pose, so that it can end as soon as the point is known to be no better than another.
+//! The search goes pose by pose, so that it can end once the point is known to be no better than another.
 
 use std::collections::BTreeMap;
 
@@ -15,26 +15,26 @@ use crate::climb::{ConstraintGroup, PointValues, Task};
 use machine::requirements::{Objective, TermKind};
 use num::{Purpose, Rng};
 
-/// Points looked at.
+/// Number of sampled points.
 const POINTS: usize = 150;
-/// Local searches from the worst of them for each quantity: for an objective, and for what single legs or pairs have.
+/// Number of local searches from the worst of them for each quantity: for an objective, and for single legs or pairs.
 const SEARCHES: [usize; 2] = [4, 1];
-/// A requirement is searched when twice the spread over the points would bring it from the worst of them to its limit.
+/// A requirement is searched if twice the spread over the points would bring it from the worst of them to its limit.
 const SPREADS: f64 = 2.0;
 /// First step of a search in the cube, and the last.
 const STEPS: (f64, f64) = (0.25, 1e-5);
 
-/// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has worst poses of its own:
-/// searches for the worst of all legs end again and again at the one that is held already.
+/// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has its own worst poses:
+/// searches for the worst of all legs end repeatedly at the one already held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum PoseQuantity {
     Constraint(TermKind, usize, usize),
     Objective(usize),
-    /// Length of a leg for the stroke; with `true` the greatest one.
+    /// Length of a leg for the stroke; `true` for the greatest one.
     Length(usize, bool),
 }
 
-/// What was seen of a quantity at the points.
+/// Statistics of a quantity at the points.
 #[derive(Debug, Clone)]
 struct Seen {
     greatest: f64,
@@ -54,7 +54,7 @@ impl PoseScan<'_> {
         LegLines::new(&self.ends, &HeldPose { pose, follows: true })
     }
 
-    /// Every quantity at a pose, to be small where it matters.
+    /// Every quantity at a pose; small values are critical.
     fn all(&self, l: &LegLines) -> BTreeMap<PoseQuantity, f64> {
         let mut out = BTreeMap::new();
         let mut keep = |q, value: f64| {
@@ -79,7 +79,7 @@ impl PoseScan<'_> {
         out
     }
 
-    /// To be small: the length, or the least of its opposite, in sizes.
+    /// The length, or its negative for the longest leg, in sizes; small values are critical.
     fn length(&self, l: &LegLines, leg: usize, longest: bool) -> f64 {
         let value = l.length[leg] / self.model.terms.size;
         if longest { -value } else { value }
@@ -113,8 +113,8 @@ impl PoseScan<'_> {
         }
     }
 
-    /// Search along the axes and, for objectives, along as many random directions (singular values have kinks at which
-    /// the axes lead nowhere), with steps that shrink by halves.
+    /// Search along the axes and, for objectives, along as many random directions, with steps halved each time.
+    /// Singular values have kinks at which steps along the axes fail.
     fn descend(
         &self,
         q: PoseQuantity,
@@ -180,7 +180,7 @@ pub(crate) fn worse_poses(
     let lengths = [false, true].map(|longest| look.least_length(held, longest));
     let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), Purpose::DESCENT.rng(seed));
     for (q, Seen { greatest, worst }) in seen {
-        // what the held poses guarantee
+        // the value guaranteed by the held poses
         let known = match q {
             PoseQuantity::Constraint(..) => 0.5 * model.backoff,
             PoseQuantity::Objective(m) => judged.gains[m] - model.backoff,
@@ -201,7 +201,7 @@ pub(crate) fn worse_poses(
     out
 }
 
-/// A point that is being judged: violations only grow with every pose, and gains only fall.
+/// A point under judgement: with every pose violations can only grow, and gains only fall.
 pub(crate) struct PointJudging<'m, 'a> {
     model: &'m Model<'a>,
     x: &'m [f64],
@@ -212,7 +212,7 @@ pub(crate) struct PointJudging<'m, 'a> {
 }
 
 impl<'m, 'a> PointJudging<'m, 'a> {
-    /// Begins with the requirements without a pose; `sign` of `det A` is to be kept.
+    /// Begins with the requirements without a pose; `sign` is the kept sign of `det A`.
     pub(super) fn new(model: &'m Model<'a>, x: &'m [f64], task: &'m Task, sign: f64) -> Self {
         let ends = model.shape.ends(x);
         let so_far =
@@ -236,14 +236,14 @@ impl<'m, 'a> PointJudging<'m, 'a> {
         }
     }
 
-    /// Looks at one more pose.
+    /// Evaluates one more pose.
     pub(super) fn pose(&mut self, at: &HeldPose) {
         let (model, ends) = (self.model, self.ends);
         let l = LegLines::new(&ends, at);
         for (m, o) in model.wanted(self.task).filter(|(_, o)| Merit::is_over_poses(*o)) {
             self.so_far.gains[m] = self.so_far.gains[m].min(model.merit.at_pose(o, &model.terms, &l));
         }
-        // items of a kind come one after the other: each kind is looked up once
+        // items of a kind are consecutive, so each kind is looked up once
         let mut last: Option<(TermKind, f64)> = None;
         model.terms.visit(&l, &ends, self.x, &mut |item: PoseTerm<()>| match &mut last {
             Some((kind, least)) if *kind == item.id.0 => {

@@ -1,5 +1,5 @@
-//! The 3^6 branches of the offsets, their division into cells on which the constraints have one shape, and starting
-//! points of a cell.
+//! The 3^6 branches of the offsets, their division into cells with constraints of one form, and starting points of a
+//! cell.
 
 use super::climb::violation;
 use super::conditioning::worst_case_above;
@@ -9,7 +9,7 @@ use super::verdict::Conflict;
 use num::Rng;
 use synthesis::{HexagonSide, offset_determinant};
 
-/// Where a joint sits relative to its edge.
+/// The position of a joint relative to its edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Zone {
     /// `t < 0`: on the extension before the start of the edge.
@@ -39,7 +39,7 @@ impl Zone {
         Self::ALL.into_iter().find(|zone| zone.symbol() == symbol)
     }
 
-    /// For messages.
+    /// The zone in words, for messages.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -100,15 +100,15 @@ impl std::fmt::Display for Branch {
 /// A closed interval of one offset.
 type Range = (f64, f64);
 
-/// A part of a zone outside of which some vertex is too close, and the parts of it in which the search moves: where the
-/// spacing from the vertices holds with the back-off, or all of it where it is too short for that.
+/// A part of a zone outside of which some vertex is too close, and the parts of it in which the search moves. In these
+/// the spacing from the vertices holds with the back-off; a part too short for that is used as a whole.
 #[derive(Debug, Clone, PartialEq)]
 struct ZonePiece {
     outer: Range,
     kept: Vec<Range>,
 }
 
-/// What is left of a zone, or the proof that nothing is.
+/// The rest of a zone, or the proof that it is empty.
 type ZoneRoom = Result<Vec<ZonePiece>, Conflict>;
 
 fn remove(intervals: &mut Vec<Range>, centre: f64, half: f64) {
@@ -154,11 +154,11 @@ fn room(side: usize, zone: Zone, m: &OffsetModel, limits: &OffsetLimits) -> Zone
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BranchCell {
     pub branch: usize,
-    /// Where the search moves: the back-off is kept from the vertices.
+    /// The box of the search, which keeps the back-off from the vertices.
     pub bounds: OffsetRanges,
-    /// The box that proofs are about: outside of it the limits are violated.
+    /// The box of the proofs: outside of it the limits are violated.
     pub outer: OffsetRanges,
-    /// Pairs whose spacing can be violated inside the box, with `true` when the first joint is farther out.
+    /// Pairs whose spacing can be violated inside the box; `true` if the first joint is farther out.
     pub pairs: Vec<(SlidingPair, bool)>,
     pub sign: f64,
 }
@@ -169,13 +169,13 @@ pub(super) struct Division {
     pub branch: Branch,
     pub cells: Vec<BranchCell>,
     pub conflicts: Vec<Conflict>,
-    /// Boxes that hold all offsets of the branch that may meet the limits: what is outside of them is proved not to.
+    /// Boxes that contain all offsets of the branch that may meet the limits; all others are proved to violate them.
     pub boxes: Vec<OffsetRanges>,
 }
 
 impl BranchCell {
     /// `+-(|1 - t_i| d_i - |t_j| d_j) >= 0` of each ordered pair as `constant + by first + by second`. The two orders
-    /// have the same coefficients with opposite signs, to the last bit, so that every point is in one of them.
+    /// have exactly opposite coefficients, so every point is in one of them.
     pub(crate) fn order_rows(&self) -> Vec<(usize, usize, [f64; 3])> {
         let row = |(pair, first_farther): &(SlidingPair, bool)| {
             let (e, f) = pair.edges();
@@ -211,7 +211,7 @@ pub(super) fn divide(m: &OffsetModel, limits: &OffsetLimits) -> Vec<Division> {
         let mut out = Division { branch, cells: Vec::new(), conflicts: Vec::new(), boxes: Vec::new() };
         let own = |i: usize| &rooms[i][branch.0[i] as usize];
         out.conflicts.extend((0..6).filter_map(|i| own(i).as_ref().err().cloned()));
-        // one conflict empties the branch: its list of pieces is empty, and so is the product
+        // one conflict empties the branch, since its list of pieces and thus the product is empty
         let pieces: [&[ZonePiece]; 6] = std::array::from_fn(|i| own(i).as_deref().unwrap_or(&[]));
         let outer = products(&pieces.map(|list| list.iter().map(|p| p.outer).collect()));
         for outer in outer {
@@ -226,7 +226,7 @@ pub(super) fn divide(m: &OffsetModel, limits: &OffsetLimits) -> Vec<Division> {
     Branch::all().into_iter().enumerate().map(divide_one).collect()
 }
 
-/// The cells of a box, for every box in which the search is to move.
+/// The cells of a box, for every box of the search.
 fn split(
     branch: usize,
     outer: OffsetRanges,
@@ -323,12 +323,11 @@ pub(crate) fn feasible_points(
     (0..draws).map(|_| draw(cell, rng)).filter(|t| is_feasible(m, cell, t)).take(wanted).collect()
 }
 
-/// Distances from the corners of a box at which feasible offsets are looked for, in units of the last place of an
-/// offset.
+/// Distances from the corners of a box in the search for feasible offsets, in units in the last place of an offset.
 const NUDGES: [f64; 5] = [0.0, 1.0, 4.0, 16.0, 64.0];
 
-/// Offsets that meet all limits in exact arithmetic though nothing may be left to spare: where a restoration ended, or
-/// at a corner of the box.
+/// Offsets that meet all limits in exact arithmetic, possibly without any margin: at the end of a restoration, or at a
+/// corner of the box.
 pub(crate) fn tight_point(
     problem: &OffsetProblem,
     cell: &BranchCell,
@@ -343,7 +342,7 @@ pub(crate) fn tight_point(
             if k >> i & 1 == 0 { inwards(low, high) } else { inwards(high, low) }
         })
     };
-    // saves most of the exact arithmetic
+    // this test saves most of the exact arithmetic
     let may_do = |t: &[f64; 6]| cell.sign * offset_determinant(t) > problem.min_abs_det * (1.0 - 1e-6);
     let corners = (0..64).flat_map(|k| NUDGES.map(|nudge| corner(k, nudge)));
     std::iter::once(*restored)
@@ -351,8 +350,8 @@ pub(crate) fn tight_point(
         .find(|t| problem.margins(t).is_some_and(|m| m.all_met()))
 }
 
-/// Where the search for a feasible point starts when sampling finds none: the box vertex with the greatest
-/// `sign det A`, pulled slightly inwards.
+/// The start of the search for a feasible point if sampling finds none: the box vertex with the greatest `sign det A`,
+/// pulled slightly inwards.
 pub(crate) fn hopeful_point(cell: &BranchCell) -> [f64; 6] {
     let corner = |k: usize| -> [f64; 6] {
         std::array::from_fn(|i| {
@@ -401,7 +400,7 @@ mod tests {
 
     #[test]
     fn spacing_wider_than_half_an_edge_leaves_no_room_inside() {
-        // platform edge 6, spacing 3.1: nothing inside platform edges, base edges keep room
+        // platform edge 6, spacing 3.1: nothing inside platform edges, base edges keep space
         let all = divisions(&|p| p.min_joint_distance = 3.1);
         for d in &all {
             let platform_inside = [1, 3, 5].iter().any(|&i| d.branch.0[i] == Zone::Inside);
@@ -415,8 +414,8 @@ mod tests {
     #[test]
     fn a_vertex_near_an_edge_splits_the_zone() {
         let all = divisions(&|p| p.min_joint_distance = 5.5);
-        // the height of the platform triangle is 5.196 < 5.5; base edges (height 10.39) are not split,
-        // platform zones before and beyond start one spacing away from the vertices
+        // The height of the platform triangle is 5.196 < 5.5. Base edges (height 10.39) are not split, and platform
+        // zones before and beyond begin one spacing from the vertices.
         let d = all.iter().find(|d| d.branch.to_string() == "0-0-0-").unwrap();
         assert!(d.cells.iter().all(|c| c.bounds[1].1 < -5.4 / 6.0));
         let inside = free_intervals(

@@ -15,12 +15,12 @@ use machine::requirements::TermKind;
 use num::conic::{ConicTally, SolverFailure};
 use synthesis::{determinant_gradient, offset_determinant};
 
-/// Enough to rank a cell; a higher price of violations saves a tenth of the steps, measured over 1,700 cells.
+/// Effort that ranks a cell; a higher penalty saves a tenth of the steps, measured over 1,700 cells.
 pub(super) const RANK: Effort = Effort { iterations: 10, tolerance: 3e-3, penalty: 100.0 };
-/// Enough to remove a violation where sampling found no feasible point.
+/// Effort that removes a violation if sampling found no feasible point.
 pub(super) const RESTORE: Effort = Effort { iterations: 60, ..RANK };
 
-/// The end of a climb in a cell.
+/// The result of a climb in a cell.
 #[derive(Debug, Clone)]
 pub(crate) struct LocalResult {
     pub t: [f64; 6],
@@ -28,14 +28,14 @@ pub(crate) struct LocalResult {
     pub value: f64,
     pub(super) feasible: bool,
     pub converged: bool,
-    /// First-order gain the model still promises, relative to the value, for a unit of offset.
+    /// Predicted first-order gain, relative to the value, per unit of offset.
     pub stationarity: f64,
     pub history: Vec<HistoryStep>,
     pub failure: Option<SolverFailure>,
 }
 
 impl LocalResult {
-    /// A feasible point that was drawn and not climbed from.
+    /// A random feasible point without a climb.
     pub(super) fn drawn(t: [f64; 6], value: f64) -> Self {
         Self {
             t,
@@ -69,7 +69,7 @@ impl LocalResult {
     }
 }
 
-/// A constraint of a cell, to be at least 0 with the back-off subtracted.
+/// A constraint of a cell, which must be at least 0 after subtraction of the back-off.
 struct CellConstraint {
     group: ConstraintGroup,
     id: TermId,
@@ -77,7 +77,7 @@ struct CellConstraint {
     gradient: [f64; 6],
 }
 
-/// `2 m` times the radius of the body: turns a difference of squared distances into a length relative to the body.
+/// `2 m` times the radius of the body: converts a difference of squared distances to a length relative to the body.
 fn pair_unit(m: &OffsetModel, pair: &SlidingPair) -> f64 {
     2.0 * m.kept_spacing(pair.first) * m.radius(pair.first)
 }
@@ -97,7 +97,7 @@ pub(super) fn violation(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> f64
     pairs.chain([determinant_value(m, cell, t)]).fold(0.0, |v, c| v.max(-c))
 }
 
-/// Kind of the distances of the joints that slide like that of a side.
+/// The kind of the joint distances on the sliding body of a side.
 fn spacing_kind(side: usize) -> TermKind {
     [TermKind::BaseSpacing, TermKind::PlatformSpacing][side % 2]
 }
@@ -111,9 +111,9 @@ struct CellClimb<'a> {
     reference: f64,
     /// Pose that was worst at the last point.
     worst: Cell<usize>,
-    /// Poses that the steps see: those of low value at a point, and those that refused a step.
+    /// Poses in the steps: those of low value at a point, and those that refused a step.
     working: RefCell<BTreeSet<usize>>,
-    /// The last point that was judged, by its bits, and the value at each pose that was looked at.
+    /// The last judged point, by its bits, and its values at the evaluated poses.
     judged: RefCell<([u64; 6], Vec<f64>)>,
 }
 
@@ -163,7 +163,7 @@ impl CellClimb<'_> {
     }
 }
 
-/// So many of the poses of least value are seen by a step, if they have at most this factor of the least value.
+/// Number of poses of least value in a step, if within this factor of the least value.
 const FIRST_POSES: usize = 6;
 const NEAR: f64 = 2.0;
 
@@ -226,7 +226,7 @@ impl Climbable for CellClimb<'_> {
                 cone: None,
             });
         });
-        // the point of a step that was taken has just been judged at all poses
+        // the point of an accepted step has just been judged at all poses
         if self.judged.borrow().0 != t.map(f64::to_bits) {
             self.judge(x, &|_| false);
         }
@@ -246,7 +246,7 @@ impl Climbable for CellClimb<'_> {
     }
 }
 
-/// Gains are in units of the value at the start, and of this where the start has less.
+/// Least unit of gains; otherwise gains are in units of the value at the start.
 const LEAST_REFERENCE: f64 = 1e-3;
 
 /// Climbs from `start` within the cell.

@@ -1,7 +1,7 @@
 //! Inverse condition number of the platform without shared joints over the poses, with analytic derivatives.
 //!
-//! Row `i` of the Jacobian depends on offset `t_i` alone, so `dJ/dt_i` has one row and every derivative of a
-//! singular value is a product of two numbers.
+//! Row `i` of the Jacobian depends only on offset `t_i`. So `dJ/dt_i` has one row, and every derivative of a singular
+//! value is a product of two numbers.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -66,7 +66,7 @@ impl LegLine {
 }
 
 impl PoseLegs {
-    /// `sides` and `characteristic_length` are already divided by `scale`, the pose is not.
+    /// `sides` and `characteristic_length` are already divided by `scale`; the pose is not.
     pub(super) fn new(sides: &[HexagonSide; 6], pose: &Pose, characteristic_length: f64, scale: f64) -> Self {
         let position = pose.position / scale;
         let legs = sides.map(|side| {
@@ -89,7 +89,7 @@ impl PoseLegs {
         j
     }
 
-    /// `sigma_6 / sigma_1`; 0 where a leg has no length.
+    /// `sigma_6 / sigma_1`; 0 if a leg has no length.
     pub(super) fn inverse_condition(&self, t: &[f64; 6]) -> f64 {
         platform::manipulator::inverse_condition(&self.jacobian(t))
     }
@@ -104,11 +104,11 @@ impl PoseLegs {
         rows
     }
 
-    /// `None` when an entry is not finite or the decomposition does not converge.
+    /// `None` if an entry is not finite or the decomposition does not converge.
     pub(super) fn spectrum(&self, t: &[f64; 6]) -> Option<PoseSpectrum> {
         let rows = self.rows(t);
         if rows.rate.iter().any(|x| !x.is_finite()) {
-            return None; // the entries themselves are looked at below
+            return None; // the entries themselves are tested below
         }
         let svd = bounded_svd(&rows.value)?;
         let (u, v_t) = (svd.u?, svd.v_t?);
@@ -125,8 +125,8 @@ impl PoseSpectrum {
 
     /// First derivative of entry `(a, b)` of the symmetric part of `U^T J V`, singular vectors frozen.
     ///
-    /// For `a = b` it is the gradient of `sigma_a`; for a cluster of equal singular values the eigenvalues
-    /// of these blocks along a direction are the directional derivatives of the cluster.
+    /// For `a = b` it is the gradient of `sigma_a`. For a cluster of equal singular values, the eigenvalues of these
+    /// blocks along a direction are the directional derivatives.
     pub(crate) fn block_gradient(&self, a: usize, b: usize) -> [f64; 6] {
         std::array::from_fn(|j| {
             0.5 * (self.u[(j, a)] * self.rate[(j, b)] + self.u[(j, b)] * self.rate[(j, a)])
@@ -146,7 +146,7 @@ pub(crate) fn worst_case(poses: &[PoseLegs], t: &[f64; 6]) -> (f64, usize) {
     worst
 }
 
-/// As [`worst_case`], given up at the first pose whose value is not above `floor`; `hint` is tried first.
+/// [`worst_case`], stopped at the first pose whose value is not above `floor`; `hint` is tried first.
 pub(crate) fn worst_case_above(
     poses: &[PoseLegs],
     t: &[f64; 6],

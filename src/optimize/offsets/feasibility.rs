@@ -1,7 +1,7 @@
-//! Margins of offsets whose sign is that of exact arithmetic: the judge of what the search found.
+//! Margins of offsets with the sign of exact arithmetic, which judge the results of the search.
 //!
-//! Data and offsets are the doubles they are, so that every limit is met or not without any tolerance. Shares nothing
-//! with the intervals that exclude boxes.
+//! Data and offsets are doubles taken exactly, so every limit is met or not without any tolerance. The module is
+//! independent of the intervals that exclude boxes.
 
 use nalgebra::Point3;
 
@@ -47,7 +47,7 @@ impl EdgeJoint {
     }
 }
 
-/// A number with the sign of an exact one and about the size that is given.
+/// A number with the sign of an exact one and about the given size.
 fn signed(exact: &Rational, size: f64) -> f64 {
     let zero = Rational::from_integer(0.into());
     match exact.cmp(&zero) {
@@ -57,7 +57,7 @@ fn signed(exact: &Rational, size: f64) -> f64 {
     }
 }
 
-/// Distance of two joints less the required one; `None` where a number is not finite.
+/// Distance of two joints minus the required one; `None` if a number is not finite.
 fn distance_margin(a: &EdgeJoint, b: &EdgeJoint, required: f64) -> Option<f64> {
     let distance = (a.plain() - b.plain()).norm();
     let plain = distance - required;
@@ -105,7 +105,7 @@ fn determinant_margin(t: &[f64; 6], plain: f64, required: f64) -> Option<f64> {
 }
 
 impl OffsetProblem {
-    /// Distances of the offsets from the limits; the sign of each is exact, zero is met exactly. `None` where a number
+    /// Distances of the offsets from the limits. The sign of each is exact; zero means exactly met. `None` if a number
     /// is not finite.
     pub fn margins(&self, t: &[f64; 6]) -> Option<Margins> {
         if !t.iter().all(|x| x.is_finite()) {
@@ -146,7 +146,7 @@ mod tests {
             }
             assert!((least - p.min_joint_distance - margin).abs() < 1e-12);
         }
-        // at exactly the required distance of a joint from a vertex, and one double closer
+        // a joint at exactly the required distance from a vertex, and one double closer
         let mut q = p.clone();
         q.min_joint_distance = 3.0;
         // the edge on the x axis is exactly 12 long

@@ -1,10 +1,10 @@
-//! The limits on offsets in intervals: what is excluded here is excluded whatever rounding did.
+//! The limits on offsets in intervals: exclusions hold despite rounding.
 //!
 //! All data are the doubles of the problem, in design units; every comparison is between ends of intervals that are
 //! rounded outwards (Moore 1966). Equality never excludes.
 //!
-//! The distance of two sliding joints of one body is a convex quadratic of two offsets, bounded from below. A cell is
-//! proved empty by a linear relaxation with a Farkas certificate that is judged in intervals.
+//! The distance of two sliding joints of one body is a convex quadratic of two offsets, bounded from below. A linear
+//! relaxation with a Farkas certificate, judged in intervals, proves a cell empty.
 
 use nalgebra::Vector3;
 
@@ -16,7 +16,7 @@ use num::farkas::{EnclosedRow, refuted};
 use num::interval::Interval;
 use synthesis::{HexagonSide, offset_products, sides};
 
-/// An enclosure of one double. Infinite data never get here: the problem was validated.
+/// An enclosure of one double. Data are finite here, since the problem was validated.
 pub(super) fn point(x: f64) -> Interval {
     Interval::from(x)
 }
@@ -43,7 +43,7 @@ pub(super) fn dot(a: &Vector, b: &Vector) -> Interval {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The sum of the squares, each of them not below zero.
+/// The sum of the squares, each enclosed as non-negative.
 pub(super) fn norm_squared(a: &Vector) -> Interval {
     a[0].square() + a[1].square() + a[2].square()
 }
@@ -55,7 +55,7 @@ pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
 /// Six ranges of offsets.
 pub(crate) type OffsetRanges = [(f64, f64); 6];
 
-/// What the limits of a problem leave of ranges and boxes of offsets.
+/// The parts of ranges and boxes of offsets within the limits of a problem.
 #[derive(Debug, Clone)]
 pub(crate) struct OffsetLimits {
     sides: [SlidingJoint; 6],
@@ -89,10 +89,10 @@ impl SlidingJoint {
         norm_squared(&plus(&self.from_vertices[vertex], &times(&self.edge, point(t))))
     }
 
-    /// Offsets `a < b` between which, both included, the joint is closer to the vertex than required.
+    /// Offsets `a < b` such that on the closed interval the joint is closer to the vertex than required.
     ///
-    /// The squared distance is a convex function of the offset, so it is enough that it is below the required one at
-    /// both ends: these are the roots in plain arithmetic, moved inwards until the intervals agree.
+    /// The squared distance is a convex function of the offset, so it suffices that it is below the required one at
+    /// both ends. The ends are the roots in plain arithmetic, moved inwards until the intervals confirm them.
     fn too_close(&self, vertex: usize, required: Interval) -> Option<(f64, f64)> {
         let centre = |v: &Vector| v.map(|x| x.centre_and_radius().0);
         let (w, e) = (centre(&self.from_vertices[vertex]), centre(&self.edge));
@@ -101,7 +101,7 @@ impl SlidingJoint {
         let foot = -dot(&w, &e) / squared_length;
         let nearest: [f64; 3] = std::array::from_fn(|k| w[k] + foot * e[k]);
         let half = ((required.centre_and_radius().0 - dot(&nearest, &nearest)) / squared_length).sqrt();
-        // a negative radicand makes a half width that is not a number
+        // a negative radicand gives a NaN half width
         if !(half > 0.0 && half.is_finite() && foot.is_finite()) {
             return None;
         }
@@ -143,7 +143,7 @@ impl OffsetLimits {
         Some((side, root_above(squared(side).hi())))
     }
 
-    /// Parts of a range of one offset outside of which some vertex is closer than required.
+    /// Parts of a range of one offset; outside of them some vertex is closer than required.
     pub(super) fn room(&self, side: usize, range: (f64, f64)) -> Vec<(f64, f64)> {
         let mut left = vec![range];
         for vertex in 0..3 {
@@ -155,7 +155,7 @@ impl OffsetLimits {
         left
     }
 
-    /// Two sliding joints of one body that are closer than required all over the box, with an upper bound of their
+    /// Two sliding joints of one body that are closer than required on the whole box, with an upper bound of their
     /// distance.
     pub(crate) fn pair_too_close(&self, bounds: &OffsetRanges) -> Option<((usize, usize), f64)> {
         (0..6).find_map(|first| {
@@ -173,7 +173,7 @@ impl OffsetLimits {
         })
     }
 
-    /// Upper bounds of `det A` and of `-det A` on a box: the greatest values are at corners because it is affine in
+    /// Upper bounds of `det A` and of `-det A` on a box; the greatest values are at corners, since it is affine in
     /// every offset.
     pub(crate) fn determinant_reach(bounds: &OffsetRanges) -> [f64; 2] {
         // products over three offsets at the eight corners of their ranges, of `1 - t` and of `t`
@@ -196,20 +196,20 @@ impl OffsetLimits {
         reach
     }
 
-    /// `true` when `det A` cannot have this sign and the required size, given its greatest value with the sign.
+    /// `true` if `det A` cannot have this sign and the required size, given its greatest value with the sign.
     pub(crate) fn determinant_too_small(&self, greatest: f64) -> bool {
         greatest < self.min_abs_det
     }
 
-    /// `true` when no offsets of the box meet the limits on `det A` and on the distances of sliding joints.
+    /// `true` if no offsets of the box meet the limits on `det A` and on the distances of sliding joints.
     pub(super) fn is_empty(&self, bounds: &OffsetRanges) -> bool {
         Self::determinant_reach(bounds).into_iter().all(|x| self.determinant_too_small(x))
             || self.pair_too_close(bounds).is_some()
     }
 
-    /// Coefficients `[constant, by x, by y]` of affine functions that are nowhere on the box below
-    /// `q(x, y) - required`, `q` the squared distance of the sliding joints of sides `first` and `first + 2`: chords
-    /// for the squares, `McCormick`'s two envelopes for the product.
+    /// Coefficients `[constant, by x, by y]` of affine upper bounds of `q(x, y) - required` on the box, with the
+    /// squared distance `q` of the sliding joints of sides `first` and `first + 2`. The squares have chords, the
+    /// product `McCormick`'s two envelopes.
     fn overestimates(&self, first: usize, bounds: &OffsetRanges) -> [[Interval; 3]; 2] {
         let (a, b) = (&self.sides[first], &self.sides[(first + 2) % 6]);
         let (x, y) = (bounds[first], bounds[(first + 2) % 6]);
@@ -227,8 +227,8 @@ impl OffsetLimits {
             by_x + ee * (x0 + x1),
             by_y + ff * (y0 + y1),
         ];
-        // mixed x y <= mixed (p y + q x - p q) for the corners (p, q) of the side that its sign names; where the sign
-        // is not known both of its parts are bounded on their own
+        // mixed x y <= mixed (p y + q x - p q) for the corners (p, q) of the side given by its sign. For an unknown
+        // sign both parts are bounded separately.
         let (rise, fall) = (part(mixed, 0.0, f64::INFINITY), part(mixed, f64::NEG_INFINITY, 0.0));
         let corners = [((x1, y0), (x0, y0)), ((x0, y1), (x1, y1))];
         corners.map(|(up, down)| {
@@ -243,7 +243,7 @@ impl OffsetLimits {
     }
 }
 
-/// The numbers of an interval cut to a range that holds zero.
+/// The part of an interval within a range that contains zero.
 fn part(x: Interval, low: f64, high: f64) -> Interval {
     let cut = |end: f64| end.clamp(low, high);
     Interval::new(cut(x.lo()), cut(x.hi())).unwrap_or(Interval::WHOLE)
@@ -254,7 +254,7 @@ fn root_above(x: f64) -> f64 {
     if x > 0.0 { x.sqrt().next_up() } else { 0.0 }
 }
 
-/// Two edge joints that slide on edges with a common vertex: sides `first` and `second = first + 2`.
+/// Two edge joints on edges with a common vertex: sides `first` and `second = first + 2`.
 ///
 /// `q(x, y) = |w + x e - y f|^2` with `x = t_first`, `y = t_second`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -300,7 +300,7 @@ impl SlidingPair {
         [bounds[self.first], bounds[self.second]]
     }
 
-    /// Least value on a box: at the common vertex `(1, 0)` when inside, else on one of the four edges.
+    /// Least value on a box: at the common vertex `(1, 0)` if inside, otherwise on one of the four edges.
     pub(super) fn least(&self, [x, y]: Box2) -> f64 {
         if x.0 <= 1.0 && 1.0 <= x.1 && y.0 <= 0.0 && 0.0 <= y.1 {
             return 0.0;
@@ -313,9 +313,8 @@ impl SlidingPair {
     }
 }
 
-/// The linear relaxation of order and spacing on a cell: every squared distance is replaced by affine
-/// functions that are nowhere below it on the box, so that an infeasible relaxation proves the cell empty.
-/// `det A` is not part of it; its range on the box is tested before.
+/// The linear relaxation of order and spacing on a cell. Affine upper bounds replace every squared distance, so an
+/// infeasible relaxation proves the cell empty. `det A` is not part of it; its range on the box is tested earlier.
 fn relaxation(cell: &BranchCell, limits: &OffsetLimits) -> Vec<EnclosedRow> {
     let order = cell.order_rows().into_iter().map(|(i, j, [c, x, y])| EnclosedRow {
         coefficients: vec![(i, point(-x)), (j, point(-y))],
@@ -329,11 +328,11 @@ fn relaxation(cell: &BranchCell, limits: &OffsetLimits) -> Vec<EnclosedRow> {
     order.chain(spacing).collect()
 }
 
-/// A proved conflict of the cell, or `None` when the relaxation is feasible or nothing could be shown.
+/// A proved conflict of the cell; `None` if the relaxation is feasible or nothing could be proved.
 pub(crate) fn proved_empty(cell: &BranchCell, limits: &OffsetLimits, tally: &ConicTally) -> Option<Conflict> {
     let rows = relaxation(cell, limits);
     let centre = |x: &Interval| x.centre_and_radius().0;
-    // the solver scales its rows itself, but not by the size of the design: squared distances are made of order one
+    // the solver scales its rows, but not by the size of the design, so squared distances are scaled to order one
     let largest = rows.iter().map(|r| centre(&r.rhs).abs()).fold(f64::MIN_POSITIVE, f64::max);
     let mut p = ConicProgram { variables: 6, linear: vec![0.0; 6], ..Default::default() };
     for r in &rows {
@@ -345,7 +344,7 @@ pub(crate) fn proved_empty(cell: &BranchCell, limits: &OffsetLimits, tally: &Con
         p.at_least_zero(vec![(i, -1.0)], -low);
     }
     let ConicAnswer::Infeasible(ray) = p.solve(tally) else { return None };
-    // the ranges of the offsets take part as they are, without multipliers
+    // the ranges of the offsets enter unchanged, without multipliers
     let ray = ray.get(..rows.len())?;
     let ranges: Option<Vec<Interval>> = cell.outer.iter().map(|b| Interval::new(b.0, b.1)).collect();
     let strength = refuted(&rows, &[Cone::NonNegative(rows.len())], ray, &ranges?)?;
@@ -393,8 +392,8 @@ mod tests {
         }
     }
 
-    /// Two joints on platform edges, both near the common vertex, angle 60 degrees: with arms in `[m, 1.2 m]`
-    /// the distance is at most `1.2 m`; with a wider requirement the box is empty, and so says the certificate.
+    /// Two joints on platform edges, both near the common vertex, angle 60 degrees. With arms in `[m, 1.2 m]` the
+    /// distance is at most `1.2 m`; for a wider requirement the certificate proves the box empty.
     #[test]
     fn a_cell_without_room_is_proved_empty_and_one_with_room_is_not() {
         let mut p = OffsetProblem::with_defaults(example(), poses());

@@ -1,11 +1,9 @@
-//! Pulls the shared joints of an octahedral platform apart in the best way: finds the best equivalent 6-6 platform
-//! without shared joints.
+//! Separates the shared joints of an octahedral platform: finds the best equivalent 6-6 platform without shared joints.
 //!
-//! Leg `i` of the new platform lies on the line through the cyclic legs `i` and `i + 1`, at offset `t_i`; the
-//! worst case over given poses of the inverse condition number is maximised over the six offsets, by
-//! sequential convex programming in the `3^6` branches (joint before, inside or beyond its edge), and compared with
-//! all other offsets by branch and bound.
-//! Derivation and limits: `docs/theory/offset-optimisation.md`.
+//! Leg `i` of the new platform is on the line through the cyclic legs `i` and `i + 1`, at offset `t_i`. The objective
+//! is the worst inverse condition number over given poses, maximised over the six offsets. Sequential convex
+//! programming searches the `3^6` branches (joint before, inside or beyond its edge). Branch and bound compares the
+//! result with all other offsets. Derivation and limits: `docs/theory/offset-optimisation.md`.
 
 mod bound;
 mod branch;

@@ -1,5 +1,4 @@
-//! The answer of the search, checked again on the original problem in design units by code that the search does not
-//! use.
+//! The answer of the search, checked again on the original problem in design units by separate code.
 
 use nalgebra::Matrix6;
 
@@ -14,7 +13,7 @@ use platform::manipulator::{Manipulator, jacobian};
 use synthesis::{AffineLegMap, joint_free, offset_determinant};
 
 /// Distances from the limits; negative means violated. The signs are those of exact arithmetic on the offsets and the
-/// design as they are written: zero is met exactly.
+/// design as written: zero is met exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margins {
     /// Least distance of two base joint centres minus the required one, design units.
@@ -28,7 +27,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// No limit is violated, to the last bit.
+    /// Whether no limit is violated, exactly.
     #[must_use]
     pub fn all_met(&self) -> bool {
         self.base_spacing >= 0.0 && self.platform_spacing >= 0.0 && self.det >= 0.0 && self.bounds >= 0.0
@@ -64,8 +63,8 @@ fn inverse_condition(j: &Matrix6<f64>) -> f64 {
 }
 
 impl OffsetProblem {
-    /// Evaluates offsets on the original problem: margins with exact signs, `det A` in two ways, an SVD at every pose
-    /// of the built manipulator. `None` when the offsets make no manipulator (not finite).
+    /// Evaluates offsets on the original problem. It gives margins with exact signs, `det A` in two ways, and an SVD at
+    /// every pose of the manipulator. `None` if the offsets form no manipulator (not finite).
     #[must_use]
     pub fn recheck(&self, t: &[f64; 6]) -> Option<Recheck> {
         let (m, map) = joint_free(&self.octahedral, *t).ok()?;
@@ -87,16 +86,16 @@ impl OffsetProblem {
     }
 }
 
-/// Evidence that no better offsets are near; a local statement.
+/// Evidence that no nearby offsets are better, a local statement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalEvidence {
-    /// The conic solver's model promised no further gain.
+    /// Whether the conic solver's model predicted no further gain.
     pub converged: bool,
-    /// First-order gain still promised for a unit of offset, relative to the objective (KKT residual).
+    /// Predicted first-order gain per unit of offset, relative to the objective (KKT residual).
     pub stationarity: f64,
     /// Relative gain of a derivative-free search around the solution, on the true problem.
     pub pattern_gain: f64,
-    /// Trial points of that search.
+    /// Number of trial points of that search.
     pub pattern_trials: usize,
 }
 
@@ -113,7 +112,7 @@ pub struct OffsetSolution {
     pub recheck: Recheck,
     /// Local optimality evidence.
     pub evidence: LocalEvidence,
-    /// Steps of the run that found it.
+    /// Steps of the run that found the solution.
     pub history: Vec<HistoryStep>,
     /// The platform, legs in the order of the design.
     pub manipulator: Manipulator,
@@ -124,40 +123,40 @@ pub struct OffsetSolution {
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OffsetOutcome {
-    /// Feasible by the re-check, and no offsets exceed it by more than the gap asked for: proved
+    /// Feasible by the re-check, and proved: no offsets exceed it by more than the requested gap
     /// ([`OffsetReport::bound`]).
     Optimal(Box<OffsetSolution>),
-    /// Feasible by the re-check and locally optimal by the evidence; how much better other offsets could be is bounded
-    /// by a wider gap than asked for, or not at all.
+    /// Feasible by the re-check and locally optimal by the evidence. The bound over other offsets has a wider gap than
+    /// requested, or is missing.
     LocalOptimum(Box<OffsetSolution>),
-    /// Feasible by the re-check, but the evidence of local optimality is missing and so is the proof of a small gap.
+    /// Feasible by the re-check, but without evidence of local optimality and without proof of a small gap.
     NotConverged(Box<OffsetSolution>),
     /// Every branch is proved empty.
     Infeasible,
     /// No feasible point found, and some branches are not proved empty.
     Undecided {
-        /// How many branches.
+        /// Number of these branches.
         unproved: usize,
     },
 }
 
-/// What became of one branch.
+/// The verdict on one branch.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BranchVerdict {
     /// Holds the best solution.
     Best,
-    /// Feasible, and searched without reaching the best value: its own best.
+    /// Feasible, with a best value below that of the solution.
     Dominated {
         /// Worst-case inverse condition number reached.
         value: f64,
-        /// Where.
+        /// Its offsets.
         offsets: [f64; 6],
-        /// `true` when the local search of the best cell had settled.
+        /// `true` if the local search of the best cell converged.
         settled: bool,
     },
-    /// No feasible point was drawn and none was looked for: the bound over all offsets covers it.
+    /// No feasible point was drawn or searched: the bound over all offsets covers it.
     Bounded,
-    /// Proved empty: see the conflicts.
+    /// Proved empty by the conflicts.
     Infeasible,
     /// No feasible point found, emptiness not proved.
     Unproved,
@@ -166,7 +165,7 @@ pub enum BranchVerdict {
 }
 
 impl BranchVerdict {
-    /// The word for it.
+    /// The verdict as a word.
     #[must_use]
     pub fn word(&self) -> BranchWord {
         match self {
@@ -180,7 +179,7 @@ impl BranchVerdict {
     }
 }
 
-/// What became of a branch.
+/// The verdict on a branch, as a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -190,9 +189,9 @@ impl BranchVerdict {
 pub enum BranchWord {
     /// It holds the best solution.
     Best,
-    /// It is feasible, and does not reach the best value.
+    /// It is feasible, but does not reach the best value.
     Dominated,
-    /// No feasible point was looked for: the bound over all offsets covers it.
+    /// No feasible point was searched: the bound over all offsets covers it.
     Bounded,
     /// It is proved empty.
     Infeasible,
@@ -215,7 +214,7 @@ pub struct BranchReport {
     pub verdict: BranchVerdict,
 }
 
-/// Everything the search found.
+/// All results of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OffsetReport {
     /// The answer.
@@ -224,19 +223,19 @@ pub struct OffsetReport {
     pub branches: Vec<BranchReport>,
     /// The best other branches, best first: indices into `branches` with polished values.
     pub runners_up: Vec<usize>,
-    /// What no offsets can exceed; `None` without a solution, or when it could not be proved.
+    /// The proved upper bound over all offsets; `None` without a solution, or without a proof.
     pub bound: Option<GlobalBound>,
-    /// Greatest gap at which a solution counts as optimal: what was asked for.
+    /// Requested gap: the greatest one at which a solution counts as optimal.
     pub tolerance: f64,
-    /// `true` when the caller broke the search off: the solution is the best until then.
+    /// `true` if the caller interrupted the search: the solution is the best until then.
     pub interrupted: bool,
     /// Seed of the starting points.
     pub seed: u64,
-    /// Conic programs that were solved.
+    /// Number of solved conic programs.
     pub conic_programs: u64,
 }
 
-/// What became of the branches.
+/// Counts of the verdicts on the branches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -244,24 +243,24 @@ pub struct OffsetReport {
     schemars(rename = "BranchCountsRecord")
 )]
 pub struct BranchCounts {
-    /// All of them.
+    /// All branches.
     pub total: usize,
-    /// Feasible ones.
-    // the best one included
+    /// Feasible branches.
+    // including the best one
     pub feasible: usize,
-    /// Proved empty: nothing of a zone lies within the bounds.
+    /// Proved empty: no part of a zone is within the bounds.
     #[cfg_attr(feature = "serde", serde(rename = "infeasible_bounds"))]
     pub outside_bounds: usize,
-    /// Proved empty: no room for the joints.
+    /// Proved empty: no space for the joints.
     // of vertices, edge joints, or several together
     #[cfg_attr(feature = "serde", serde(rename = "infeasible_spacing"))]
     pub spacing: usize,
     /// Proved empty: |det A| is too small.
     #[cfg_attr(feature = "serde", serde(rename = "infeasible_det"))]
     pub det: usize,
-    /// Covered by the bound over all offsets, not searched.
+    /// Covered by the bound over all offsets, without a search.
     pub bounded: usize,
-    /// Not decided.
+    /// Undecided.
     pub unproved: usize,
     /// The conic solver failed.
     #[cfg_attr(feature = "serde", serde(rename = "solver_failure"))]
@@ -269,7 +268,7 @@ pub struct BranchCounts {
 }
 
 impl OffsetReport {
-    /// The solution, when there is one.
+    /// The solution, if there is one.
     #[must_use]
     pub fn solution(&self) -> Option<&OffsetSolution> {
         match &self.outcome {

@@ -1,4 +1,4 @@
-//! The optimisation problem in design units, its defaults, and the scaled model the search works on.
+//! The optimisation problem in design units, its defaults, and the scaled model of the search.
 
 use thiserror::Error;
 
@@ -15,21 +15,21 @@ pub const DEFAULT_MIN_ABS_DET: f64 = 0.05;
 /// Default bounds of an offset: at most one edge length out on either extension of the edge.
 pub const DEFAULT_BOUNDS: (f64, f64) = (-1.0, 2.0);
 
-/// Which six offsets make the best platform without shared joints equivalent to an octahedral one?
+/// The problem of the best platform without shared joints that is equivalent to an octahedral one.
 ///
-/// Maximise over `t` in `R^6`, leg `i` being `(1 - t_i) leg_i + t_i leg_(i+1)` of the cyclic octahedral legs,
+/// Maximise over `t` in `R^6`, with leg `i` as `(1 - t_i) leg_i + t_i leg_(i+1)` of the cyclic octahedral legs,
 ///
 /// ```text
 /// min over poses of sigma_6(J(t, pose)) / sigma_1(J(t, pose)),  rows [u_i, (R b_i x u_i) / L],
 /// ```
 ///
-/// subject to: joint centres of one body at least `min_joint_distance` apart (three vertices and three edge
-/// joints on each body), `|det A(t)| >= min_abs_det`, `bounds[i].0 <= t_i <= bounds[i].1`.
+/// subject to three limits. Joint centres of one body are at least `min_joint_distance` apart (three vertices and three
+/// edge joints on each body). `|det A(t)| >= min_abs_det`, and `bounds[i].0 <= t_i <= bounds[i].1`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OffsetProblem {
     /// The octahedral manipulator, cyclic order.
     pub octahedral: Octahedral,
-    /// Poses over which the worst case is taken, design units.
+    /// Poses of the worst case, design units.
     pub poses: Vec<Pose>,
     /// `L`, design units.
     pub characteristic_length: f64,
@@ -41,11 +41,11 @@ pub struct OffsetProblem {
     pub bounds: [(f64, f64); 6],
 }
 
-/// A problem that cannot be asked.
+/// Reasons why a problem is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InvalidOffsetProblem {
-    /// No pose to take the worst case over.
+    /// There are no poses for the worst case.
     #[error("no pose is given to judge the platform at")]
     NoPoses,
     /// A pose has entries that are not finite.
@@ -80,9 +80,9 @@ fn radius(triangle: &[nalgebra::Point3<f64>; 3]) -> f64 {
 }
 
 impl OffsetProblem {
-    /// The problem with the documented defaults: `L` = RMS distance of the platform vertices from their
-    /// centroid, spacing 5 % of the smaller body's radius (greatest distance of a vertex from the centroid),
-    /// `|det A| >= 0.05`, joints at most one edge length out on an extension.
+    /// The problem with the documented defaults. `L` is the RMS distance of the platform vertices from their centroid.
+    /// The spacing is 5 % of the smaller body's radius (greatest distance of a vertex from the centroid). `|det A|` is
+    /// at least 0.05, and joints are at most one edge length out on an extension.
     #[must_use]
     pub fn with_defaults(octahedral: Octahedral, poses: Vec<Pose>) -> Self {
         let (base, platform) = (octahedral.base(), octahedral.platform());
@@ -99,7 +99,7 @@ impl OffsetProblem {
         }
     }
 
-    /// The larger radius of the two triangles: lengths are divided by it inside.
+    /// The larger radius of the two triangles, the internal unit of length.
     #[must_use]
     pub fn size(&self) -> f64 {
         radius(&self.octahedral.base()).max(radius(&self.octahedral.platform()))
@@ -111,13 +111,13 @@ impl OffsetProblem {
         sides(&self.octahedral, 1.0).map(|s| s.edge_length())
     }
 
-    /// Which body carries the sliding joint of side `i`.
+    /// The bodies of the sliding joints of the sides.
     #[must_use]
     pub fn sliding_bodies(&self) -> [Body; 6] {
         sides(&self.octahedral, 1.0).map(|s| s.sliding)
     }
 
-    /// Checks that the problem is complete and its numbers are possible.
+    /// Checks that the problem is complete and its numbers are valid.
     ///
     /// # Errors
     /// The first violation.
@@ -148,7 +148,7 @@ impl OffsetProblem {
     }
 }
 
-/// The problem with lengths divided by the size, as the search sees it.
+/// The problem with lengths divided by the size, as in the search.
 #[derive(Debug, Clone)]
 pub(crate) struct OffsetModel {
     /// Design units in one unit of length of the model.
@@ -157,7 +157,7 @@ pub(crate) struct OffsetModel {
     pub poses: Vec<PoseLegs>,
     /// Required spacing.
     pub spacing: f64,
-    /// Radii of the two triangles, base first: what the back-off from the spacing is relative to.
+    /// Radii of the two triangles, base first: the reference of the back-off from the spacing.
     pub radii: [f64; 2],
     /// Required `|det A|`, exact.
     pub min_abs_det: f64,
@@ -165,8 +165,8 @@ pub(crate) struct OffsetModel {
     pub conic: ConicTally,
 }
 
-/// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so
-/// that a conic solver's residual cannot carry the answer across them. It is not part of any proof.
+/// Distance of the search from the true limits (relative to the radius of the body; absolute in `det A`). It keeps a
+/// conic solver's residual from carrying the answer across them. Proofs do not use it.
 pub(crate) const BACKOFF: f64 = 1e-8;
 
 impl OffsetModel {

@@ -1,7 +1,7 @@
 //! The search over all branches: divide, sample, rank every cell, polish the best ones.
 //!
-//! Two pieces of evidence follow: a derivative-free search around the solution, which uses neither the conic solver nor
-//! any derivative, and the bound over all offsets of the problem, which the best run is compared with.
+//! Two pieces of evidence follow. A derivative-free search around the solution uses neither the conic solver nor
+//! derivatives. The bound over all offsets of the problem is compared with the best run.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -23,27 +23,27 @@ use num::parallel::parallel;
 use num::{Purpose, Rng};
 use synthesis::offset_determinant;
 
-/// Options of the search; none of them changes what is feasible.
+/// Options of the search; none of them changes the requirements of a feasible design.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OffsetSearchOptions {
-    /// Seed of starting points. Same seed, same answer, whatever the number of threads.
+    /// Seed of starting points. The same seed gives the same answer for any number of threads.
     pub seed: u64,
     /// Worker threads (0 counts as 1).
     pub threads: usize,
-    /// Feasible samples before each climb of the first pass; the best of them is its start.
+    /// Number of feasible samples before each climb of the first pass; the best of them is its start.
     pub samples: usize,
-    /// Climbs in each cell in the first pass.
+    /// Number of climbs in each cell in the first pass.
     pub climbs: usize,
-    /// Cells polished to full accuracy.
+    /// Number of cells polished to full accuracy.
     pub polished: usize,
-    /// Further starts in each polished cell.
+    /// Number of further starts in each polished cell.
     pub starts: usize,
-    /// Search every branch for its own best, not only for what the whole problem needs.
+    /// Whether to search every branch for its own best, beyond the needs of the whole problem.
     pub survey: bool,
     /// Greatest relative gap between the proved upper bound and the solution at which the solution counts as optimal. A
-    /// proof that takes too many boxes ends with a wider one.
+    /// proof that needs too many boxes ends with a wider gap.
     pub gap: f64,
-    /// Boxes of offsets after which the gap is widened.
+    /// Number of boxes of offsets after which the gap is widened.
     pub boxes: usize,
 }
 
@@ -63,7 +63,7 @@ impl Default for OffsetSearchOptions {
     }
 }
 
-/// In words for people.
+/// The progress in words.
 impl std::fmt::Display for OffsetProgress {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -76,39 +76,39 @@ impl std::fmt::Display for OffsetProgress {
     }
 }
 
-/// How far the search is.
+/// Progress of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OffsetProgress {
     /// Cells ranked so far.
     Ranking {
-        /// Done.
+        /// Number done.
         done: usize,
-        /// Of how many.
+        /// Total number.
         total: usize,
         /// Best worst-case inverse condition number of feasible offsets so far, 0 before the first.
         best: f64,
     },
     /// Boxes of offsets compared with the best value.
     Bounding {
-        /// Looked at.
+        /// Number of searched boxes.
         boxes: usize,
-        /// Waiting.
+        /// Number of waiting boxes.
         open: usize,
         /// Best worst-case inverse condition number so far.
         best: f64,
     },
     /// Starts of the best cells polished so far.
     Polishing {
-        /// Done.
+        /// Number done.
         done: usize,
-        /// Of how many.
+        /// Total number.
         total: usize,
         /// Best worst-case inverse condition number of feasible offsets so far, 0 before the first.
         best: f64,
     },
 }
 
-/// The best value that any of the threads has come to, for those who watch.
+/// The best value of all threads, for progress reports.
 struct Best(AtomicU64);
 
 impl Best {
@@ -118,7 +118,7 @@ impl Best {
 
     fn offer(&self, run: &LocalResult) {
         if run.is_feasible() && run.value > 0.0 {
-            // doubles that are not negative are in the order of their bits
+            // non-negative doubles have the order of their bits
             self.0.fetch_max(run.value.to_bits(), Ordering::Relaxed);
         }
     }
@@ -128,31 +128,31 @@ impl Best {
     }
 }
 
-/// What the first pass found in a cell.
+/// The result of the first pass in a cell.
 #[derive(Debug)]
 pub(crate) enum CellResult {
     Feasible(LocalResult),
-    /// No feasible point was drawn, and none was looked for: the bound over all offsets covers it.
+    /// No feasible point was drawn or searched: the bound over all offsets covers it.
     Passed,
     Empty(Conflict),
     Unknown(Option<SolverFailure>),
 }
 
-/// Draws tried for one wanted feasible sample.
+/// Number of draws per wanted feasible sample.
 const DRAWS_PER_SAMPLE: usize = 30;
-/// With more poses than this the first pass sees the most critical ones only; values are always true ones.
+/// Above this number of poses the first pass uses only the most critical ones; reported values are always true ones.
 const RANKING_POSES: usize = 80;
-/// Feasible samples whose worst poses make up that selection.
+/// Number of feasible samples whose worst poses form that selection.
 const CRITICAL_SAMPLES: usize = 160;
-/// Poses of the first look when not every branch is searched.
+/// Number of poses of the first sample if not every branch is searched.
 const SAMPLED_POSES: usize = 24;
-/// So few cells are searched one by one in any case.
+/// Up to this number of cells every cell is searched.
 const FEW_CELLS: usize = 64;
-/// Cells climbed after that look, and those polished.
+/// Number of cells climbed after that sample, and polished.
 const CONTENDERS: usize = 12;
 const FINALISTS: usize = 3;
 
-/// What is searched: the problem as it was asked, as the search sees it, and as proofs see it.
+/// The problem in three forms: as given, for the search, and for proofs.
 #[derive(Debug, Clone, Copy)]
 struct OffsetQuestion<'a> {
     problem: &'a OffsetProblem,
@@ -160,8 +160,8 @@ struct OffsetQuestion<'a> {
     limits: &'a OffsetLimits,
 }
 
-/// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration,
-/// then a proof, then offsets that meet the limits with nothing to spare.
+/// Best feasible run of a few short climbs from sampled starts, with the poses of `few`. Without one, it tries
+/// restoration, then a proof, then offsets that meet the limits without any margin.
 fn rank_cell(
     asked: OffsetQuestion<'_>,
     few: &OffsetModel,
@@ -201,16 +201,15 @@ pub(super) fn better(a: &LocalResult, b: &LocalResult) -> bool {
     a.is_feasible() && (!b.is_feasible() || a.value > b.value)
 }
 
-/// Finds the best platform without shared joints; see [`OffsetProblem`] for the problem, the theory page for the
+/// Finds the best platform without shared joints; see [`OffsetProblem`] for the problem and the theory page for the
 /// method.
 ///
-/// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]),
-/// which also leads to better starts when there are any. `progress` may break the search off; the best until then is
-/// returned. With [`OffsetSearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is
-/// searched.
+/// Branch and bound compares the best of several climbs with all offsets ([`OffsetReport::bound`]), and also finds
+/// better starts if there are any. `progress` may interrupt the search; the best result so far is returned. With
+/// [`OffsetSearchOptions::survey`], with few cells, or if no feasible point is drawn, every branch is searched.
 ///
 /// # Errors
-/// [`InvalidOffsetProblem`] when the problem cannot be asked. An infeasible problem is a value.
+/// [`InvalidOffsetProblem`]. An infeasible problem is a regular outcome.
 pub fn optimize(
     problem: &OffsetProblem,
     options: &OffsetSearchOptions,
@@ -223,7 +222,7 @@ pub fn optimize(
         return Ok(nothing_fits(divisions, &conflict, options));
     }
     let cells: Vec<&BranchCell> = divisions.iter().flat_map(|d| &d.cells).collect();
-    // once the caller breaks off, what is left is passed over
+    // after an interruption the remaining work is skipped
     let stopped = AtomicBool::new(false);
     let progress = &mut |p| {
         if progress(p).is_break() {
@@ -262,7 +261,7 @@ fn best_cells(ranked: &[CellResult], count: usize) -> Vec<usize> {
     order.into_iter().take(count.max(1)).map(|x| x.1).collect()
 }
 
-/// Every cell searched for its own best.
+/// A search of every cell for its own best.
 fn survey(
     asked: OffsetQuestion<'_>,
     cells: &[&BranchCell],
@@ -290,7 +289,7 @@ fn survey(
     parallel(total, o.threads, rank, tick)
 }
 
-/// One feasible sample of every cell, and short climbs from the best; `None` when there is no sample.
+/// One feasible sample of every cell, and short climbs from the best; `None` without a sample.
 fn sample_cells(
     m: &OffsetModel,
     cells: &[&BranchCell],
@@ -333,8 +332,8 @@ fn sample_cells(
     Some(ranked)
 }
 
-/// The model with the poses that are worst at feasible samples of many cells, most frequent first, then evenly
-/// strided ones; `None` when there are few poses anyway.
+/// The model with the poses that are worst at feasible samples of many cells, most frequent first, then evenly strided
+/// ones. `None` if there are few poses anyway.
 fn critical_poses(
     m: &OffsetModel,
     cells: &[&BranchCell],
@@ -364,10 +363,10 @@ fn critical_poses(
     Some(OffsetModel { poses: order.into_iter().map(|k| m.poses[k].clone()).collect(), ..m.clone() })
 }
 
-/// A cell and offsets to climb from.
+/// A cell and the offsets at the start of a climb.
 type ClimbStart = (usize, [f64; 6]);
 
-/// The points that were ranked and `more` further ones of each of the chosen cells.
+/// The ranked points and `more` further ones of each chosen cell.
 fn polish_starts(
     m: &OffsetModel,
     cells: &[&BranchCell],
@@ -401,7 +400,7 @@ fn polish(
     let total = tasks.len();
     let run = |i: usize| {
         let (k, start) = tasks[i];
-        // the first start is polished whatever happens: it is the answer of an interrupted search
+        // the first start is always polished, as the answer of an interrupted search
         let effort = if i > 0 && stopped() { RANK } else { Effort::POLISH };
         let run = climb(m, cells[k], start, effort);
         best.offer(&run);
@@ -427,8 +426,8 @@ fn best_first(runs: &mut [(usize, LocalResult)]) {
     });
 }
 
-/// Where no climb ended at a better feasible point, the point it began at stays: a feasible set that is thinner than
-/// the back-off is left by climbs.
+/// Keeps the start of a climb if no climb ended at a better feasible point: climbs leave a feasible set thinner than
+/// the back-off.
 fn keep_ranked(m: &OffsetModel, ranked: &[CellResult], polished: &mut [(usize, LocalResult)]) {
     for (k, run) in polished.iter_mut() {
         if let CellResult::Feasible(own) = &ranked[*k] {
@@ -449,8 +448,8 @@ pub(crate) struct PolishedOffsets {
     pub trials: usize,
 }
 
-/// Tries steps along the axes, along pairs of axes and in random directions, at radii from 1e-2 down to 1e-6
-/// (offset units); steps are cut off at the box, points that violate a constraint are dropped.
+/// Tries steps along the axes, along pairs of axes and in random directions, at radii from 1e-2 down to 1e-6 (offset
+/// units). Steps are cut off at the box; points that violate a constraint are dropped.
 pub(crate) fn pattern_search(
     m: &OffsetModel,
     cell: &BranchCell,
@@ -496,7 +495,7 @@ fn direction(k: usize, rng: &mut Rng) -> [f64; 6] {
     d
 }
 
-/// The whole problem: everything the bound compares with.
+/// The whole problem, for the comparison with the bound.
 pub(super) struct Area<'a> {
     pub problem: &'a OffsetProblem,
     pub m: &'a OffsetModel,
@@ -506,7 +505,7 @@ pub(super) struct Area<'a> {
 }
 
 impl Area<'_> {
-    /// A run from offsets that are better than all so far; `None` when they do not meet the limits.
+    /// A run from offsets that are better than all so far; `None` if they violate the limits.
     fn run_from(&self, t: &[f64; 6], value: f64) -> Option<(usize, LocalResult)> {
         let d = Branch::of(t).index();
         let first: usize = self.divisions[..d].iter().map(|d| d.cells.len()).sum();
@@ -517,7 +516,7 @@ impl Area<'_> {
                 return Some((k, run));
             }
         }
-        // nothing to spare, or nothing to climb
+        // no margin, or nothing to climb
         let k = own.find(|&k| {
             let cell = self.cells[k];
             cell.sign * offset_determinant(t) > 0.0 && in_order(cell, t)
@@ -526,7 +525,8 @@ impl Area<'_> {
         met.then(|| (k, LocalResult::drawn(*t, value)))
     }
 
-    /// Compares the best run with all offsets; better ones that turn up on the way are climbed from and put in front.
+    /// Compares the best run with all offsets; climbs start from better ones found on the way, and their results come
+    /// first.
     pub(super) fn bound(
         &self,
         polished: &mut Vec<(usize, LocalResult)>,

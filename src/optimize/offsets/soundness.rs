@@ -1,4 +1,5 @@
-//! No feasible offsets are ever excluded: families of problems that leave next to nothing, judged in exact rationals.
+//! No feasible offsets are ever excluded: families of problems with almost no feasible offsets, judged in exact
+//! rationals.
 
 use std::ops::ControlFlow;
 
@@ -70,7 +71,7 @@ fn exact_values(o: &Octahedral, t: &[f64; 6]) -> (Rational, Rational) {
             }
         }
     }
-    // a second evaluation on purpose, apart from the one that is tested here
+    // a deliberately separate evaluation from the tested one
     let (mut free, mut own) = (exact(1.0), exact(1.0));
     for x in t {
         free *= exact(1.0) - exact(*x);
@@ -80,7 +81,7 @@ fn exact_values(o: &Octahedral, t: &[f64; 6]) -> (Rational, Rational) {
     (least.unwrap(), if det < exact(0.0) { -det } else { det })
 }
 
-/// The greatest double with a square that is at most `x`.
+/// The greatest double whose square is at most `x`.
 fn root_below(x: &Rational) -> f64 {
     let mut r = approximate(x).sqrt();
     while &(exact(r) * exact(r)) > x {
@@ -97,11 +98,11 @@ fn below(x: &Rational) -> f64 {
     if &exact(r) > x { r.next_down() } else { r }
 }
 
-/// A problem that certain offsets meet with nothing to spare in distance, determinant and, in part, bounds.
+/// A problem that given offsets meet without margin in distance, determinant and, in part, bounds.
 fn barely(rng: &mut Rng, n: usize) -> (OffsetProblem, [f64; 6]) {
     loop {
         let o = octahedral(rng, n);
-        // now and then at the bounds, as with joints that may not leave their edges
+        // sometimes at the bounds, as for joints that may not leave their edges
         let t: [f64; 6] = std::array::from_fn(|_| match n % 5 {
             0 => rng.uniform(-1.0, 2.0),
             1 => (rng.uniform(-1.0, 2.0) * 8.0).round() / 8.0,
@@ -122,7 +123,7 @@ fn barely(rng: &mut Rng, n: usize) -> (OffsetProblem, [f64; 6]) {
     }
 }
 
-/// Ranges about offsets, the offsets at an end of some.
+/// Ranges about offsets, with the offsets at an end of some.
 fn around(t: &[f64; 6], rng: &mut Rng) -> OffsetRanges {
     t.map(|x| {
         let width = 10f64.powf(rng.uniform(-13.0, 0.0));
@@ -169,7 +170,7 @@ fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
     }
 }
 
-/// Negative control: what is excluded by more than rounding is told.
+/// Negative control: exclusion by more than rounding is detected.
 #[test]
 fn a_limit_raised_by_a_billionth_is_seen_to_exclude() {
     let mut rng = Rng::new(43);
@@ -202,7 +203,7 @@ fn quick() -> OffsetSearchOptions {
     }
 }
 
-/// Windows of 1e-12 to 1e-6 of an edge about offsets that meet the limits with nothing to spare.
+/// Windows of 1e-12 to 1e-6 of an edge about offsets that meet the limits without margin.
 #[test]
 fn thin_feasible_windows_are_never_infeasible_and_never_above_the_bound() {
     let mut rng = Rng::new(47);

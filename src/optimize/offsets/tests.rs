@@ -19,7 +19,7 @@ pub(super) fn example() -> Octahedral {
     Octahedral::recognise(&m).unwrap()
 }
 
-/// Platform centroid above base centroid at height 15, turned by `turn`, with small motions about it.
+/// Platform centroid above base centroid at height 15, rotated by `turn`, with small motions about it.
 pub(super) fn poses_about(turn: f64, count: usize) -> Vec<Pose> {
     let centre = |edge: f64| Vector3::new(edge / 2.0, edge * 0.75f64.sqrt() / 3.0, 0.0);
     let grid = |k: usize| [0.0, 1.0, -1.0][k % 3];

@@ -1,5 +1,5 @@
-//! From the results of the cells to the verdicts on the branches and the answer, or to the reason why no offsets are
-//! feasible, in values and in words.
+//! Converts the results of the cells to the verdicts on the branches and the answer. If no offsets are feasible, it
+//! gives the reason in values and in words.
 
 use super::bound::GlobalBound;
 use super::branch::{BranchCell, Division, Zone};
@@ -13,7 +13,7 @@ use super::search::{CellResult, OffsetSearchOptions, better, pattern_search};
 use num::Purpose;
 use synthesis::joint_free;
 
-/// A pattern search may gain this much (relative) before the solution counts as not converged.
+/// Relative gain of a pattern search above which the solution counts as not converged.
 const PATTERN_LIMIT: f64 = 1e-6;
 
 pub(crate) fn vertices_too_close(limits: &OffsetLimits) -> Option<Conflict> {
@@ -75,7 +75,7 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>, bounded
     }
     report.verdict = match (best, unknown, failure) {
         (Some(r), ..) => BranchVerdict::Dominated { value: r.value, offsets: r.t, settled: r.converged },
-        // the bound holds for all offsets of branches that are not proved empty
+        // the bound covers all offsets of branches that are not proved empty
         (None, unknown, None) if bounded && (unknown || passed) => BranchVerdict::Bounded,
         (None, true, Some(why)) => BranchVerdict::SolverFailure(why),
         (None, true, None) => BranchVerdict::Unproved,
@@ -85,7 +85,7 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>, bounded
     report
 }
 
-/// What the search found.
+/// The results of the search.
 pub(crate) struct SearchedOffsets {
     /// One result for each cell.
     pub ranked: Vec<CellResult>,
@@ -131,7 +131,7 @@ pub(super) fn assemble(
             branches[branch].verdict = BranchVerdict::Best;
             order.retain(|x| x.1 != branch);
             let boxed = Box::new(solution);
-            // a feasible point that nothing exceeds by more than the gap is optimal, whatever became of the climb
+            // a feasible point within the proved gap is optimal, regardless of the climb
             match bound {
                 Some(b) if b.gap <= o.gap => OffsetOutcome::Optimal(boxed),
                 _ if sound => OffsetOutcome::LocalOptimum(boxed),
@@ -151,8 +151,8 @@ pub(super) fn assemble(
     }
 }
 
-/// Pattern search, then the re-check on the original problem; where that finds a violation, the point before the
-/// pattern search. `None` when both violate a limit.
+/// Pattern search, then the re-check on the original problem; after a violation, the point before the pattern search.
+/// `None` if both violate a limit.
 fn solution(
     problem: &OffsetProblem,
     m: &OffsetModel,
@@ -190,25 +190,25 @@ fn solution(
     Some((solution, run.converged && pattern_gain <= PATTERN_LIMIT))
 }
 
-/// Two requirements that cannot be met together; each is a proof that no offset of its set is feasible.
+/// Two requirements that conflict; each conflict is a proof that no offset of its set is feasible.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Conflict {
-    /// Two vertices of a body are closer than the spacing: no offset can help.
+    /// Two vertices of a body are closer than the spacing, for all offsets.
     VerticesTooClose {
         /// Upper bound of the length of the edge, design units.
         distance: f64,
         /// Side of the hexagon that slides on the edge.
         side: usize,
     },
-    /// The bounds leave nothing of the zone.
+    /// No part of the zone is within the bounds.
     OutsideBounds {
         /// Side of the hexagon.
         side: usize,
         /// The zone.
         zone: Zone,
     },
-    /// The spacing from the three vertices leaves nothing of the zone within the bounds.
+    /// No part of the zone within the bounds has the spacing from the three vertices.
     NoRoom {
         /// Side of the hexagon.
         side: usize,
@@ -233,13 +233,13 @@ pub enum Conflict {
     },
     /// The linear relaxation of all spacings together is infeasible, by a Farkas certificate judged in intervals.
     Combination {
-        /// How far below 0 the combination of the rows stays (`|y|_1 = 1`, the largest row about 1), dimensionless.
+        /// Distance of the combination of the rows below 0 (`|y|_1 = 1`, the largest row about 1), dimensionless.
         strength: f64,
     },
 }
 
 impl Conflict {
-    /// The codes there are.
+    /// All codes.
     pub const CODES: [&'static str; 6] =
         ["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"];
 

@@ -1,8 +1,8 @@
-//! Directions across others.
+//! Directions perpendicular to others.
 
 use nalgebra::Vector3;
 
-/// A unit vector across `d`: the coordinate axis that is farthest from `d`, made normal to it.
+/// A unit vector perpendicular to `d`: the coordinate axis farthest from `d`, made normal to it.
 pub fn any_across(d: &Vector3<f64>) -> Vector3<f64> {
     let axis = d.iamin();
     let mut e = Vector3::zeros();

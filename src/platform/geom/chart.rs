@@ -1,4 +1,4 @@
-//! A set of poses as coordinates with enclosures: what is proved of all poses of a workspace is proved over these.
+//! A set of poses as coordinates with enclosures; proofs about all poses of a workspace use these.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -8,10 +8,10 @@ use super::{Pose, PoseSpace, Region};
 use num::interval::Interval;
 use num::interval::radians;
 
-/// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`, for all `x` of a cell
-/// that lie in the unit balls of some groups of coordinates.
+/// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`. The coordinates `x`
+/// are in a cell and in the unit balls of some groups.
 ///
-/// Everything is enclosed: angles given in degrees, and a home rotation that is orthogonal to the last digit only.
+/// All quantities are enclosed, since angles are in degrees and a home rotation is orthogonal only within rounding.
 #[derive(Debug, Clone)]
 pub struct Chart {
     /// `R_0`.
@@ -29,7 +29,7 @@ pub struct Chart {
     steps: Vec<(Vector3<f64>, Vector3<f64>)>,
 }
 
-/// A box of coordinates; those that the chart does not have are 0.
+/// A box of coordinates; missing ones of the chart are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChartCell {
     /// Lower ends.
@@ -38,18 +38,18 @@ pub struct ChartCell {
     pub hi: [f64; 6],
 }
 
-/// How a cell lies to the balls of its chart.
+/// The position of a cell relative to the balls of its chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Covered {
-    /// All of it is in them.
+    /// It is entirely inside.
     Inside,
-    /// None of it is.
+    /// It is entirely outside.
     Outside,
-    /// Some of it may be.
+    /// It may be partly inside.
     Partly,
 }
 
-/// Sides are not halved below this.
+/// Least width of a side that is halved.
 const NARROW: f64 = 1e-12;
 
 impl ChartCell {
@@ -68,13 +68,13 @@ impl ChartCell {
         std::array::from_fn(|k| f64::midpoint(self.lo[k], self.hi[k]).clamp(self.lo[k], self.hi[k]))
     }
 
-    /// The widest distance of a coordinate from that of a point of the cell, rounded up; 0 where there is no width.
+    /// The greatest distance of a coordinate from that of a point of the cell, rounded up; 0 without width.
     pub fn reach(&self, x: &[f64; 6], k: usize) -> f64 {
         let from = Interval::from(x[k]);
         (self.side(k) - from).magnitude() * if self.lo[k] < self.hi[k] { 1.0 } else { 0.0 }
     }
 
-    /// Cut in two across an axis; `None` where that side is too narrow.
+    /// The halves across an axis; `None` if that side is too narrow.
     pub fn halves(&self, axis: usize) -> Option<[Self; 2]> {
         let middle = self.centre()[axis];
         if !(self.hi[axis] - self.lo[axis] > NARROW) {
@@ -102,22 +102,22 @@ pub fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6]
     out
 }
 
-/// What cutting a chart into cells has shown.
+/// The result of cutting a chart into cells.
 #[derive(Debug, Clone, Copy)]
 pub enum Bisection {
     /// Every cell is settled.
     Settled,
-    /// This point refutes what was to be shown.
+    /// This point refutes the statement.
     Refuted([f64; 6]),
-    /// Cells ran out, or got too narrow, near this point.
+    /// Cells ran out, or became too narrow, near this point.
     Open([f64; 6]),
 }
 
 impl Chart {
-    /// Cuts the chart in two until each cell is settled, on at most `cells` cells, and counts those looked at.
+    /// Cuts the chart in two until each cell is settled, on at most `cells` cells, and counts them.
     ///
-    /// `settled` says of a cell that it is, or across which axis to cut it; `refutes` is asked about a point of each
-    /// cell that is not.
+    /// `settled` tells whether a cell is settled, or the axis across which to cut it. `refutes` is called for a point
+    /// of each other cell.
     pub fn bisected(
         &self,
         cells: usize,
@@ -145,7 +145,7 @@ impl Chart {
         (Bisection::Settled, looked_at)
     }
 
-    /// `R_0` of the pose for every reading of it: its matrix as it is, and the rotation of its quaternion.
+    /// `R_0` of the pose in both interpretations: its matrix as it is, and the rotation of its quaternion.
     fn home_rotation(home: &Pose) -> Rotation {
         let exact = exact_rotation(home);
         let quarter_turns =
@@ -175,8 +175,8 @@ impl Chart {
         Self::new(pose, Vec::new(), Vec::new(), ChartCell::point([0.0; 6]))
     }
 
-    /// The region of a pose space, by the coordinates `x` of its half widths that are not 0: `[-1, 1]` each, and in
-    /// unit balls for ellipsoids.
+    /// The region of a pose space, by coordinates `x` for its nonzero half widths. Each is in `[-1, 1]`, and for
+    /// ellipsoids in unit balls.
     pub fn of_region(space: &PoseSpace) -> Self {
         let axes = space.axes();
         let width = |k: usize| {
@@ -204,7 +204,7 @@ impl Chart {
     fn of_step(from: &Pose, to: &Pose) -> Self {
         let (shift, turn) = (to.position - from.position, turn_between(&from.rotation, &to.rotation));
         let (reach, angle) = (from.position.amax().max(to.position.amax()), turn.norm());
-        // the step is only given by its ends, to their last digits
+        // a step is exactly given at its ends
         let about = |x: f64, scale: f64| {
             let slack = 8.0 * f64::EPSILON * scale;
             Interval::new(x - slack, x + slack).unwrap_or(Interval::WHOLE)
@@ -259,7 +259,7 @@ impl Chart {
         all
     }
 
-    /// A scale whose balls and box hold the point, rounded up.
+    /// A scale whose balls and box contain the point, rounded up.
     pub fn scale_of(&self, x: &[f64; 6]) -> f64 {
         let largest = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let point = ChartCell::point(*x);
@@ -267,7 +267,7 @@ impl Chart {
         self.balls.iter().map(norm).fold(largest, f64::max)
     }
 
-    /// The point moved into the balls of radius 1 where it lies outside, by shrinking: exactly inside.
+    /// The point, shrunk into the balls of radius 1 if it lies outside: exactly inside.
     pub fn pulled_inside(&self, mut x: [f64; 6]) -> [f64; 6] {
         for group in &self.balls {
             let norm = ChartCell::point(x).norm_squared(group).sqrt().map_or(1.0, Interval::hi);
@@ -303,7 +303,7 @@ mod tests {
         space
     }
 
-    /// Poses that the space draws lie in the enclosures of its charts.
+    /// Random poses of the space lie in the enclosures of its charts.
     #[test]
     fn charts_hold_the_poses_of_their_space() {
         let mut rng = Rng::new(2);

@@ -1,5 +1,4 @@
-//! Random poses: all that are drawn anywhere, with what they are spread over. From which stream of the seed they come
-//! says `num::Purpose`.
+//! Random poses of every kind, with their distributions. `num::Purpose` defines their streams of the seed.
 //!
 //! | drawn by | rotation | position | how many |
 //! |---|---|---|---|
@@ -15,9 +14,9 @@ use super::{Pose, PoseSpace};
 use crate::manipulator::Manipulator;
 use num::{Purpose, Rng};
 
-/// Half width of the box of positions where no workspace is given, in sizes of the manipulator.
+/// Half width of the box of positions without a workspace, in sizes of the manipulator.
 const TRANSLATION: f64 = 0.25;
-/// Half width of the box of rotation vectors where no workspace is given, degrees.
+/// Half width of the box of rotation vectors without a workspace, degrees.
 const ROTATION_DEG: f64 = 20.0;
 
 /// A rotation uniform on SO(3).
@@ -30,13 +29,13 @@ pub fn random_rotation(rng: &mut Rng) -> Rotation3<f64> {
     }
 }
 
-/// Any rotation, and a position with normal coordinates of variance one.
+/// A uniform rotation, and a position with normal coordinates of variance one.
 pub fn any_pose(rng: &mut Rng) -> Pose {
     let rotation = random_rotation(rng);
     Pose { rotation, position: Vector3::from_fn(|_, _| rng.normal()) }
 }
 
-/// Poses of a manipulator by the offset of the middle of the platform's leg ends from that of the base's.
+/// Poses of a manipulator by the offset between the centroids of the leg ends on platform and base.
 #[derive(Debug, Clone, Copy)]
 pub struct CentredPoses {
     base: Vector3<f64>,
@@ -51,12 +50,12 @@ impl CentredPoses {
         Self { base, platform, size: m.size() }
     }
 
-    /// The pose that turns the platform about its centroid and moves the centroid to `offset` from that of the base.
+    /// The pose that rotates the platform about its centroid and moves the centroid to `offset` from that of the base.
     pub fn pose(&self, rotation: Rotation3<f64>, offset: Vector3<f64>) -> Pose {
         Pose { rotation, position: self.base + offset - rotation * self.platform }
     }
 
-    /// Any rotation, and an offset of which every coordinate is uniform within the size.
+    /// A uniform rotation, and an offset with coordinates uniform within the size.
     pub fn draw(&self, rng: &mut Rng) -> (Rotation3<f64>, Vector3<f64>) {
         let rotation = random_rotation(rng);
         (rotation, Vector3::from_fn(|_, _| rng.uniform(-self.size, self.size)))
@@ -64,7 +63,7 @@ impl CentredPoses {
 }
 
 impl PoseSpace {
-    /// A random pose of the space: in the region, or one of the poses listed where there is no region.
+    /// A random pose of the space: in the region, or one of the listed poses if there is no region.
     pub fn draw(&self, listed: &[Pose], rng: &mut Rng) -> Pose {
         if self.axes().is_empty() && !listed.is_empty() {
             return listed[(rng.next_u64() % listed.len() as u64) as usize];
@@ -82,15 +81,15 @@ pub struct SamplePlan {
     pub translation: Vector3<f64>,
     /// Half widths of the rotation-vector box, radians.
     pub rotation: Vector3<f64>,
-    /// How many poses; with none a comparison is inconclusive unless the map alone decides.
+    /// Number of poses; without any, a comparison is inconclusive unless the map alone decides.
     pub count: usize,
-    /// Seed; pose `k` depends on the seed and `k` only.
+    /// Seed; pose `k` depends only on the seed and `k`.
     pub seed: u64,
 }
 
 impl SamplePlan {
-    /// Poses in the box of the given half widths (design units, degrees) about home; where all of them are zero, a
-    /// quarter of the size and 20 degrees each way.
+    /// Poses in the box of the given half widths (design units, degrees) about home. If all of them are zero, they are
+    /// a quarter of the size and 20 degrees.
     #[must_use]
     pub fn about(
         m: &Manipulator,

@@ -38,7 +38,7 @@ pub fn apply(r: &Rotation, v: &IntervalVector) -> IntervalVector {
     std::array::from_fn(|i| dot(&r[i], v))
 }
 
-/// The rotation of the pose's quaternion, which is one exactly whatever its norm.
+/// The rotation of the pose's quaternion, which is an exact rotation for any norm.
 pub fn exact_rotation(home: &Pose) -> Rotation {
     let q = UnitQuaternion::from_rotation_matrix(&home.rotation);
     let w = Interval::from(q.w);
@@ -81,8 +81,8 @@ pub fn determinant(m: &IntervalMatrix) -> Interval {
     sum
 }
 
-/// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the
-/// spectral radius of every matrix with entries of at most the modulus of those of `W` is.
+/// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` if that is below 1. It then
+/// bounds the spectral radius of every matrix whose entries have moduli of at most those of `W`.
 pub fn contraction(w: &IntervalMatrix) -> Option<([f64; 6], f64)> {
     let mut u = [1.0; 6];
     for _ in 0..6 {

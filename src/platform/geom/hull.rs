@@ -6,8 +6,8 @@ fn turn_of(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
     (b - a).perp(&(c - a))
 }
 
-/// Corners of the convex hull, counter-clockwise (monotone chain, Andrew 1979). A point nearer than `tolerance` to the
-/// line of its neighbours is not a corner.
+/// Corners of the convex hull, counter-clockwise (monotone chain, Andrew 1979). A point within `tolerance` of the line
+/// of its neighbours is not a corner.
 #[must_use]
 pub fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<f64>> {
     let mut sorted = points.to_vec();
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
     use num::Rng;
 
-    /// As many points as a silhouette has: the corners are on one side of every edge, and found at once.
+    /// A large point set, as for a silhouette: the corners are on one side of every edge, found without delay.
     #[test]
     fn no_point_is_outside_the_hull_of_many() {
         let mut rng = Rng::new(3);

@@ -1,9 +1,9 @@
-//! The line that points lie nearly on.
+//! The line of best fit of nearly collinear points.
 
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 use num::small::symmetric_eigen3;
 
-/// A line and how far points are from it.
+/// A line, with the distances of the points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BestLine {
     /// The centroid of the points, which is on the line.
@@ -18,8 +18,8 @@ pub struct BestLine {
 
 impl BestLine {
     /// The line with the least sum of squared distances from the points (Pearson 1901, "On lines and planes of closest
-    /// fit"): through the centroid along the principal axis. `None` for points in one place. Lengths are in the unit of
-    /// the points.
+    /// fit"). It passes through the centroid along the principal axis. `None` for coincident points. Lengths are in the
+    /// unit of the points.
     #[must_use]
     pub fn of(points: &[Point3<f64>]) -> Option<Self> {
         let centroid = points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / points.len() as f64;
@@ -27,7 +27,7 @@ impl BestLine {
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        // over the size, so that squares neither overflow nor vanish
+        // divided by the size, so that squares neither overflow nor vanish
         let spread: Matrix3<f64> =
             points.iter().map(|p| (p.coords - centroid) / size).map(|v| v * v.transpose()).sum();
         let (values, vectors) = symmetric_eigen3(&spread);
@@ -47,7 +47,7 @@ impl BestLine {
 mod tests {
     use super::*;
 
-    /// Points on a line and one beside it, at sizes from 1e-150 to 1e150: the line is found, and its distance is in
+    /// Points on a line and one beside it, at sizes from 1e-150 to 1e150: the line is found, with a distance in
     /// proportion.
     #[test]
     fn the_line_of_points_that_lie_nearly_on_one() {

@@ -1,4 +1,4 @@
-//! Geometry that all layers share: poses, quaternions, distances, and their enclosures in intervals.
+//! Geometry shared by all crates: poses, quaternions, distances, and their enclosures in intervals.
 
 mod across;
 mod chart;

@@ -16,7 +16,7 @@ pub struct Pose {
 
 impl Pose {
     /// The base-frame position of a point given in the platform frame.
-    // by entries, and inlined across the parts of the package: a third of the time of what goes through many poses
+    // written by entries, and inlined across the crates, which takes a third off the time of loops over many poses
     #[must_use]
     #[inline]
     pub fn transform(&self, point: &Point3<f64>) -> Point3<f64> {
@@ -25,7 +25,7 @@ impl Pose {
         Point3::new(row(0), row(1), row(2))
     }
 
-    /// The unit quaternion of the rotation, scalar first and not negative.
+    /// The unit quaternion of the rotation, scalar first and non-negative.
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         let q = UnitQuaternion::from_rotation_matrix(&self.rotation);
@@ -41,19 +41,19 @@ impl Pose {
         (self.transform(&leg.platform) - leg.base).norm_squared()
     }
 
-    /// Inverse kinematics: the six squared leg lengths of `m` at this pose, `None` where they overflow.
+    /// Inverse kinematics: the six squared leg lengths of `m` at this pose; `None` on overflow.
     #[must_use]
     pub fn squared_lengths(&self, m: &Manipulator) -> Option<SquaredLegLengths> {
         SquaredLegLengths::try_new(m.legs().map(|leg| self.squared_length(&leg))).ok()
     }
 
-    /// Inverse kinematics: the six leg lengths of `m` at this pose, `None` where they overflow.
+    /// Inverse kinematics: the six leg lengths of `m` at this pose; `None` on overflow.
     #[must_use]
     pub fn lengths(&self, m: &Manipulator) -> Option<LegLengths> {
         self.lengths_of(&m.legs())
     }
 
-    /// [`lengths`](Self::lengths) of legs taken out of a manipulator once, for many poses.
+    /// [`lengths`](Self::lengths) for legs extracted from a manipulator once, for many poses.
     #[must_use]
     #[inline]
     pub fn lengths_of(&self, legs: &[Leg; 6]) -> Option<LegLengths> {
@@ -95,7 +95,7 @@ impl ComplexPose {
         self.residual_of(&m.legs(), m.size(), s)
     }
 
-    /// [`residual`](Self::residual) of legs taken out of a manipulator of this size once, for many poses.
+    /// [`residual`](Self::residual) for legs extracted from a manipulator of this size once, for many poses.
     pub fn residual_of(&self, legs: &[Leg; 6], size: f64, s: &SquaredLegLengths) -> f64 {
         let scale = size * size;
         let mut largest = 0.0_f64;
@@ -127,8 +127,8 @@ impl ComplexPose {
         Pose { rotation: nearest_rotation(&r), position: self.position.map(|z| z.re) }
     }
 
-    /// The pose less a step of Newton's method: rotation vector `turn` by its Cayley transform, exactly orthogonal over
-    /// `C`, and `shift`; `None` when the rotation is too large for that.
+    /// The pose minus a step of Newton's method. The rotation vector `turn` enters by its Cayley transform, exactly
+    /// orthogonal over `C`, and `shift` is subtracted. `None` if the rotation is too large for that.
     pub fn less_step(&self, turn: &Vector3<Complex64>, shift: &Vector3<Complex64>) -> Option<Self> {
         let w = turn * Complex64::new(-0.5, 0.0);
         let n = Complex64::ONE + w.dot(&w);
@@ -141,7 +141,7 @@ impl ComplexPose {
         Some(Self { rotation: reorthogonalised(&(turn * self.rotation)), position: self.position - shift })
     }
 
-    /// Whether [`distance`](Self::distance) is below `limit`; far poses are told after an entry or two.
+    /// Whether [`distance`](Self::distance) is below `limit`; distant poses are rejected after an entry or two.
     pub fn is_within(&self, other: &Self, size: f64, limit: f64) -> bool {
         let limits = (limit * limit, limit * limit * size * size);
         let entries = self.rotation.iter().zip(&other.rotation).all(|(x, y)| (x - y).norm_sqr() < limits.0);
@@ -159,12 +159,12 @@ impl ComplexPose {
     }
 }
 
-/// The rotation nearest to a matrix that is nearly one: the orthogonal factor of its polar decomposition, by
-/// `X <- (X + X^-T) / 2` (Higham 1986), which converges for every regular matrix. A matrix with no positive determinant
-/// is near to none; it gives the rotation of its quaternion.
+/// The rotation nearest to a near-rotation matrix. It is the orthogonal factor of the polar decomposition by
+/// `X <- (X + X^-T) / 2` (Higham 1986), which converges for every regular matrix. A matrix without positive determinant
+/// is not near a rotation; it gives the rotation of its quaternion.
 ///
-/// The number of steps is bounded. `nalgebra`'s own iteration has no bound by default, and its angle can hover above
-/// the rounding of doubles without end.
+/// The number of steps is bounded. `nalgebra`'s own iteration has no bound by default, and its angle can stay above the
+/// rounding of doubles forever.
 pub fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     let of_quaternion =
         || UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*m)).to_rotation_matrix();
@@ -173,7 +173,7 @@ pub fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     }
     let mut x = *m;
     for _ in 0..POLAR_STEPS {
-        // what is a rotation up to rounding stays as it is, to the last digit
+        // a rotation up to rounding keeps all its digits
         if (x.transpose() * x - Matrix3::identity()).amax() <= ROUNDED {
             break;
         }
@@ -183,11 +183,11 @@ pub fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(x)
 }
 
-/// `R^T R` of a rotation rounded to doubles differs from the identity by no more.
+/// Greatest difference between `R^T R` and the identity for a rotation rounded to doubles.
 pub(super) const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
-/// Steps of the polar decomposition: each halves the logarithm of the singular values far from one, and squares the
-/// error near it.
+/// Number of steps of the polar decomposition: each halves the logarithm of the singular values far from one, and
+/// squares the error near it.
 const POLAR_STEPS: usize = 60;
 
 /// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
@@ -197,7 +197,7 @@ pub fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
     r * (three - gram) * Complex64::new(0.5, 0.0)
 }
 
-/// The larger number; NaN when one is, so that no comparison with it succeeds.
+/// The larger number; NaN if one is NaN, so that no comparison with it succeeds.
 fn larger(x: f64, y: f64) -> f64 {
     if y <= x || x.is_nan() { x } else { y }
 }

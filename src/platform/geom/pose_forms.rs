@@ -1,5 +1,5 @@
-//! The other ways to write a pose: nalgebra's isometries, 4 x 4 matrices, position with quaternion, named angles, a
-//! line of numbers.
+//! Other forms of a pose: nalgebra's isometries, 4 x 4 matrices, position with quaternion, named angles, a line of
+//! numbers.
 
 use std::str::FromStr;
 
@@ -9,20 +9,19 @@ use thiserror::Error;
 use super::Pose;
 use super::pose::{ROUNDED, nearest_rotation};
 
-/// `R^T R` of a matrix may differ from the identity by this much: matrices written with seven digits are still
-/// rotations.
+/// Greatest accepted difference between `R^T R` of a matrix and the identity: matrices written with seven digits pass.
 const ORTHOGONAL: f64 = 1e-6;
-/// The norm of a quaternion may differ from 1 by this much: quaternions written with three digits are still rotations.
+/// Greatest accepted difference between the norm of a quaternion and 1: quaternions written with three digits pass.
 const UNIT: f64 = 1e-3;
 
-/// What is no pose.
+/// Reasons why data are no pose.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InvalidPose {
     /// An entry is NaN or infinite.
     #[error("an entry of the pose is not a finite number")]
     NotFinite,
-    /// The upper left 3 x 3 part is no rotation.
+    /// The upper left 3 x 3 part is not a rotation.
     #[error(
         "the matrix is no rotation: R^T R differs from the identity by {error:e}, det R is {determinant}"
     )]
@@ -38,13 +37,13 @@ pub enum InvalidPose {
     /// A quaternion whose norm is not 1.
     #[error("the quaternion has norm {0}, not 1")]
     QuaternionNorm(f64),
-    /// A text that is not six or seven numbers.
+    /// A text that does not have six or seven numbers.
     #[error("{0}")]
     Text(String),
 }
 
-/// Roll, pitch and yaw: turns about the fixed axes x, then y, then z, `R = Rz(yaw) Ry(pitch) Rx(roll)`, as `rpy_deg` in
-/// design files.
+/// Roll, pitch and yaw: rotations about the fixed axes x, then y, then z, `R = Rz(yaw) Ry(pitch) Rx(roll)`, as
+/// `rpy_deg` in design files.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Angles {
     roll: f64,
@@ -77,14 +76,14 @@ impl Angles {
         [self.roll, self.pitch, self.yaw]
     }
 
-    /// The angles of a rotation: pitch from -90 to 90 degrees, the others from -180 to 180. At a pitch of 90 degrees
-    /// either way only a combination of roll and yaw is determined; the yaw is then as the rounding of the matrix has
-    /// it, zero where the entries are, and the roll belongs to it.
+    /// The angles of a rotation: pitch from -90 to 90 degrees, the others from -180 to 180. At a pitch of +-90 degrees
+    /// only a combination of roll and yaw is determined. The yaw then follows from the rounding of the matrix, or is
+    /// zero for zero entries, and the roll matches it.
     #[must_use]
     pub fn of(rotation: &Rotation3<f64>) -> Self {
         let r = rotation.matrix();
         let pitch = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));
-        // + 0.0: the angle of (-0, -0) is no half turn
+        // + 0.0: the angle of (-0, -0) must not be a half turn
         let yaw = (r[(1, 0)] + 0.0).atan2(r[(0, 0)] + 0.0);
         let (sin, cos) = yaw.sin_cos();
         // the middle row of Rz(-yaw) R is (0, cos roll, -sin roll) at every pitch
@@ -100,7 +99,7 @@ impl From<Angles> for Rotation3<f64> {
 }
 
 impl Pose {
-    /// A pose from its position and anything that is a rotation: [`Angles`], a unit quaternion, a rotation matrix.
+    /// A pose from its position and any form of a rotation: [`Angles`], a unit quaternion, a rotation matrix.
     ///
     /// ```
     /// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
@@ -120,7 +119,7 @@ impl Pose {
     /// thousandth.
     ///
     /// # Errors
-    /// Entries that are not finite, another norm.
+    /// Entries are not finite, or the norm differs.
     pub fn from_quaternion(position: impl Into<Vector3<f64>>, wxyz: [f64; 4]) -> Result<Self, InvalidPose> {
         let [w, x, y, z] = wxyz;
         let position = position.into();
@@ -149,7 +148,7 @@ impl Pose {
     }
 }
 
-/// A 4 x 4 matrix `(R p; 0 1)`. What is a rotation but for rounding becomes the nearest one.
+/// A 4 x 4 matrix `(R p; 0 1)`. A rotation up to rounding becomes the nearest one.
 impl TryFrom<Matrix4<f64>> for Pose {
     type Error = InvalidPose;
 
@@ -195,7 +194,7 @@ impl From<Pose> for Isometry3<f64> {
     }
 }
 
-/// `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`: a pose as it is written on a line of a table.
+/// `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`: a pose on a line of a table.
 impl FromStr for Pose {
     type Err = InvalidPose;
 

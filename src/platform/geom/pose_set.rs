@@ -1,4 +1,4 @@
-//! The poses over which requirements hold.
+//! The poses for which requirements hold.
 
 use nalgebra::{Rotation3, Vector3, Vector6};
 
@@ -36,13 +36,13 @@ impl Region {
     }
 }
 
-/// What the listed poses of a workspace are measured from.
+/// The reference of the listed poses of a workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ListedFrom {
-    /// The base frame: they stay where they are when home moves.
+    /// The base frame: they stay fixed when home moves.
     #[default]
     Base,
-    /// Home: they move with it, as the region does.
+    /// Home: they move with it, like the region.
     Home,
 }
 
@@ -56,9 +56,9 @@ impl ListedFrom {
         }
     }
 
-    /// The pose in the base frame of one that is listed as `(R, p)`: itself, or `(R R0, p0 + p)` from home `(R0, p0)`.
+    /// The pose in the base frame of one listed as `(R, p)`: itself, or `(R R0, p0 + p)` from home `(R0, p0)`.
     ///
-    /// Displacements from home have the axes of the base frame, as those of the region have.
+    /// Displacements from home are along the axes of the base frame, like those of the region.
     #[must_use]
     pub fn in_base_frame(self, listed: &Pose, home: &Pose) -> Pose {
         match self {
@@ -81,11 +81,11 @@ impl ListedFrom {
     }
 }
 
-/// All poses a platform has to reach.
+/// All poses that a platform has to reach.
 ///
-/// The region around home `(R0, p0)` holds the poses `(exp([w]x) R0, p0 + d)` (base frame), with `(d, w)` the image of
-/// a point `x` of the cube `[-1, 1]^6`: in a box `d_k = h_k x_k`; in an ellipsoid each half of `x` is first shortened
-/// by its greatest entry over its norm, which maps the cube onto the ball and its faces onto the sphere.
+/// The region around home `(R0, p0)` contains the poses `(exp([w]x) R0, p0 + d)` (base frame), with `(d, w)` the image
+/// of a point `x` of the cube `[-1, 1]^6`. In a box `d_k = h_k x_k`. In an ellipsoid each half of `x` is first
+/// shortened by its greatest entry over its norm. This maps the cube onto the ball and its faces onto the sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseSpace {
     /// Centre of the region.
@@ -98,7 +98,8 @@ pub struct PoseSpace {
     pub rotation_deg: Vector3<f64>,
     /// Single poses, base frame.
     pub poses: Vec<Pose>,
-    /// Poses passed one after the other, on straight lines and turning about fixed axes between them, base frame.
+    /// Poses of a path, in order, base frame. Between them the origin moves on straight lines, with rotations about
+    /// fixed axes.
     pub trajectory: Vec<Pose>,
     /// Whether the single poses and the trajectory move with home.
     pub listed_from: ListedFrom,
@@ -107,7 +108,7 @@ pub struct PoseSpace {
 /// Prime bases of the Halton sequence (Halton 1960).
 const BASES: [u64; 6] = [2, 3, 5, 7, 11, 13];
 
-/// The part of `n` behind the point when it is written in `base` and mirrored at the point, in `[0, 1)`.
+/// The radical inverse: the digits of `n` in `base` mirrored at the point, in `[0, 1)`.
 fn radical_inverse(mut n: u64, base: u64) -> f64 {
     let (mut value, mut digit) = (0.0, 1.0 / base as f64);
     while n > 0 {
@@ -138,7 +139,7 @@ impl PoseSpace {
         }
     }
 
-    /// The same around another home: the region moves with it, and so do the listed poses that are measured from it.
+    /// The space around another home: the region moves with it, and so do listed poses relative to it.
     #[must_use]
     pub fn with_home(&self, home: Pose) -> Self {
         let moved = |pose: &Pose| {
@@ -166,7 +167,7 @@ impl PoseSpace {
     /// The pose of a point of the cube `[-1, 1]^6`.
     #[must_use]
     pub fn pose(&self, x: &Vector6<f64>) -> Pose {
-        // axes of width zero take no part in the norm
+        // axes of width zero do not enter the norm
         let used = Vector6::from_fn(|k, _| if self.width(k) > 0.0 { x[k] } else { 0.0 });
         let (mut d, mut w): (Vector3<f64>, Vector3<f64>) =
             (used.fixed_rows::<3>(0).into(), used.fixed_rows::<3>(3).into());
@@ -180,8 +181,8 @@ impl PoseSpace {
         }
     }
 
-    /// Points of the cube spread over the region: the centre, all corners, `count` points of a Halton sequence, and
-    /// `count` random ones of which every second one is moved to a face.
+    /// Points of the cube spread over the region: the centre, all corners, and `count` points of a Halton sequence.
+    /// Another `count` points are random, every second one moved to a face.
     #[must_use]
     pub fn cube_points(&self, count: usize, rng: &mut Rng) -> Vec<Vector6<f64>> {
         let axes = self.axes();
@@ -214,7 +215,7 @@ impl PoseSpace {
         out
     }
 
-    /// The poses that belong to no region: the single ones, and the trajectory with `steps` steps between its poses.
+    /// The poses outside the region: the single ones, and the trajectory with `steps` steps between its poses.
     #[must_use]
     pub fn listed(&self, steps: usize) -> Vec<Pose> {
         let mut out = self.poses.clone();
@@ -287,7 +288,7 @@ mod tests {
         s.listed_from = ListedFrom::Home;
         let moved = s.with_home(home).poses[0];
         assert!((moved.position - Vector3::new(1.0, 2.0, 14.0)).norm() < 1e-14);
-        // turned by as much about the same axes of the base frame as before
+        // rotated by equal angles about the same axes of the base frame as before
         let turn = |pose: &Pose, from: &Pose| turn_between(&from.rotation, &pose.rotation);
         assert!((turn(&moved, &home) - turn(&at, &s.home)).norm() < 1e-14);
     }

@@ -1,4 +1,4 @@
-//! The two ways in which poses stand in answers.
+//! The two forms of poses in answers.
 
 use std::borrow::Cow;
 
@@ -32,7 +32,7 @@ impl From<&Pose> for PoseRecord {
     }
 }
 
-/// The pose with the rotation next to the matrix, whose digits another program may have rounded.
+/// The pose with the rotation nearest to the matrix, whose digits another program may have rounded.
 impl From<&PoseRecord> for Pose {
     fn from(record: &PoseRecord) -> Self {
         let rows = Matrix3::from_fn(|i, j| record.rotation[i][j].0);
@@ -41,7 +41,7 @@ impl From<&PoseRecord> for Pose {
     }
 }
 
-/// As a [`PoseRecord`].
+/// Written as a [`PoseRecord`].
 impl Serialize for Pose {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         PoseRecord::from(self).serialize(to)
@@ -111,7 +111,7 @@ impl ByQuaternion {
     /// Writes a pose.
     ///
     /// # Errors
-    /// As of [`Serialize::serialize`].
+    /// The errors of [`Serialize::serialize`].
     pub fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
         PoseQuaternionRecord::from(pose).serialize(to)
     }
@@ -119,7 +119,7 @@ impl ByQuaternion {
     /// Reads a pose.
     ///
     /// # Errors
-    /// As of [`Deserialize::deserialize`].
+    /// The errors of [`Deserialize::deserialize`].
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Pose, D::Error> {
         PoseQuaternionRecord::deserialize(from).map(|record| Pose::from(&record))
     }

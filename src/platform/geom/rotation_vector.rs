@@ -4,14 +4,13 @@ use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 /// `w` with `exp([w]x) = R`, `|w| <= pi`, with all its digits near zero and near half a turn.
 ///
-/// By the quaternion (Shepperd 1978). The arc cosine of the trace loses half of the digits near zero, is not a number
-/// where rounding makes the trace larger than 3, and the axis of a half turn has no place in the skew part of the
-/// matrix.
+/// It uses the quaternion (Shepperd 1978). The arc cosine of the trace loses half of the digits near zero, and is NaN
+/// if rounding makes the trace larger than 3. The skew part of the matrix does not contain the axis of a half turn.
 pub fn rotation_vector(r: &Rotation3<f64>) -> Vector3<f64> {
     UnitQuaternion::from_rotation_matrix(r).scaled_axis()
 }
 
-/// Rotation vector, in the base frame, that turns `from` into `to`.
+/// Rotation vector, base frame, of the rotation from `from` to `to`.
 pub fn turn_between(from: &Rotation3<f64>, to: &Rotation3<f64>) -> Vector3<f64> {
     rotation_vector(&(to * from.inverse()))
 }
@@ -46,7 +45,7 @@ mod tests {
             beyond += usize::from(product.matrix().trace() > 3.0);
             assert!(turn_between(&r, &again).norm() < 2e-15);
         }
-        // the arc cosine of the trace has no value at these
+        // the arc cosine of the trace is undefined at these
         assert!(beyond > 0);
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-/// Two lines `p + s e` and `q + t f` by the products of `p - q`, `e` and `f`, which all their segments share.
+/// Two lines `p + s e` and `q + t f` by the products of `p - q`, `e` and `f`, which are common to all their segments.
 #[derive(Debug, Clone, Copy)]
 pub struct LinePair {
     /// `p - q`.
@@ -15,7 +15,7 @@ pub struct LinePair {
 }
 
 impl LinePair {
-    /// From `p - q` and the directions.
+    /// The pair from `p - q` and the directions.
     #[must_use]
     #[inline]
     pub fn new(apart: Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Self {
@@ -23,10 +23,10 @@ impl LinePair {
         Self { apart, ee: e.norm_squared(), ff: f.norm_squared(), ef: e.dot(f), ew, fw }
     }
 
-    /// Shares `s` and `t`, each between two, at which the lines are closest.
+    /// Parameters `s` and `t`, each within a range, at which the lines are closest.
     ///
-    /// `|p - q + s e - t f|^2` is convex in `(s, t)`. From the share where the gradient vanishes, cut to its range, one
-    /// round of projections ends at the least value. Parallel lines start anywhere.
+    /// `|p - q + s e - t f|^2` is convex in `(s, t)`. One round of projections from the zero of the gradient, cut to
+    /// its range, ends at the least value. Parallel lines may start anywhere.
     #[must_use]
     #[inline]
     pub fn closest(&self, first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
@@ -60,11 +60,11 @@ pub fn segment_distance([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) 
     (w + e * s - f * t).norm()
 }
 
-/// The share of a segment at which it is nearest to the box `|x_k - center_k| <= half_k`, and the way there from the
-/// box, which is zero when they meet.
+/// The nearest point of a segment to the box `|x_k - center_k| <= half_k`: its share, and the vector from the box, zero
+/// if they meet.
 ///
-/// The squared distance of the point `x + t (y - x)` from the box is convex in `t` and a quadratic between the
-/// parameters where a coordinate crosses a face: the least value of each piece is taken in closed form.
+/// The squared distance of the point `x + t (y - x)` from the box is convex in `t`. Between the parameters at which a
+/// coordinate crosses a face it is quadratic, with its least value in closed form.
 #[must_use]
 pub fn segment_box_nearest(
     [x, y]: [Point3<f64>; 2],
@@ -84,7 +84,7 @@ pub fn segment_box_nearest(
     };
     let piece = |w: &[f64]| {
         let middle = outside(f64::midpoint(w[0], w[1]));
-        // coordinates that are outside in the middle of the piece are outside all along it
+        // coordinates outside in the middle of the piece are outside along all of it
         let moving = Vector3::from_fn(|k, _| if middle[k] == 0.0 { 0.0 } else { d[k] });
         let (rate, square) = (middle.dot(&moving), moving.norm_squared());
         let t = if square > 0.0 { f64::midpoint(w[0], w[1]) - rate / square } else { w[0] };

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use num_complex::Complex64;
 
-/// The two points with squared distances `s` to three known points, mirror images in their plane.
+/// The two points with squared distances `s` to three known points, mirror images of each other in their plane.
 ///
 /// With `u = p2 - p1`, `v = p3 - p1` and `n = u x v` (bilinear products, no conjugation) the point is
 ///
@@ -13,10 +13,10 @@ use num_complex::Complex64;
 /// gamma^2 n.n = s1 - |alpha u + beta v|^2.
 /// ```
 ///
-/// The determinant of the Gram matrix is `n.n`, four times the Cayley-Menger determinant `D(1,2,3)` up to
-/// sign: where it vanishes (collinear or isotropic base triangle) there is no trilateration and the answer is
-/// `None`. Real points with real distances give complex points when the distances cannot be met. Source:
-/// Thomas, Ros 2005; Rojas, Borras, Thomas, eq. (2).
+/// The determinant of the Gram matrix is `n.n`, four times the Cayley-Menger determinant `D(1,2,3)` up to sign. If it
+/// vanishes (collinear or isotropic base triangle), trilateration is impossible and the answer is `None`. Real points
+/// with real distances give complex points if the distances are incompatible. Source: Thomas, Ros 2005; Rojas, Borras,
+/// Thomas, eq. (2).
 #[must_use]
 pub fn trilaterate(points: &[Vector3<Complex64>; 3], s: [Complex64; 3]) -> Option<[Vector3<Complex64>; 2]> {
     let (u, v) = (points[1] - points[0], points[2] - points[0]);

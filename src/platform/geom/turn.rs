@@ -6,19 +6,19 @@
 //! exp([w]x) = I + C_1(s) [w]x + C_2(s) [w]x^2,   C_1 = sin(t) / t,   C_2 = (1 - cos(t)) / t^2,   t = sqrt(s).
 //! ```
 //!
-//! The series is summed in outward-rounded intervals and closed by its first omitted term: sines of a mathematical
-//! library have no bound that could be relied on.
+//! Outward-rounded intervals sum the series and close it by its first omitted term, since sines of mathematical
+//! libraries have no guaranteed error bounds.
 
 use super::enclosed::{IntervalVector, Rotation, matrix, skew};
 use num::interval::Interval;
 
-/// Terms of the series: from the last of them on the terms fall for every `s <= LARGEST`.
+/// Number of terms of the series; beyond it the terms fall for every `s <= LARGEST`.
 const TERMS: usize = 30;
 
-/// The series ends before where a term is below this part of the sum, a hundredth of what rounding costs the sum.
+/// The series ends earlier at a term below this share of the sum, a hundredth of the rounding error of the sum.
 const NEGLIGIBLE: f64 = 1e-18;
 
-/// The series is summed up to here: turns of 358 degrees.
+/// Greatest argument of the series: rotations of 358 degrees.
 const LARGEST: f64 = 39.0;
 
 /// `C_1` and `C_2` with their first two derivatives over an interval of `s`.
@@ -31,7 +31,7 @@ pub struct TurnCoefficients {
 }
 
 impl TurnCoefficients {
-    /// Over an interval of numbers `s >= 0` (what lies below zero is left out).
+    /// The coefficients over an interval of numbers `s >= 0` (its part below zero is ignored).
     pub fn over(s: Interval) -> Self {
         Self {
             first: std::array::from_fn(|n| stumpff(1, n, s)),
@@ -43,9 +43,9 @@ impl TurnCoefficients {
 /// Encloses the `n`-th derivative of `C_k`, `k` 1 or 2 and `n <= 2`, over an interval.
 ///
 /// `(-1)^n C_k^(n)` falls from its value at 0 as long as the next derivative keeps its sign. The derivatives of `C_1`
-/// are spherical Bessel functions, `C_1^(n) = (-1/2)^n j_n(t) / t^n`, with their first zeros at `t` = 4.4934, 5.7634,
-/// 6.9879 for `n` = 1, 2, 3; those of `C_2 = C_1(s/4)^2 / 2` keep their signs up to `t = 2 pi`, by the product rule.
-/// Beyond, `C_1 > -0.2173` (its least value) and the bounds of the values at 0 remain.
+/// are spherical Bessel functions, `C_1^(n) = (-1/2)^n j_n(t) / t^n`. Their first zeros are at `t` = 4.4934, 5.7634,
+/// 6.9879 for `n` = 1, 2, 3. The derivatives of `C_2 = C_1(s/4)^2 / 2` keep their signs up to `t = 2 pi`, by the
+/// product rule. Beyond, `C_1 > -0.2173` (its least value) and the bounds of the values at 0 remain.
 fn stumpff(k: usize, n: usize, s: Interval) -> Interval {
     let (low, high) = (s.lo().max(0.0), s.hi().max(0.0));
     let falls_up_to = if k == 1 { [20.0, 33.0, LARGEST][n] } else { LARGEST };
@@ -69,7 +69,7 @@ fn hull(a: Interval, b: Interval) -> Interval {
 
 /// `sum_i (-1)^(i+n) (i+n)! / i! s^i / (2i + 2n + k)!`, `0 <= s <= LARGEST`.
 ///
-/// Signs alternate, so that from where the terms fall on the first one that is left out bounds the rest.
+/// Signs alternate, so once the terms fall, the first omitted one bounds the rest.
 fn series(k: usize, n: usize, s: Interval) -> Interval {
     let number = |x: usize| Interval::from(x as f64);
     let over = |x: Interval, y: usize| x.checked_div(number(y)).unwrap_or(Interval::WHOLE);
@@ -91,7 +91,7 @@ fn series(k: usize, n: usize, s: Interval) -> Interval {
     sum + Interval::new(-rest, rest).unwrap_or(Interval::WHOLE)
 }
 
-/// Cosine of angles of at most a turn; of all numbers, else.
+/// Cosine of angles of at most a turn; otherwise `[-1, 1]`.
 pub fn cosine(angle: Interval) -> Interval {
     let square = angle.square();
     if square.hi() > LARGEST {
@@ -114,9 +114,9 @@ pub fn degrees(radians: Interval) -> Interval {
     (radians * Interval::from(180.0)).checked_div(pi).unwrap_or(Interval::WHOLE)
 }
 
-/// The angles from 0 to pi whose cosine is in an interval; cosines beyond 1 and -1 are those of rounding.
+/// The angles from 0 to pi whose cosine is in an interval; cosines beyond 1 and -1 come from rounding.
 ///
-/// The library's angle is believed only where the series for the cosine confirms that it is too large, or too small.
+/// The library's angle is used only if the series of the cosine confirms that it is too large, or too small.
 pub fn arc_cosine(cosine: Interval) -> Interval {
     let cosine_of = |angle: f64| series(0, 0, Interval::from(angle).square());
     let slack = |k: i32| 1e-15 * 10f64.powi(k);
@@ -133,7 +133,7 @@ pub fn arc_cosine(cosine: Interval) -> Interval {
     Interval::new(below(cosine.hi()), above(cosine.lo())).unwrap_or(Interval::WHOLE)
 }
 
-/// `[w]x^2 = w w^T - s I`, with the terms of the diagonal that cancel left out.
+/// `[w]x^2 = w w^T - s I`, without the terms of the diagonal that cancel.
 fn double_cross(w: &IntervalVector) -> Rotation {
     matrix(|i, j| if i == j { -(w[(i + 1) % 3].square() + w[(i + 2) % 3].square()) } else { w[i] * w[j] })
 }

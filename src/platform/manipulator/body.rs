@@ -1,4 +1,4 @@
-//! The two bodies that the legs join.
+//! The two bodies at the ends of the legs.
 
 use std::str::FromStr;
 
@@ -31,7 +31,7 @@ pub enum Body {
 pub struct NoSuchBody(pub String);
 
 impl Body {
-    /// The base, then the platform: the order of every pair of values that belong to the bodies.
+    /// The base, then the platform: the order of every pair of values of the bodies.
     pub const BOTH: [Self; 2] = [Self::Base, Self::Platform];
 
     /// The body at the other end of a leg.
@@ -40,7 +40,7 @@ impl Body {
         self.of((Self::Platform, Self::Base))
     }
 
-    /// Of a pair of values for the base and for the platform, the one of this body.
+    /// The value of this body, from a pair for the base and for the platform.
     #[must_use]
     pub fn of<T>(self, (base, platform): (T, T)) -> T {
         match self {
@@ -55,7 +55,7 @@ impl Body {
         self.of((0, 1))
     }
 
-    /// `base` or `platform`, as files and answers write it.
+    /// `base` or `platform`, as in files and answers.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.of(("base", "platform"))

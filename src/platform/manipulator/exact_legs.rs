@@ -1,7 +1,7 @@
-//! Legs as the exact numbers that their joints are, for ranks that no tolerance decides.
+//! Legs with the exact numbers of their joints, for ranks without any tolerance.
 //!
-//! Joints of a design with constructions are numbers of a field of square roots; plain doubles are the rational numbers
-//! they are. A point is homogeneous, `(1, x, y, z)`; the leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`.
+//! Joints of a design with constructions are numbers of a field of square roots; plain doubles are rational numbers. A
+//! point is homogeneous, `(1, x, y, z)`; the leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`.
 
 use nalgebra::Point3;
 
@@ -35,7 +35,7 @@ pub struct ExactLegs {
     pub vectors: Vec<AlgebraicVector>,
 }
 
-/// `(1, x)`; `None` when a coordinate is not finite.
+/// `(1, x)`; `None` if a coordinate is not finite.
 pub fn homogeneous(p: &Point3<f64>) -> Option<ExactVector> {
     [1.0, p.x, p.y, p.z].iter().map(|x| rational(*x)).collect()
 }
@@ -50,7 +50,7 @@ fn squares(a: &[Rational], b: &[Rational]) -> Rational {
 }
 
 impl ExactLeg {
-    /// `None` when a coordinate is not finite, which no manipulator has.
+    /// `None` if a coordinate is not finite, which a manipulator excludes.
     pub fn of(leg: &Leg) -> Option<Self> {
         Some(Self { base: homogeneous(&leg.base)?, platform: homogeneous(&leg.platform)? })
     }
@@ -66,17 +66,17 @@ impl ExactLeg {
     }
 }
 
-/// Legs of which all joints are known exactly.
+/// Legs with exactly known joints.
 #[derive(Debug, Clone)]
 pub enum ExactJoints {
-    /// As the doubles they are.
+    /// Joints as doubles.
     Doubles(Box<[Leg; 6]>),
-    /// As sums of square roots.
+    /// Joints as sums of square roots.
     Surds(Box<[ExactEnds; 6]>),
 }
 
 impl ExactJoints {
-    /// `None` for joints that are known between bounds only.
+    /// `None` for joints that are known only between bounds.
     pub fn of(m: &Manipulator) -> Option<Self> {
         match m.joint_knowledge() {
             JointKnowledge::Doubles => Some(Self::Doubles(Box::new(m.legs()))),
@@ -93,14 +93,14 @@ impl ExactJoints {
         ends.into_iter().flatten()
     }
 
-    /// Degree of a field with all coordinates in it; `None` for too many square roots.
+    /// Degree of a field with all coordinates; `None` for too many square roots.
     pub fn degree(&self) -> Option<usize> {
         degree_of(self.surds())
     }
 
-    /// Residues of both ends of every leg modulo one prime after the other.
+    /// Residues of both ends of every leg, for one prime after the other.
     ///
-    /// Without end for all practical purposes; empty for too many square roots.
+    /// The sequence is practically without end; it is empty for too many square roots.
     pub fn residues(&self) -> impl Iterator<Item = LegResidues> {
         let fields = SplitField::all(self.surds()).into_iter().flatten();
         fields.filter_map(|field| Some(LegResidues { ends: self.modulo(&field)?, field: field.field() }))
@@ -123,8 +123,8 @@ impl ExactJoints {
         Some(residues)
     }
 
-    /// Bits of a common denominator of all coordinates, and a power of two that none of their conjugates exceeds, as
-    /// its exponent.
+    /// Bits of a common denominator of all coordinates, and the exponent of a power of two that bounds all their
+    /// conjugates.
     pub fn bits(&self) -> [i64; 2] {
         match self {
             Self::Doubles(legs) => {
@@ -142,7 +142,7 @@ impl ExactJoints {
     }
 }
 
-/// The ends of legs modulo a prime: ranks there are not greater than the true ones.
+/// The ends of legs modulo a prime: ranks there are at most the true ones.
 #[derive(Debug, Clone)]
 pub struct LegResidues {
     /// The field.
@@ -152,8 +152,8 @@ pub struct LegResidues {
 }
 
 impl ExactLegs {
-    /// The legs as exactly as the joints are known; `None` for joints that are known between bounds only, and for
-    /// coordinates with too many independent square roots.
+    /// The legs with exact joints. `None` for joints that are known only between bounds, and for coordinates with too
+    /// many independent square roots.
     pub fn of(m: &Manipulator) -> Option<Self> {
         match ExactJoints::of(m)? {
             ExactJoints::Doubles(legs) => Self::of_doubles(&legs),
@@ -169,8 +169,7 @@ impl ExactLegs {
         }
     }
 
-    /// Legs as the rational numbers that their doubles are; `None` when a coordinate is not finite, which no
-    /// manipulator has.
+    /// Legs with their doubles as rational numbers; `None` if a coordinate is not finite, which a manipulator excludes.
     pub fn of_doubles(legs: &[Leg; 6]) -> Option<Self> {
         let of = |p: &Point3<f64>| Some(homogeneous(p)?.into_iter().map(Algebraic::Rational).collect());
         let base = legs.iter().map(|l| of(&l.base)).collect::<Option<_>>()?;

@@ -1,10 +1,11 @@
-//! Platforms of the tests of `synthesis` and `machine`, which include this file.
+//! Platforms for the tests of `synthesis` and `machine`, which include this file.
 
 use nalgebra::Point3;
 
 use platform::manipulator::{Leg, Manipulator};
 
-/// A hexapod with joints in pairs 20 degrees apart on two circles, at the corners of turned triangles.
+/// A hexapod with joints in pairs 20 degrees apart on two circles, at the corners of triangles rotated against each
+/// other.
 pub(crate) fn symmetric_hexapod(base_radius: f64, platform_radius: f64) -> Manipulator {
     const BASE: [f64; 6] = [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0];
     const PLATFORM: [f64; 6] = [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0];

@@ -1,4 +1,4 @@
-//! A home pose for designs that give none.
+//! A home pose for designs without one.
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
@@ -12,18 +12,18 @@ fn centred(points: [Vector3<f64>; 6]) -> (Vector3<f64>, [Vector3<f64>; 6]) {
     (c, points.map(|p| p - c))
 }
 
-/// The part of `towards` normal to `axis`, or of the next coordinate axis when that is nearly parallel.
+/// The part of `towards` normal to `axis`, or that of the next coordinate axis if it is nearly parallel.
 fn normal_to(axis: Vector3<f64>, towards: Vector3<f64>) -> Vector3<f64> {
     let candidates = [towards, Vector3::z(), Vector3::x(), Vector3::y()];
     let parts = candidates.map(|v| v - axis * axis.dot(&v));
-    // of three orthogonal candidates one is at least 35 degrees off the axis
+    // one of three orthogonal candidates is at least 35 degrees off the axis
     parts.into_iter().find(|p| p.norm() > 0.5).map_or(Vector3::z(), |p| p.normalize())
 }
 
 /// Normal of the best-fit plane through the centroid, pointing to positive z of the body's frame (then y, then x).
 ///
-/// Points on one line (second moment below `1e-18` of the first): the normal to the line closest to z. Points that
-/// coincide: z.
+/// Collinear points (second moment below `1e-18` of the first): the normal to the line closest to z. Coincident points:
+/// z.
 fn plane_normal(points: &[Vector3<f64>; 6], size: f64) -> Vector3<f64> {
     let moments: Matrix3<f64> = points.iter().map(|p| p * p.transpose()).sum();
     let (values, vectors) = symmetric_eigen3(&moments);
@@ -41,7 +41,7 @@ fn plane_normal(points: &[Vector3<f64>; 6], size: f64) -> Vector3<f64> {
     if leading.is_some_and(|x| x < 0.0) { -n } else { n }
 }
 
-/// The shortest rotation that takes unit vector `from` to `to`; half a turn about a fixed normal when opposite.
+/// The shortest rotation from the unit vector `from` to `to`; half a turn about a fixed normal if they are opposite.
 fn shortest_rotation(from: Vector3<f64>, to: Vector3<f64>) -> Rotation3<f64> {
     let half_turn = || {
         let axis = Unit::new_normalize(normal_to(from, Vector3::x()));
@@ -50,20 +50,20 @@ fn shortest_rotation(from: Vector3<f64>, to: Vector3<f64>) -> Rotation3<f64> {
     Rotation3::rotation_between(&from, &to).unwrap_or_else(half_turn)
 }
 
-/// A home pose: platform parallel to the base, above its centre, turned so that the legs are short.
+/// A home pose: platform parallel to the base, above its centre, rotated for short legs.
 ///
-/// With `n` and `n'` the normals of the best-fit planes of the base and platform leg ends (each pointing to
-/// positive z of its frame), `a_i'`, `b_i'` the leg ends relative to their centroids:
+/// Let `n` and `n'` be the normals of the best-fit planes of the base and platform leg ends, each towards positive z of
+/// its frame. `a_i'` and `b_i'` are the leg ends relative to their centroids:
 ///
 /// ```text
 /// R = Rot(n, theta) R_0,   R_0 n' = n (shortest rotation),
 /// theta = atan2(sum n.(b_i'' x a_i'), sum a_i'.b_i'' - (n.a_i')(n.b_i'')),   b_i'' = R_0 b_i',
 /// ```
 ///
-/// which minimises the sum of squared leg lengths over turns about `n`; the platform centroid lies on `n` through the
-/// base centroid, at a height equal to the base radius (greatest distance of a base leg end from the centroid;
-/// [`Manipulator::size`] when the base leg ends coincide). Where every turn is equally good (both sums below `1e-12` of
-/// the squared size) `theta = 0`. Deterministic; not guaranteed to be free of singularities.
+/// which minimises the sum of squared leg lengths over rotations about `n`. The platform centroid is on `n` through the
+/// base centroid. Its height equals the base radius, the greatest distance of a base leg end from the centroid. If the
+/// base leg ends coincide, the height is [`Manipulator::size`]. If all rotations are equally good (both sums below
+/// `1e-12` of the squared size), `theta = 0`. It is deterministic, and possibly singular.
 #[must_use]
 pub fn default_home(m: &Manipulator) -> Pose {
     let legs = m.legs();
@@ -85,9 +85,8 @@ pub fn default_home(m: &Manipulator) -> Pose {
     Pose { rotation, position: base_centre + normal * height - rotation * platform_centre }
 }
 
-/// Height of the centre of the platform above the base, design units: with `n` the normal of the best-fit plane of the
-/// base leg ends, which points to positive z of the base frame, and the means `a`, `b` of the leg ends, it is
-/// `n . (R b + p - a)`.
+/// Height of the centre of the platform above the base, design units. It is `n . (R b + p - a)` with the means `a`, `b`
+/// of the leg ends. `n` is the normal of the best-fit plane of the base leg ends, towards positive z of the base frame.
 pub fn height_above_base(m: &Manipulator, pose: &Pose) -> f64 {
     let (base_centre, a) = centred(m.legs().map(|l| l.base.coords));
     let (platform_centre, _) = centred(m.legs().map(|l| l.platform.coords));

@@ -8,16 +8,16 @@ use num::small::singular_values;
 
 /// The matrix of normalised leg lines at a pose: row `i` is `[u_i, ((R b_i) x u_i) / L]`.
 ///
-/// `u_i` is the unit vector from base joint to platform joint (base frame), the moment is taken about the
-/// platform origin, `L` is a characteristic length in design units. Rows then map the twist
-/// `(v, L omega)` to leg speeds. A leg of length zero has no direction: its row is NaN.
-/// Source: Merlet, *Parallel Robots* (2006), sec. 5.3, with the moment column scaled by `L`.
+/// `u_i` is the unit vector from base joint to platform joint (base frame). The moment is about the platform origin,
+/// and `L` is a characteristic length in design units. Rows thus map the twist `(v, L omega)` to leg speeds. A leg of
+/// length zero has no direction: its row is NaN. Source: Merlet, *Parallel Robots* (2006), sec. 5.3, with the moment
+/// column scaled by `L`.
 #[must_use]
 pub fn jacobian(m: &Manipulator, pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
     jacobian_of_legs(&m.legs(), pose, characteristic_length)
 }
 
-/// As [`jacobian()`], for legs that are not put together.
+/// [`jacobian()`] for separate legs.
 #[inline]
 pub fn jacobian_of_legs(legs: &[Leg; 6], pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();
@@ -32,9 +32,9 @@ pub fn jacobian_of_legs(legs: &[Leg; 6], pose: &Pose, characteristic_length: f64
     j
 }
 
-/// The same rows not divided by the leg lengths: `[d_i, ((R b_i) x d_i) / L]`, `d_i = R b_i + p - a_i`.
+/// The same rows without division by the leg lengths: `[d_i, ((R b_i) x d_i) / L]`, `d_i = R b_i + p - a_i`.
 ///
-/// Polynomial in the pose; `1/2 ds_i/dt = row_i . (v, L omega)`, so that `J' = A J` for leg maps.
+/// They are polynomial in the pose; `1/2 ds_i/dt = row_i . (v, L omega)`, so that `J' = A J` for leg maps.
 #[must_use]
 pub fn plucker_matrix(m: &Manipulator, pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();

@@ -67,8 +67,8 @@ impl Leg {
 
 /// Six legs between the joints of a base and the joints of a platform.
 ///
-/// Joints are kept apart from legs so that a *shared* joint (one ball joint that carries two or more
-/// legs) is told from two joints that happen to lie at the same place.
+/// Joints are separate from legs. A *shared* joint (one ball joint with two or more legs) thus differs from two joints
+/// at the same place.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
@@ -88,13 +88,13 @@ pub struct Manipulator {
     platform: Vec<Point3<f64>>,
     pub(super) legs: [(usize, usize); 6],
     size: f64,
-    /// What the joints are where they are not the doubles.
+    /// The exact coordinates of the joints if they differ from the doubles.
     pub(super) values: Option<Arc<JointValues>>,
-    /// Whether joints are given by constructions, and none by plain numbers that look rounded: all are exact as said.
+    /// Whether constructions give the joints, without plain numbers that look rounded: all are exact as given.
     pub(super) constructed: bool,
 }
 
-/// Why joints and legs do not make a manipulator.
+/// Reasons why joints and legs form no manipulator.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InvalidManipulator {
@@ -103,7 +103,7 @@ pub enum InvalidManipulator {
     NonFinite {
         /// The body.
         body: Body,
-        /// 0-based index of the joint, of its leg where joints were given by legs; messages count from 1.
+        /// 0-based index of the joint, or of its leg if joints were given by legs; messages count from 1.
         index: usize,
     },
     /// A leg names a joint that does not exist.
@@ -113,18 +113,18 @@ pub enum InvalidManipulator {
         leg: LegIndex,
         /// The body.
         body: Body,
-        /// The index asked for.
+        /// The requested index.
         index: usize,
-        /// How many joints the body has.
+        /// The number of joints of the body.
         count: usize,
     },
-    /// Some leg is missing in an order of legs.
+    /// An order of legs lacks some leg.
     #[error("{order:?} is no order of six legs, which are counted from 0")]
     NotAnOrder {
         /// The order given.
         order: [usize; 6],
     },
-    /// All joints of both bodies lie in one point each, so that the design has no size.
+    /// All joints of each body coincide, so the design has no size.
     #[error("all joints of each body coincide: the design has no size")]
     NoSize,
     /// A coordinate whose square, and with it every squared leg length, overflows double precision.
@@ -134,19 +134,19 @@ pub enum InvalidManipulator {
     TooFar {
         /// The body.
         body: Body,
-        /// 0-based index of the joint, of its leg where joints were given by legs; messages count from 1.
+        /// 0-based index of the joint, or of its leg if joints were given by legs; messages count from 1.
         index: usize,
         /// The coordinate.
         coordinate: f64,
     },
-    /// The joints differ, but by lengths whose squares underflow double precision.
+    /// The joints differ, but the squares of their distances underflow double precision.
     #[error(
         "the joints of each body are so near to each other that the squares of their distances underflow double precision"
     )]
     TooSmall,
 }
 
-/// Coordinates up to here have leg lengths whose squares, sums of three squares of differences, are finite:
+/// Greatest coordinate for which squared leg lengths, sums of three squares of differences, are finite:
 /// `12 x^2 < 2^1024`.
 const FARTHEST: f64 = 3.8e153;
 
@@ -198,9 +198,9 @@ impl Manipulator {
     /// Builds a manipulator from six legs; joints with exactly equal coordinates become one shared joint.
     ///
     /// # Errors
-    /// As [`Manipulator::try_new`].
+    /// The errors of [`Manipulator::try_new`].
     pub fn from_legs(legs: [Leg; 6]) -> Result<Self, InvalidManipulator> {
-        // before equal joints become one, so that joints are counted as legs are
+        // before equal joints are merged, so that the index is that of the leg
         check_coordinates(Body::Base, &legs.map(|l| l.base))?;
         check_coordinates(Body::Platform, &legs.map(|l| l.platform))?;
         let mut base: Vec<Point3<f64>> = Vec::new();
@@ -247,8 +247,8 @@ impl Manipulator {
         (0..self.joints(body).len()).filter(|i| used.contains(i)).collect()
     }
 
-    /// The least distance of two joints of `body` that carry legs, with the indices of the first two that have it;
-    /// `None` where one joint carries all legs.
+    /// The least distance of two joints of `body` that carry legs, with the indices of the first such pair. `None` if
+    /// one joint carries all legs.
     #[must_use]
     pub fn nearest_joints(&self, body: Body) -> Option<(f64, [usize; 2])> {
         let (used, joints) = (self.used_joints(body), self.joints(body));
@@ -264,7 +264,7 @@ impl Manipulator {
         nearest
     }
 
-    /// How many joints of base and platform carry more than one leg.
+    /// The number of joints of base and platform with more than one leg.
     pub fn shared_joints(&self) -> usize {
         let shared = |end: fn(&(usize, usize)) -> usize| {
             let mut ends: Vec<usize> = self.legs.iter().map(end).collect();
@@ -286,14 +286,14 @@ impl Manipulator {
         &self.platform
     }
 
-    /// The length every tolerance is relative to: the larger of the two bodies' greatest distance of a
-    /// leg end from the centroid of the leg ends of its body. Always positive, in design units.
+    /// The reference length of every tolerance. It is the greatest distance of a leg end from the centroid of the leg
+    /// ends of its body, over both bodies. Always positive, in design units.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
     }
 
-    /// Means of the six leg ends on the base and on the platform, each in the frame of its body: a joint with two legs
+    /// Means of the six leg ends on the base and on the platform, each in the frame of its body. A joint with two legs
     /// counts twice.
     pub fn mean_leg_ends(&self) -> [Vector3<f64>; 2] {
         let legs = self.legs();
@@ -301,9 +301,8 @@ impl Manipulator {
         [mean(|l| l.base.coords), mean(|l| l.platform.coords)]
     }
 
-    /// RMS distance of the platform leg ends from their centroid, design units: the default
-    /// characteristic length of [`jacobian`](super::jacobian()). Falls back to [`size`](Self::size) when
-    /// all platform joints coincide.
+    /// RMS distance of the platform leg ends from their centroid, design units: the default characteristic length of
+    /// [`jacobian`](super::jacobian()). It is [`size`](Self::size) if all platform joints coincide.
     #[must_use]
     pub fn platform_rms_radius(&self) -> f64 {
         let b: Vec<_> = self.legs.iter().map(|l| self.platform[l.1]).collect();
@@ -371,8 +370,7 @@ mod tests {
         );
     }
 
-    /// Bodies of every magnitude that a double can hold: accepted with a size that can be squared, or refused with the
-    /// reason.
+    /// Bodies of every magnitude of a double: accepted with a size that can be squared, or refused with the reason.
     #[test]
     fn size_can_be_squared() {
         let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];

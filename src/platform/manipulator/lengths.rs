@@ -1,19 +1,19 @@
-//! Leg lengths and squared leg lengths are different types: leg maps are affine in the squares only.
+//! Leg lengths and squared leg lengths are different types, since leg maps are affine only in the squares.
 
 use super::LegIndex;
 use num::double_double::DoubleDouble;
 use num::interval::Interval;
 use thiserror::Error;
 
-/// Leg lengths `l_1..l_6`, design units, finite and not negative.
+/// Leg lengths `l_1..l_6`, design units, finite and non-negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegLengths([f64; 6]);
 
-/// Squared leg lengths `s_i = l_i^2`, design units squared: each any number within a radius of a middle of two doubles.
+/// Squared leg lengths `s_i = l_i^2`, design units squared: each within a radius of a centre of two doubles.
 ///
-/// Squares of lengths are exact (the square of a double is the sum of two), and so are squares given as doubles; images
-/// under leg maps have the radius of their rounding. What is proved is proved for every choice within the radii.
-/// Solvers take the nearest doubles, [`get`](Self::get).
+/// Squares of lengths are exact (the square of a double is the sum of two), and so are squares given as doubles. Images
+/// under leg maps have the radius of their rounding. Proofs hold for every choice within the radii. Solvers use the
+/// nearest doubles, [`get`](Self::get).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SquaredLegLengths {
     middle: [DoubleDouble; 6],
@@ -37,7 +37,7 @@ pub enum InvalidLengths {
     Negative {
         /// The leg.
         leg: LegIndex,
-        /// The value given (a squared length where squares were given).
+        /// The given value (a squared length if squares were given).
         value: f64,
     },
 }
@@ -63,7 +63,7 @@ impl LegLengths {
     #[inline]
     pub fn try_new(lengths: [f64; 6]) -> Result<Self, InvalidLengths> {
         let valid = Self(validated(lengths)?);
-        validated(lengths.map(|l| l * l))?; // a length whose square overflows cannot be worked with
+        validated(lengths.map(|l| l * l))?; // a length whose square overflows is unusable
         Ok(valid)
     }
 
@@ -74,23 +74,23 @@ impl LegLengths {
         self.0
     }
 
-    /// Lengths that legs with these offsets show where the joints are as far apart as this.
+    /// The lengths that legs with these offsets show at these joint distances.
     ///
     /// # Errors
-    /// The first sum that is no length.
+    /// The first sum that is not a length.
     pub fn shown_with(&self, offsets: &[f64; 6]) -> Result<Self, InvalidLengths> {
         Self::try_new(std::array::from_fn(|i| self.0[i] + offsets[i]))
     }
 
-    /// Distances of the joints where legs with these offsets show these lengths.
+    /// Distances of the joints of legs with these offsets at these shown lengths.
     ///
     /// # Errors
-    /// The first difference that is no length.
+    /// The first difference that is not a length.
     pub fn without(&self, offsets: &[f64; 6]) -> Result<Self, InvalidLengths> {
         Self::try_new(std::array::from_fn(|i| self.0[i] - offsets[i]))
     }
 
-    /// `s_i = l_i^2`, exactly unless a square leaves the range in which two doubles hold it.
+    /// `s_i = l_i^2`, exactly unless a square leaves the range of two doubles.
     #[must_use]
     pub fn squared(&self) -> SquaredLegLengths {
         let mut out = SquaredLegLengths { middle: [DoubleDouble::ZERO; 6], radius: [0.0; 6] };
@@ -133,16 +133,16 @@ impl SquaredLegLengths {
     /// Checks six squared lengths.
     ///
     /// # Errors
-    /// The first value that is negative or not finite: it is refused, never clamped to zero.
+    /// The first value that is negative or not finite; it is never clamped to zero.
     pub fn try_new(squares: [f64; 6]) -> Result<Self, InvalidLengths> {
         Self::try_within(validated(squares)?.map(DoubleDouble::from), [0.0; 6])
     }
 
-    /// Squares that are known to lie within `radius` of `middle`, leg by leg.
+    /// Squares within `radius` of `middle`, leg by leg.
     ///
     /// # Errors
-    /// The first middle that is negative or not finite, or radius that is negative or not a number. An infinite radius
-    /// says that nothing is known.
+    /// The first centre that is negative or not finite, or radius that is negative or NaN. An infinite radius means no
+    /// information.
     pub fn try_within(middle: [DoubleDouble; 6], radius: [f64; 6]) -> Result<Self, InvalidLengths> {
         validated(middle.map(DoubleDouble::hi))?;
         for (leg, value) in LegIndex::all().zip(radius) {
@@ -156,25 +156,25 @@ impl SquaredLegLengths {
         Ok(Self { middle, radius })
     }
 
-    /// The doubles nearest to the middles.
+    /// The doubles nearest to the centres.
     #[must_use]
     pub fn get(&self) -> [f64; 6] {
         self.middle.map(DoubleDouble::hi)
     }
 
-    /// The middles, with all their digits.
+    /// The centres, with all their digits.
     #[must_use]
     pub fn middle(&self) -> [DoubleDouble; 6] {
         self.middle
     }
 
-    /// How far from the middles the squares may be; zero for exact ones.
+    /// Greatest distance of the squares from the centres; zero for exact ones.
     #[must_use]
     pub fn radius(&self) -> [f64; 6] {
         self.radius
     }
 
-    /// The smallest intervals of doubles found that hold the squares.
+    /// Small intervals of doubles that contain the squares.
     #[must_use]
     pub fn intervals(&self) -> [Interval; 6] {
         std::array::from_fn(|i| {
@@ -228,7 +228,7 @@ mod tests {
                 exact(interval.lo()) <= exact(l) * exact(l) && exact(interval.hi()) >= exact(l) * exact(l)
             );
         }
-        // beyond the range of two doubles the radius takes up what is lost
+        // beyond the range of two doubles the radius includes the loss
         let s = LegLengths::try_new([1e-170, 1e-160, 1.2e154, 1.0, 1.0, 1.0]).unwrap().squared();
         for (i, l) in [1e-170, 1e-160, 1.2e154].into_iter().enumerate() {
             let gap = exact(s.get()[i]) - exact(l) * exact(l);

@@ -1,6 +1,6 @@
-//! The joints that a judgement is proved about.
+//! The joints for which a judgement is proved.
 
-/// How far a judgement goes: the same three words everywhere.
+/// The level of a judgement, with the same three words everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "serde",
@@ -8,11 +8,11 @@
     serde(rename_all = "snake_case")
 )]
 pub enum Level {
-    /// It holds within the rounding of the joints, and nothing is proved.
+    /// It holds within the rounding of the joints, without a proof.
     WithinRounding,
-    /// It is proved about the doubles as written: rational numbers, whatever was rounded to them.
+    /// It is proved for the doubles as written: rational numbers, regardless of their origin.
     DoublesAsWritten,
-    /// It is proved about the exact joints, of which doubles are rounded values.
+    /// It is proved for the exact joints, whose rounded values are the doubles.
     ExactJoints,
 }
 

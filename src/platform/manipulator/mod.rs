@@ -1,4 +1,4 @@
-//! The platform as a device: joints, legs, lengths, inverse kinematics, Jacobian.
+//! The platform as a mechanism: joints, legs, lengths, inverse kinematics, Jacobian.
 //!
 //! A Gough-Stewart manipulator has six legs. Leg `i` joins the base joint `a_i` (coordinates in the base
 //! frame) to the platform joint `b_i` (coordinates in the platform frame). At the pose `(R, p)` with

@@ -1,4 +1,4 @@
-//! Recognising the octahedral 3-3 platform: six legs in a zigzag between two triangles.
+//! Recognition of the octahedral 3-3 platform: six legs in a zigzag between two triangles.
 
 use nalgebra::Point3;
 use thiserror::Error;
@@ -8,8 +8,8 @@ use super::{Body, LegIndex, Manipulator};
 /// An octahedral manipulator in cyclic leg order.
 ///
 /// With base triangle `P1 P2 P3` and platform triangle `P4 P5 P6` the cyclic legs are
-/// `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6` (Rojas, Borras, Thomas, Fig. 4): consecutive legs share a joint,
-/// alternately on the platform (legs 1-2, 3-4, 5-6) and on the base (2-3, 4-5, 6-1).
+/// `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6` (Rojas, Borras, Thomas, Fig. 4). Consecutive legs share a joint, alternately on
+/// the platform (legs 1-2, 3-4, 5-6) and on the base (2-3, 4-5, 6-1).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Octahedral {
     order: [LegIndex; 6],
@@ -17,11 +17,11 @@ pub struct Octahedral {
     platform: [usize; 3],
     base_points: [Point3<f64>; 3],
     platform_points: [Point3<f64>; 3],
-    /// How far, at most, a coordinate of each corner is from its double, on base and platform.
+    /// Greatest distance of a coordinate of each corner from its double, on base and platform.
     radii: [[f64; 3]; 2],
 }
 
-/// Why a manipulator is not octahedral.
+/// Reasons why a manipulator is not octahedral.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotOctahedral {
@@ -33,7 +33,7 @@ pub enum NotOctahedral {
         /// Joints in use.
         count: usize,
     },
-    /// A joint carries other than two legs.
+    /// A joint does not carry exactly two legs.
     #[error("{body} joint {} carries {count} legs; in an octahedral platform each joint carries two", .index + 1)]
     LegsAtJoint {
         /// The body.
@@ -54,7 +54,7 @@ pub enum NotOctahedral {
     },
 }
 
-/// `true` when the triangle's height is below `1e-9` of its longest side.
+/// `true` if the triangle's height is below `1e-9` of its longest side.
 pub fn is_collinear(t: &[Point3<f64>; 3]) -> bool {
     let sides = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let longest = sides.iter().map(nalgebra::Matrix::norm_squared).fold(0.0, f64::max);
@@ -62,10 +62,10 @@ pub fn is_collinear(t: &[Point3<f64>; 3]) -> bool {
 }
 
 impl Octahedral {
-    /// Recognises an octahedral manipulator in any leg order, by which legs share which joints.
+    /// Recognises an octahedral manipulator in any leg order, by its shared joints.
     ///
-    /// The cycle starts with the first leg; of its two directions the one is taken in which the second
-    /// leg shares the platform joint of the first.
+    /// The cycle starts with the first leg. Its direction is such that the second leg shares the platform joint of the
+    /// first.
     ///
     /// # Errors
     /// The reason why it is not octahedral.
@@ -73,7 +73,7 @@ impl Octahedral {
         Self::recognise_from(m, LegIndex::FIRST)
     }
 
-    /// As [`recognise`](Self::recognise), with the cycle starting at any leg.
+    /// [`recognise`](Self::recognise) with the cycle starting at any leg.
     ///
     /// # Errors
     /// The reason why it is not octahedral.
@@ -151,7 +151,7 @@ impl Octahedral {
         self.platform_points
     }
 
-    /// How far, at most, the coordinates of the corners of `body` are from those of [`base`](Self::base) or
+    /// Greatest distances of the coordinates of the corners of `body` from those of [`base`](Self::base) or
     /// [`platform`](Self::platform).
     pub fn corner_radii(&self, body: Body) -> [f64; 3] {
         self.radii[body.index()]
@@ -190,8 +190,8 @@ mod tests {
 
     #[test]
     fn says_why_other_platforms_are_not_octahedral() {
-        // two legs from each vertex, but joined 2-2-2 in parallel: cycles of two are identical legs,
-        // so use 4 + 2, which has a joint with three legs
+        // two legs from each vertex, but joined 2-2-2 in parallel: cycles of two are identical legs. So use 4 + 2,
+        // which has a joint with three legs.
         let m = design([(0, 0), (0, 1), (1, 0), (1, 1), (2, 1), (2, 2)]);
         assert!(matches!(Octahedral::recognise(&m), Err(NotOctahedral::LegsAtJoint { .. })));
         let line = vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(2.0, 0.0, 0.0)];

@@ -1,4 +1,4 @@
-//! What the coordinates of joints are, where a double only comes near.
+//! Exact coordinates of joints whose doubles are only approximate.
 
 use std::sync::{Arc, OnceLock};
 
@@ -14,13 +14,13 @@ pub type SurdPoint = [Surd; 3];
 /// A leg by the exact coordinates of its ends, on the base and on the platform.
 pub type ExactEnds = [SurdPoint; 2];
 
-/// `(1, a) (x) (1, b)`; `None` when it becomes too long.
+/// `(1, a) (x) (1, b)`; `None` if it becomes too long.
 pub fn vector_of_ends(leg: &ExactEnds) -> Option<Vec<Surd>> {
     let [a, b] = leg.each_ref().map(|p| [Surd::integer(1), p[0].clone(), p[1].clone(), p[2].clone()]);
     a.iter().flat_map(|x| b.iter().map(move |y| x.times(y))).collect()
 }
 
-/// `|a|^2 + |b|^2`; `None` when it becomes too long.
+/// `|a|^2 + |b|^2`; `None` if it becomes too long.
 pub fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
     leg.iter().flatten().try_fold(Surd::zero(), |sum, x| sum.plus(&x.times(x)?))
 }
@@ -28,16 +28,16 @@ pub fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
 /// The joints behind the doubles of a [`Manipulator`].
 #[derive(Debug, Clone)]
 pub struct JointValues {
-    /// For base and platform the coordinates of every joint; `None` when one of them is known between bounds only.
+    /// For base and platform the coordinates of every joint; `None` if one of them is known only between bounds.
     pub exact: Option<[Vec<SurdPoint>; 2]>,
-    /// For base and platform how far, at most, a coordinate of a joint is from its double.
+    /// For base and platform the greatest distance of a joint's coordinate from its double.
     pub radius: [Vec<f64>; 2],
-    /// What the doubles leave, once it has been asked for.
+    /// The remainders beside the doubles, computed on demand.
     left: OnceLock<[Vec<LeftOver>; 2]>,
 }
 
-/// What the doubles leave of the coordinates of a joint, as the nearest doubles again (zeros where that is not known),
-/// and how far, at most, a coordinate is from both doubles together.
+/// The remainders of a joint's coordinates beside their doubles, as the nearest doubles again (zeros if unknown). The
+/// second value is the greatest distance of a coordinate from both doubles together.
 type LeftOver = ([f64; 3], f64);
 
 impl PartialEq for JointValues {
@@ -48,12 +48,12 @@ impl PartialEq for JointValues {
 }
 
 impl JointValues {
-    /// Joints, and how far the doubles are from them.
+    /// Joints, with the distances of the doubles from them.
     pub fn new(exact: Option<[Vec<SurdPoint>; 2]>, radius: [Vec<f64>; 2]) -> Self {
         Self { exact, radius, left: OnceLock::new() }
     }
 
-    /// What `doubles`, of which the joints are the nearest doubles or the middles, leave of them.
+    /// The remainders beside `doubles`, the nearest doubles or the centres of the joints.
     fn left(&self, doubles: [&[Point3<f64>]; 2]) -> &[Vec<LeftOver>; 2] {
         self.left.get_or_init(|| {
             [0, 1].map(|body| {
@@ -71,14 +71,14 @@ impl JointValues {
     }
 }
 
-/// What a double leaves of a number, as a double, and an upper bound of what both leave.
+/// The remainder of a number beside a double, as a double, and an upper bound of the rest beside both.
 fn low_part(x: &Surd, double: f64) -> Option<(f64, f64)> {
     let left = x.minus(&Surd::rational(&num::exact::rational(double)?)?)?;
     let low = left.nearest();
     Some((low, left.distance_from(low)))
 }
 
-/// Doubles of so many significant digits look like rounded numbers.
+/// Doubles with at least this number of significant digits look like rounded numbers.
 const ROUNDED: usize = 15;
 
 /// Significant digits of the shortest decimal that is read as this double.
@@ -88,14 +88,14 @@ fn significant_digits(x: f64) -> usize {
     digits.bytes().filter(u8::is_ascii_digit).count()
 }
 
-/// How the joints of a [`Manipulator`] are known.
+/// The kind of knowledge about the joints of a [`Manipulator`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKnowledge {
     /// They are the doubles as written.
     Doubles,
     /// They are numbers of a field of square roots, near the doubles.
     Exact,
-    /// They are somewhere near the doubles.
+    /// They are within bounds near the doubles.
     Enclosed,
 }
 
@@ -103,7 +103,7 @@ impl Manipulator {
     /// Six legs between exact ends; equal ends of a body are one joint, with the nearest doubles as coordinates.
     ///
     /// # Errors
-    /// As [`Manipulator::try_new`].
+    /// The errors of [`Manipulator::try_new`].
     pub fn from_exact_ends(ends: &[ExactEnds; 6]) -> Result<Self, InvalidManipulator> {
         let (mut exact, mut radius) = ([Vec::<SurdPoint>::new(), Vec::new()], [Vec::new(), Vec::new()]);
         let mut points = [Vec::new(), Vec::new()];
@@ -124,17 +124,17 @@ impl Manipulator {
         Ok(Self::try_new(base, platform, pairs)?.with_values(values))
     }
 
-    /// The same doubles with what they stand for.
+    /// The same doubles with their exact values.
     ///
-    /// `values` belong to the joints of this manipulator, in their order.
+    /// `values` are those of the joints of this manipulator, in their order.
     ///
     /// # Panics
-    /// For values of another number of joints.
+    /// `values` has another number of joints.
     pub fn with_values(mut self, values: JointValues) -> Self {
         let counts = [self.base_joints().len(), self.platform_joints().len()];
         assert_eq!(values.radius.each_ref().map(Vec::len), counts);
         let plain = values.radius.iter().flatten().all(|r| *r <= 0.0);
-        // a joint of plain numbers beside constructions may be a rounded one, such as one that was computed
+        // a joint of plain numbers next to constructions may be rounded, for instance a computed one
         let points = [self.base_joints(), self.platform_joints()];
         let rounded = points.iter().zip(&values.radius).any(|(list, radius)| {
             list.iter()
@@ -146,7 +146,7 @@ impl Manipulator {
         self
     }
 
-    /// The platform for a base and the base for a platform, joints as exact as they are.
+    /// The manipulator with base and platform exchanged, with all exact joints.
     pub fn exchanged(&self) -> Self {
         let pairs = self.pairs().map(|(a, b)| (b, a));
         let mut out = Self::try_new(self.platform_joints().to_vec(), self.base_joints().to_vec(), pairs)
@@ -160,15 +160,15 @@ impl Manipulator {
         out
     }
 
-    /// The same doubles, taken as the joints.
+    /// The same doubles, taken as exact joints.
     pub fn without_values(&self) -> Self {
         let mut doubles = self.clone();
         (doubles.values, doubles.constructed) = (None, false);
         doubles
     }
 
-    /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by
-    /// their exact coordinates where these are known, and not at all where joints are known between bounds only.
+    /// The same legs with coincident ends merged into one joint. Ends are compared by doubles if these are the joints,
+    /// or by their exact coordinates if known; joints known only between bounds are not merged.
     pub fn with_merged_joints(&self) -> Self {
         let first = |body: Body, joint: usize| {
             let doubles = self.joints(body);
@@ -187,7 +187,7 @@ impl Manipulator {
         merged
     }
 
-    /// How the joints are known.
+    /// The kind of knowledge about the joints.
     pub fn joint_knowledge(&self) -> JointKnowledge {
         match &self.values {
             None => JointKnowledge::Doubles,
@@ -196,27 +196,27 @@ impl Manipulator {
         }
     }
 
-    /// What a proof about these joints is about, where there is one.
+    /// The level of a proof about these joints.
     pub fn level(&self) -> Level {
         if self.constructed { Level::ExactJoints } else { Level::DoublesAsWritten }
     }
 
-    /// How far, at most, the coordinates of the ends of leg `i` on `body` are from their doubles.
+    /// Greatest distance of the coordinates of the ends of leg `i` on `body` from their doubles.
     pub fn end_radius(&self, leg: usize, body: Body) -> f64 {
         let joint = body.of(self.pairs()[leg]);
         self.values.as_ref().map_or(0.0, |v| v.radius[body.index()][joint])
     }
 
-    /// What the doubles leave of the coordinates of the end of leg `i` on `body`, and how far the coordinates are, at
-    /// most, from both together.
+    /// Remainders of the coordinates of the end of leg `i` on `body` beside their doubles. The second value is the
+    /// greatest distance of a coordinate from both together.
     pub fn end_low(&self, leg: usize, body: Body) -> ([f64; 3], f64) {
         let joint = body.of(self.pairs()[leg]);
         let doubles = [self.base_joints(), self.platform_joints()];
         self.values.as_ref().map_or(([0.0; 3], 0.0), |v| v.left(doubles)[body.index()][joint])
     }
 
-    /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else
-    /// intervals that hold the joints.
+    /// The ends of leg `i` on base and platform, by coordinate: the doubles if these are the joints, otherwise
+    /// intervals that contain the joints.
     pub fn enclosed_ends(&self, leg: usize) -> [[Interval; 3]; 2] {
         Body::BOTH.map(|body| {
             let (end, radius) = (self.joints(body)[body.of(self.pairs()[leg])], self.end_radius(leg, body));
@@ -229,7 +229,7 @@ impl Manipulator {
         })
     }
 
-    /// The ends of the legs as exact numbers; `None` when one of them is known between bounds only.
+    /// The ends of the legs as exact numbers; `None` if one of them is known only between bounds.
     pub fn exact_ends(&self) -> Option<[ExactEnds; 6]> {
         let ends: Vec<ExactEnds> = match &self.values {
             None => self.legs().iter().map(exact_doubles).collect::<Option<_>>()?,
@@ -243,14 +243,14 @@ impl Manipulator {
 }
 
 impl Manipulator {
-    /// The same doubles, of which nothing is known but that the joints are within a radius of them.
+    /// The same doubles, with joints known only to be within a radius of them.
     pub fn enclosed_within(self, radius: f64) -> Self {
         let radius = [self.base_joints(), self.platform_joints()].map(|joints| vec![radius; joints.len()]);
         self.with_values(JointValues::new(None, radius))
     }
 }
 
-/// The doubles of a leg as the rational numbers they are.
+/// The doubles of a leg as rational numbers.
 fn exact_doubles(leg: &Leg) -> Option<ExactEnds> {
     let one = |x: f64| num::exact::rational(x).and_then(|x| Surd::rational(&x));
     let point = |p: &Point3<f64>| Some([one(p.x)?, one(p.y)?, one(p.z)?]);

@@ -2,11 +2,11 @@
 
 use crate::manipulator::Manipulator;
 
-/// The bipartite graph of joints and legs up to isomorphism: joints are nodes, legs are edges; base and platform are
-/// told apart.
+/// The bipartite graph of joints and legs up to isomorphism: joints are nodes, legs are edges, and base and platform
+/// are distinguished.
 ///
-/// Stored is the least of all ways to number the legs; entry `i` is the number of the joint of leg `i`, joints numbered
-/// as they appear. Equal graphs are equal values.
+/// The stored form is the least over all orders of the legs. Entry `i` is the number of the joint of leg `i`, with
+/// joints numbered in order of appearance. Equal graphs are equal values.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_platform::{geom, manipulator, topology}; } pub mod prelude { pub use equipod_platform::geom::*; } }
@@ -22,14 +22,15 @@ pub struct Topology {
     platform: [u8; 6],
 }
 
-/// Why six legs cannot hold a platform, wherever their joints are: the Jacobian has rank 5 or less at every pose.
+/// Reasons why six legs can never hold a platform: the Jacobian has rank 5 or less at every pose, for all joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AlwaysSingular {
-    /// Two legs join the same two joints: their lines are one.
+    /// Two legs join the same two joints, so their lines coincide.
     CoincidentLegs,
     /// Four lines through one point have rank 3.
     FourLegsAtOneJoint,
-    /// Two joints hold all six legs: every leg meets the line of the two, about which the platform turns.
+    /// All six legs pass through two joints, so every leg meets the line of the two, about which the platform can
+    /// rotate.
     TwoJointsHoldAllLegs,
 }
 
@@ -58,13 +59,13 @@ impl Topology {
         least.unwrap_or_else(|| unreachable!("there are orders"))
     }
 
-    /// The graph with the legs in the order given: for [`is_merger_of`](Self::is_merger_of) and
-    /// [`always_singular`](Self::always_singular), which need no least form, and take less time than finding it.
+    /// The graph with the legs in the given order. [`is_merger_of`](Self::is_merger_of) and
+    /// [`always_singular`](Self::always_singular) need no least form and are faster than its computation.
     pub fn unordered(base: [usize; 6], platform: [usize; 6]) -> Self {
         Self { base: by_appearance(base), platform: by_appearance(platform) }
     }
 
-    /// The topology of a design, by its shared joints: two joints at one place are two joints.
+    /// The topology of a design, by its shared joints: two coincident joints count as two.
     #[must_use]
     pub fn of_manipulator(m: &Manipulator) -> Self {
         Self::of_legs(m.pairs().map(|p| p.0), m.pairs().map(|p| p.1))
@@ -82,7 +83,7 @@ impl Topology {
         self.min(self.exchanged())
     }
 
-    /// Base and platform joint of every leg, numbered from 0 as they appear.
+    /// Base and platform joint of every leg, numbered from 0 in order of appearance.
     #[must_use]
     pub fn legs(self) -> [(usize, usize); 6] {
         std::array::from_fn(|i| (usize::from(self.base[i]), usize::from(self.platform[i])))
@@ -107,17 +108,17 @@ impl Topology {
         shared(self.base) + shared(self.platform)
     }
 
-    /// Whether the legs share joints at least as in `finer`: this topology is had from that one by letting joints
-    /// coincide (base and platform kept apart). A topology is a merger of itself.
+    /// Whether the legs share at least the joints of `finer`: merging joints of it gives this topology (within base and
+    /// within platform). A topology is a merger of itself.
     #[must_use]
     pub fn is_merger_of(self, finer: Self) -> bool {
         merges(&self, &finer, &mut [0; 6], 0)
     }
 
-    /// Why no platform of this topology can be held, `None` when some can.
+    /// The reason why no platform of this topology can be held; `None` if some can.
     ///
-    /// The conditions are also necessary: for every topology without them there is a platform and a pose with a regular
-    /// Jacobian (`docs/theory/topologies.md`; tested in exact arithmetic), so that almost all have one.
+    /// The conditions are also necessary. Every topology without them has a platform and a pose with a regular
+    /// Jacobian, and so almost all platforms do (`docs/theory/topologies.md`; tested in exact arithmetic).
     #[must_use]
     pub fn always_singular(self) -> Option<AlwaysSingular> {
         let legs = self.legs();
@@ -143,7 +144,7 @@ fn legs_at(x: [u8; 6], joint: u8) -> u8 {
     (0..6).filter(|i| x[*i] == joint).fold(0, |set, i| set | 1 << i)
 }
 
-/// Tries every leg of `coarse` as leg `next` of `fine`, the earlier ones being placed.
+/// Tries every leg of `coarse` as leg `next` of `fine`, with the earlier ones placed.
 fn merges(coarse: &Topology, fine: &Topology, placed: &mut [usize; 6], next: usize) -> bool {
     if next == 6 {
         return true;

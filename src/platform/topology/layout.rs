@@ -1,10 +1,10 @@
-//! Where to draw the joints of a topology.
+//! Positions of the joints of a topology in a drawing.
 
 use std::f64::consts::TAU;
 
 use super::graph::{Topology, each_order};
 
-/// Angles of the joints, each body's evenly spaced on its circle, such that legs are steep.
+/// Angles of the joints, evenly spaced on a circle for each body, with steep legs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// Angle of each base joint, radians.
@@ -14,21 +14,21 @@ pub struct Layout {
 }
 
 impl Topology {
-    /// An arrangement with a small sum of squared angles between the ends of the legs: all orders of the base joints,
-    /// platform joints in the order of the mean direction of their base joints.
+    /// An arrangement with a small sum of squared angles between the ends of the legs. It tries all orders of the base
+    /// joints, with platform joints in the order of the mean direction of their base joints.
     #[must_use]
     pub fn layout(self) -> Layout {
         let n = self.base_joints();
         let mut best: Option<(f64, Layout)> = None;
         let mut order: Vec<usize> = (0..n).collect();
-        // the first joint stays: turning all changes nothing
+        // the first joint is fixed, since rotating all changes nothing
         each_order(&mut order, 1, &mut |order| {
             let mut base = vec![0.0; n];
             for (place, joint) in order.iter().enumerate() {
                 base[*joint] = TAU * place as f64 / n as f64;
             }
             let (cost, platform) = self.platform_angles(&base);
-            // orders that are mirror images cost the same but for rounding
+            // mirror images have equal costs up to rounding
             if best.as_ref().is_none_or(|b| cost < b.0 - 1e-9) {
                 best = Some((cost, Layout { base, platform }));
             }
@@ -42,7 +42,7 @@ impl Topology {
         let direction = |j: usize| {
             let ends = legs.iter().filter(|l| l.1 == j).map(|l| base[l.0].sin_cos());
             let (sine, cosine) = ends.fold((0.0, 0.0), |t, u| (t.0 + u.0, t.1 + u.1));
-            // opposite base joints have no mean; any place between them will do
+            // opposite base joints have no mean; any place between them is valid
             if sine.hypot(cosine) < 1e-9 { 0.5 } else { sine.atan2(cosine).rem_euclid(TAU) }
         };
         let mut order: Vec<usize> = (0..m).collect();
@@ -57,7 +57,7 @@ impl Topology {
     }
 }
 
-/// The angle in `(-pi, pi]`, near enough.
+/// The angle in `(-pi, pi]`, up to rounding.
 fn wrap(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }

@@ -1,7 +1,7 @@
-//! Says which legs share which joints: the graph of a platform, and the catalogue of all graphs that can hold one.
+//! The topology of shared joints: the graph of a platform, and the catalogue of all graphs that can hold one.
 //!
-//! Theory, the conditions and the list: `docs/theory/topologies.md`. Source: Porta, Thomas (34 topologies);
-//! here they are enumerated.
+//! Theory, conditions and list: `docs/theory/topologies.md`. The source is Porta, Thomas (34 topologies); here they are
+//! enumerated.
 
 mod catalogue;
 mod graph;

@@ -1,8 +1,8 @@
-//! Which square roots a trilateration sequence takes, of what.
+//! The square roots of a trilateration sequence, and their dependencies.
 
 use super::sequence::{JointIndex, Sequence};
 
-/// What a number computed along a sequence depends on.
+/// The dependencies of a number computed along a sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Dependence {
     /// Bit `t`: the square root of unoriented step `t`.
@@ -19,19 +19,19 @@ impl Dependence {
         }
     }
 
-    /// Neither square roots nor virtual legs: a number of the design and the legs.
+    /// Whether it depends on neither square roots nor virtual legs: it follows from the design and the legs.
     #[must_use]
     pub fn is_none(self) -> bool {
         self == Self::default()
     }
 }
 
-/// How an unoriented step depends on what came before.
+/// The dependencies of an unoriented step on the earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct StepDependence {
-    /// Of the Cayley-Menger determinant `A` of its base triangle.
+    /// Dependencies of the Cayley-Menger determinant `A` of its base triangle.
     pub base: Dependence,
-    /// Of the number under its square root: the base triangle and the three distances to the joint.
+    /// Dependencies of its radicand: the base triangle and the three distances to the joint.
     pub radicand: Dependence,
     /// Sides of the base triangle that are not known distances.
     pub computed_sides: u8,
@@ -45,16 +45,16 @@ impl StepDependence {
     }
 }
 
-/// A measure of how entangled the closures of a sequence are; less is better.
+/// A measure of the nesting of a sequence's closures; less is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Nesting {
     /// Square roots that depend on a virtual leg.
     pub varying_radicals: usize,
     /// Constant ones after a varying one.
     pub late_constants: usize,
-    /// Sides of base triangles that have to be computed from coordinates.
+    /// Sides of base triangles computed from coordinates.
     pub computed_sides: usize,
-    /// Numbers under square roots that depend on earlier square roots, counted with those.
+    /// Radicands that depend on earlier square roots, counted with multiplicity.
     pub nested_radicals: usize,
     /// Closures that need joints placed by rigid steps.
     pub rigid_closures: usize,
@@ -94,7 +94,7 @@ impl Sequence {
 }
 
 impl Nesting {
-    /// Of a sequence for `legs`.
+    /// The nesting of a sequence for `legs`.
     #[must_use]
     pub fn of(legs: &[(usize, usize); 6], s: &Sequence) -> Self {
         let steps = s.dependence(legs);
@@ -126,7 +126,7 @@ mod tests {
             let varying = steps.iter().filter(|d| !d.is_constant()).count();
             let (least, most) = match (s.virtual_legs.len(), t.is_decoupled()) {
                 (0, _) => (0, 0),
-                // one where the tetrahedra of the other steps have known edges
+                // one closure with the tetrahedra of the other steps having known edges
                 (1, true) => (1, 2),
                 (1, false) => (1, 3),
                 _ => (3, 3),

@@ -1,4 +1,4 @@
-//! All trilateration sequences that lay out one body first.
+//! All trilateration sequences that place one body first.
 
 use std::collections::BTreeSet;
 
@@ -7,12 +7,12 @@ use super::sequence::{JointIndex, Sequence, Step};
 
 type Legs = [(usize, usize); 6];
 
-/// All sequences for six legs (pairs of a base and a platform joint, any numbers) that need exactly `count` virtual
-/// legs and leave no joint out, least nested first.
+/// All sequences that need exactly `count` virtual legs and place every joint, least nested first. The six legs are
+/// pairs of a base and a platform joint, with any numbers.
 ///
-/// The first body's start triangle is that of its first joints, with the other joints of that body placed by rigid
-/// steps; the second body's joints beyond three likewise. Both may be exchanged for others without changing anything
-/// else. Joints without a leg are not placed.
+/// The start triangle of the first body consists of its first joints; rigid steps place its other joints. Rigid steps
+/// also place the joints of the second body beyond three. Other choices of joints would be equivalent. Joints without a
+/// leg are not placed.
 #[must_use]
 pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
     let base: BTreeSet<JointIndex> = legs.iter().map(|l| JointIndex::Base(l.0)).collect();
@@ -38,7 +38,7 @@ pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
     found
 }
 
-/// A sequence as far as it has been built.
+/// A partly built sequence.
 struct SequenceSearch<'a> {
     legs: &'a Legs,
     count: usize,
@@ -68,7 +68,7 @@ impl<'a> SequenceSearch<'a> {
                 let before = self.virtual_legs.len();
                 let missing = from.iter().filter_map(|f| f.across(place));
                 let missing = missing.filter(|p| !self.legs.contains(p)).collect::<Vec<_>>();
-                // a step that uses no leg at all would be one of the second body alone, and rigid
+                // a step without any leg would be within the second body, and rigid
                 if before + missing.len() > self.count || from.iter().all(|f| f.same_body(place)) {
                     continue;
                 }
@@ -103,7 +103,7 @@ impl<'a> SequenceSearch<'a> {
     }
 }
 
-/// Every three of `list`, in order.
+/// Every triple from `list`, in order.
 fn triples(list: &[JointIndex]) -> Vec<[JointIndex; 3]> {
     let n = list.len();
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));

@@ -1,12 +1,12 @@
 //! Trilateration sequences and the virtual legs they need.
 //!
-//! A point with known distances to three points that are in place has two places, one when the four are points of one
-//! body, whose orientation is known. Source: Porta, Thomas, sec. II.
+//! A point with known distances to three placed points has two possible places. It has one if the four are points of
+//! one body of known orientation. Source: Porta, Thomas, sec. II.
 
 use super::graph::Topology;
 use super::search::sequences;
 
-/// A joint of a [`Topology`], numbered as in [`Topology::legs`], or of a design, numbered as there.
+/// A joint of a [`Topology`], numbered as in [`Topology::legs`], or of a design, numbered as in the design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum JointIndex {
     /// On the base.
@@ -16,13 +16,13 @@ pub enum JointIndex {
 }
 
 impl JointIndex {
-    /// Whether both are on one body, so that their distance is that of the design.
+    /// Whether both are on one body, so that the design gives their distance.
     #[must_use]
     pub fn same_body(self, other: Self) -> bool {
         matches!(self, Self::Base(_)) == matches!(other, Self::Base(_))
     }
 
-    /// The two as a pair of a base and a platform joint; `None` when they are on one body.
+    /// The two as a pair of a base and a platform joint; `None` if they are on one body.
     #[must_use]
     pub fn across(self, other: Self) -> Option<(usize, usize)> {
         match (self, other) {
@@ -35,35 +35,34 @@ impl JointIndex {
 /// One trilateration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// Joints in place.
+    /// The placed joints.
     pub from: [JointIndex; 3],
-    /// The joint that is placed.
+    /// The joint to place.
     pub place: JointIndex,
-    /// All four are on one body: one place instead of two (in brackets in the paper).
+    /// Whether all four are on one body: one place instead of two (in brackets in the paper).
     pub rigid: bool,
 }
 
-/// How to place all joints from distances.
+/// A sequence of steps that places all joints from distances.
 ///
-/// One body, the *first*, is in place from the start: its start triangle is laid out and its other joints follow by
-/// rigid steps. Then three joints of the other body are placed by unoriented steps, and the rest of it by rigid ones.
-/// Of the distances that are known (legs, and those between the three joints) as many are not used as there are virtual
-/// legs: the closures.
+/// One body, the *first*, is placed initially: its start triangle, and its other joints by rigid steps. Unoriented
+/// steps then place three joints of the other body, and rigid ones the rest. The known distances are those of the legs
+/// and between the three joints. As many of them as there are virtual legs remain unused: the closures.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sequence {
-    /// Distances that have to be known beside the legs, as pairs of a base and a platform joint, in the order in which
-    /// steps need them.
+    /// Required distances besides the legs, as pairs of a base and a platform joint, in the order in which steps need
+    /// them.
     pub virtual_legs: Vec<(usize, usize)>,
-    /// The triangle that is laid out first: three joints of one body.
+    /// The triangle that is placed first: three joints of one body.
     pub start: [JointIndex; 3],
     /// One step for each other joint.
     pub steps: Vec<Step>,
-    /// Known distances that no step uses, one for each virtual leg: they have to come out right.
+    /// Known distances that no step uses, one for each virtual leg: conditions on the result.
     pub closures: Vec<[JointIndex; 2]>,
 }
 
 impl Sequence {
-    /// The unoriented steps: always three, each with two places for its joint.
+    /// The unoriented steps: always three, each with two possible places of its joint.
     pub fn unoriented(&self) -> impl Iterator<Item = &Step> {
         self.steps.iter().filter(|s| !s.rigid)
     }
@@ -78,8 +77,8 @@ impl Topology {
         best.unwrap_or_else(|| unreachable!("three virtual legs are enough for six legs"))
     }
 
-    /// Whether one joint holds three legs and one virtual leg is needed: then position and orientation separate (Porta,
-    /// Thomas, Table II).
+    /// Whether one joint carries three legs and one virtual leg is needed: position and orientation are then decoupled
+    /// (Porta, Thomas, Table II).
     #[must_use]
     pub fn is_decoupled(self) -> bool {
         let legs = self.legs();
@@ -113,8 +112,8 @@ mod tests {
         assert_eq!(sizes, [10, 7, 13, 3, 1]);
     }
 
-    /// Whatever the numbers of the joints and the order of the legs, every joint is placed once, from known distances,
-    /// and every known distance is used once: by a step, within a body, or as a closure.
+    /// For any numbering of the joints and order of the legs, every joint is placed once, from known distances. Every
+    /// known distance is used once: by a step, within a body, or as a closure.
     fn check(legs: &[(usize, usize); 6], s: &Sequence) {
         let known = |x: JointIndex, y: JointIndex| {
             x.across(y).is_none_or(|pair| legs.contains(&pair) || s.virtual_legs.contains(&pair))
@@ -152,7 +151,7 @@ mod tests {
                 let legs = t.legs();
                 let s = t.trilateration();
                 check(&legs, &s);
-                // joints without legs in between, legs in another order
+                // unused joints in between, legs in another order
                 let odd = [3, 0, 5, 1, 4, 2].map(|i| (2 * legs[i].0 + 1, 9 - legs[i].1));
                 let count = s.virtual_legs.len();
                 assert!(count == 0 || sequences(&odd, count - 1).is_empty(), "{}", n.id());

@@ -1,13 +1,13 @@
-//! The span of leg vectors as a subspace of `R^4 (x) R^4`, and what translations of the two bodies do to it.
+//! The span of leg vectors as a subspace of `R^4 (x) R^4`, and the effect of translations of the two bodies.
 //!
-//! The origin of each body that belongs to a span of leg vectors, whatever frames it is written in.
+//! Each body has an origin that depends only on the span of leg vectors, in any frame.
 //!
-//! Three linear least-squares problems one after the other, each invariant under rotations of both bodies; what one
-//! leaves open the next decides. What the last one leaves open are translations that map the span to itself. See
+//! Three linear least-squares problems follow one another, each invariant under rotations of both bodies; each decides
+//! the translations that the last one left open. Translations that remain open map the span to itself. See
 //! `docs/theory/alignment.md`.
 //!
-//! A design in canonical form is a span about its own origins; two designs are compared by how far two such spans are
-//! apart.
+//! A design in canonical form is a span about its own origins; two designs are compared by the distance of two such
+//! spans.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -19,11 +19,10 @@ use num::Purpose;
 use num::linalg::{LinalgError, svd};
 use platform::manipulator::{Leg, Manipulator};
 
-/// Where the entries `1, a, b` of an element stand.
+/// Places of the entries `1, a, b` of an element.
 const HEAD: [usize; 7] = [0, 4, 8, 12, 1, 2, 3];
 
-/// Coordinates for two designs that are compared: the units of the first for both, each about the centroids of its own
-/// legs.
+/// Common coordinates for two designs: the units of the first, about the centroids of the legs of each.
 pub(super) fn coordinates(of: &Manipulator, units: &Normalisation) -> Normalisation {
     let own = Normalisation::of(of);
     Normalisation { base_unit: units.base_unit, platform_unit: units.platform_unit, ..own }
@@ -98,8 +97,7 @@ impl LegSpace {
     }
 }
 
-/// `L` as a linear map from its entries `(x_0, a, b)` to its 3 x 3 block `C`, up to the elements that have nothing but
-/// `C`.
+/// `L` as a linear map from its entries `(x_0, a, b)` to its 3 x 3 block `C`, modulo the elements `(0, 0, 0, C)`.
 #[derive(Debug, Clone)]
 pub(super) struct HeadMap {
     /// Orthonormal basis of the possible `(x_0, a, b)`.
@@ -160,9 +158,10 @@ pub(super) fn pair(v: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
 #[derive(Debug, Clone)]
 pub(super) struct Centred {
     pub(super) space: LegSpace,
-    /// What was added to base and platform coordinates.
+    /// Shifts added to base and platform coordinates.
     pub(super) shift: (Vector3<f64>, Vector3<f64>),
-    /// Dimensions that tell spans apart: of `L`, of its heads, of what each least-squares problem left open.
+    /// Dimensions that distinguish spans: of `L`, of its heads, and of the open directions of each least-squares
+    /// problem.
     pub(super) dimensions: [usize; 5],
     /// The singular values nearest to the decisions on these dimensions: smallest kept, largest dropped.
     pub(super) gap: (f64, f64),
@@ -189,7 +188,7 @@ pub(super) fn centred(space: &LegSpace) -> Result<Centred, LinalgError> {
     Ok(Centred { space, shift: total, dimensions, gap })
 }
 
-/// What shifts along each open direction add to a list of numbers, and the list to be cancelled.
+/// The effects of shifts along each open direction on a list of numbers, and the list to be cancelled.
 type ShiftProblem = (Vec<Vec<f64>>, Vec<f64>);
 
 /// The blocks `C` of the elements `(0, a, b, C)`: a shift adds `s b^T + a t^T`.
@@ -215,8 +214,8 @@ fn heads(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError>
 
 /// The block `C` of the element `(1, a, b, C)` with `(a, b)` across those with first entry zero.
 ///
-/// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment: the block changes
-/// by `s b^T + a t^T - C'`.
+/// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment. The block
+/// therefore changes by `s b^T + a t^T - C'`.
 fn means(head: &HeadMap, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let first = head.split()?.0;
     let (a, b) = pair(&first[1..]);
@@ -244,7 +243,7 @@ struct LeastSquares {
     gap: (f64, f64),
 }
 
-/// The shift within the open directions that makes `target` smallest, and the directions that do not change it.
+/// The shift within the open directions that minimises `target`, and the directions that do not change it.
 fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<LeastSquares, LinalgError> {
     let mut shift = vec![0.0; 6];
     if open.is_empty() || target.is_empty() {
@@ -268,10 +267,10 @@ fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<Leas
 /// Size of the trial changes of joints that measure sensitivities, in units of the body; below the tolerance of every
 /// rank.
 const TRIAL: f64 = 1e-11;
-/// How many of them.
+/// Number of trial changes.
 const TRIALS: u64 = 3;
 
-/// A design in normalised coordinates, its span about its own origins, and the numbers that no rigid motion changes.
+/// A design in normalised coordinates, its span about its own origins, and its invariants under rigid motions.
 #[derive(Debug, Clone)]
 pub(super) struct Canonical {
     pub(super) normalisation: Normalisation,
@@ -302,8 +301,8 @@ impl Canonical {
         self.legs.map(|leg| Leg { base: leg.base + s, platform: leg.platform + t })
     }
 
-    /// How much the principal values and the canonical form change for a change of the joints by one unit of their
-    /// body, to first order.
+    /// First-order changes of the principal values and the canonical form when the joints move by one unit of their
+    /// body.
     pub(super) fn sensitivity(&self, seed: u64) -> Result<ShiftSensitivity, LinalgError> {
         let mut most = ShiftSensitivity { values: [0.0; 6], distance: 0.0 };
         for trial in 0..TRIALS {
@@ -328,7 +327,7 @@ impl Canonical {
     }
 }
 
-/// Largest changes seen, per unit.
+/// Largest observed changes, per unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShiftSensitivity {
     pub(super) values: [f64; 6],

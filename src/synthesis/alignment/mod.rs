@@ -1,8 +1,8 @@
 //! Finds the rigid motions of the base frame and of the platform frame under which one design is equivalent to another.
 //!
-//! Everything is computed from the span `L` of the leg vectors, which is all that equivalence knows of a design: its
-//! own origins (least-squares problems that rotations do not change), its own axes (principal axes of matrices formed
-//! from the projector on `L`), and from these the finitely many pairs of motions, or families of them, that can be. See
+//! Equivalence depends only on the span `L` of the leg vectors. From `L` the module computes origins of the bodies, by
+//! least-squares problems invariant under rotations. Their axes are principal axes of matrices formed from the
+//! projector on `L`. These leave finitely many possible pairs of motions, or families of them. See
 //! `docs/theory/alignment.md`.
 
 mod leg_space;
@@ -29,16 +29,16 @@ use platform::manipulator::{InvalidManipulator, Manipulator};
 const TOLERANCE: f64 = 1e-9;
 /// Differences of invariants must exceed first-order error bounds by this factor.
 const SAFETY: f64 = 1e3;
-/// Decisions on dimensions are clear when the singular values stay this far from the tolerance.
+/// Decisions on dimensions are clear if the singular values have this distance from the tolerance.
 const CLEAR: (f64, f64) = (1e-7, 1e-11);
-/// Two motions closer than this are one.
+/// Two motions closer than this count as one.
 const SAME: f64 = 1e-6;
 
 /// All pairs of rigid motions (of the base frame, of the platform frame) that make `b` equivalent to `a`.
 ///
 /// A pair takes a joint `x` of the base of `b` to `R x + p`, and likewise on the platform. Units must be the same; no
-/// body is reflected. The legs may be in any order. Pairs that lie in a continuous family of such pairs are given by
-/// one of each family.
+/// body is reflected. The legs may be in any order. A continuous family of such pairs is represented by one of its
+/// members.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
@@ -58,7 +58,7 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
         let fit = refine(&of_a.span.space, &of_b.centred_legs(), turns)?;
         let (base, platform) = in_frames(&fit, &of_a, &of_b);
         let at_home = Motion { base, platform, map: given.clone() };
-        // b as it is given is compared exactly, and moved joints are known to rounding only
+        // the given b is compared exactly; moved joints are known only up to rounding
         let (base, platform, map) =
             if at_home.extent(a.size()) < SAME && given.relation != Relation::Unrelated {
                 (here, here, given.clone())
@@ -82,7 +82,7 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
     if !motions.is_empty() {
         motions.sort_by(|x, y| x.extent(a.size()).total_cmp(&y.extent(a.size())));
         if !candidates.complete && freedom > 0 {
-            motions.truncate(1); // the search meets the same family again and again
+            motions.truncate(1); // the search finds the same family repeatedly
         }
         return Ok(Alignment::Found { motions, all: candidates.complete, freedom });
     }
@@ -104,7 +104,7 @@ impl RoundingBounds {
             };
             let n = c.normalisation;
             let reach = far(m.base_joints(), n.base_unit).max(far(m.platform_joints(), n.platform_unit));
-            // about distant origins the entries of a leg vector are as large as the square of the distance
+            // about distant origins the entries of a leg vector grow with the square of the distance
             let origins = 1.0 + c.span.shift.0.norm() + c.span.shift.1.norm();
             let rounding = SAFETY * f64::EPSILON;
             Ok((c.sensitivity(seed)?, rounding * (8.0 + reach), rounding * origins * origins))
@@ -140,13 +140,13 @@ pub fn transformed(m: &Manipulator, base: &Pose, platform: &Pose) -> Result<Mani
     Manipulator::try_new(along(m.base_joints(), base), along(m.platform_joints(), platform), m.pairs())
 }
 
-/// The same legs between a platform for a base and a base for a platform: its poses are the inverse poses.
+/// The same legs with base and platform exchanged: its poses are the inverse poses.
 #[must_use]
 pub fn exchanged(m: &Manipulator) -> Manipulator {
     m.exchanged()
 }
 
-/// Both bodies seen in a mirror, the plane `z = 0` of each frame.
+/// Both bodies mirrored in the plane `z = 0` of their frames.
 #[must_use]
 pub fn mirrored(m: &Manipulator) -> Manipulator {
     let image = |points: &[Point3<f64>]| points.iter().map(|p| Point3::new(p.x, p.y, -p.z)).collect();

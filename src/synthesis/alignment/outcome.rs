@@ -12,7 +12,7 @@ use platform::geom::{Pose, rotation_vector};
 pub struct Motion {
     /// `x -> R x + p` for base joints of B, to the base frame of A.
     pub base: Pose,
-    /// The same for platform joints.
+    /// The same motion for platform joints, to the platform frame of A.
     pub platform: Pose,
     /// The leg map from A to the moved B.
     pub map: LegMapOutcome,
@@ -31,7 +31,7 @@ impl Motion {
         self.base != still || self.platform != still
     }
 
-    /// Angles of rotation and translations over `size`, added up.
+    /// Sum of the angles of rotation and the translations over `size`.
     pub(super) fn extent(&self, size: f64) -> f64 {
         [&self.base, &self.platform]
             .iter()
@@ -40,20 +40,20 @@ impl Motion {
     }
 }
 
-/// The pair of rigid motions that comes nearest.
+/// The pair of rigid motions with the least residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "NearestMotionRecord", transform = num::nullable))]
 pub struct NearestMotion {
-    /// Of the base of the second design.
+    /// Motion of the base of the second design.
     pub base: Pose,
-    /// Of its platform.
+    /// Motion of its platform.
     pub platform: Pose,
     /// The residual it leaves.
     // the largest relative distance of a leg from the span of the first design
     pub residual: f64,
 }
 
-/// A number that no rigid motion changes and that equivalent designs share.
+/// An invariant under rigid motions that equivalent designs share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
@@ -91,11 +91,11 @@ impl Invariant {
     }
 }
 
-/// An invariant that tells two designs apart.
+/// An invariant that distinguishes two designs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "DifferenceRecord", transform = num::nullable))]
 pub struct Difference {
-    /// Which.
+    /// The invariant.
     pub invariant: Invariant,
     /// Its value for the first design.
     // zero for the distance of canonical forms
@@ -105,15 +105,15 @@ pub struct Difference {
     // the distance itself for the distance of canonical forms
     #[cfg_attr(feature = "serde", serde(rename = "b"))]
     pub in_b: f64,
-    /// By how much they differ.
+    /// The difference of both values.
     // for dimensions the smallest singular value that did not count as zero
     pub gap: f64,
-    /// What a difference has to exceed.
+    /// The threshold for a difference.
     // for dimensions the largest singular value that counted as zero
     pub bound: f64,
 }
 
-/// Why nothing was decided.
+/// The reason why nothing was decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
@@ -122,11 +122,11 @@ pub struct Difference {
     serde(rename_all = "snake_case")
 )]
 pub enum AlignmentUndecided {
-    /// A dimension is not clear: singular values too near to the tolerance.
+    /// A dimension is unclear: singular values are too near the tolerance.
     UnclearDimension,
-    /// A body has no axes of its own, or nearly so; a search found no motion, which proves nothing.
+    /// A body has no unique axes, or nearly so; a search found no motion, which proves nothing.
     NoAxes,
-    /// No invariant differs by more than the error it may have, and no motion reaches the tolerance.
+    /// No invariant differs by more than its possible error, and no motion reaches the tolerance.
     WithinErrors,
 }
 
@@ -142,31 +142,31 @@ impl AlignmentUndecided {
     }
 }
 
-/// Which motions make B equivalent to A.
+/// The motions that make B equivalent to A.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Alignment {
-    /// These do.
+    /// Motions were found.
     Found {
-        /// Nearest to no motion first. Their number is that of the pairs of motions that keep the span of A, one of
-        /// every family.
+        /// The smallest motion is first. Their number is that of the pairs of motions that keep the span of A, one of
+        /// each family.
         motions: Vec<Motion>,
-        /// There are no others, up to the families they lie in.
+        /// Whether the list is complete, up to the families of its motions.
         all: bool,
         /// Dimension of the families the motions lie in; zero for finitely many motions.
         freedom: usize,
     },
-    /// None does.
+    /// No motion exists.
     None {
-        /// The number that shows it.
+        /// The invariant that shows it.
         difference: Difference,
-        /// How near a motion comes.
+        /// The nearest motion.
         nearest: Option<NearestMotion>,
     },
     /// Not decided.
     Undecided {
         /// Why.
         reason: AlignmentUndecided,
-        /// How near a motion comes.
+        /// The nearest motion.
         nearest: Option<NearestMotion>,
     },
 }
@@ -181,7 +181,7 @@ impl Alignment {
         }
     }
 
-    /// The word for it.
+    /// The outcome as a word.
     #[must_use]
     pub fn word(&self) -> AlignmentWord {
         match self {
@@ -200,9 +200,9 @@ impl Alignment {
     serde(rename_all = "snake_case")
 )]
 pub enum AlignmentWord {
-    /// They were.
+    /// Motions were found.
     Found,
-    /// There are none.
+    /// No motion exists.
     None,
     /// Not decided.
     Undecided,
@@ -235,7 +235,7 @@ pub(super) fn dimensions_differ(a: &Canonical, b: &Canonical) -> Alignment {
     Alignment::None { difference, nearest: None }
 }
 
-/// The answer when no candidate makes the designs equivalent. `distance` is that of the canonical forms, where all
+/// The answer if no candidate makes the designs equivalent. `distance` is that of the canonical forms, if all
 /// candidates are known.
 pub(super) fn none_found(
     a: &Canonical,
@@ -270,7 +270,7 @@ pub(super) fn none_found(
 }
 
 impl Alignment {
-    /// One sentence with the numbers that decided.
+    /// One sentence with the deciding numbers.
     #[must_use]
     pub fn explanation(&self) -> String {
         match self {

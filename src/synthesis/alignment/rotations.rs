@@ -1,10 +1,10 @@
-//! All pairs of rotations that can take one centred span of leg vectors to another.
+//! All pairs of rotations that can map one centred span of leg vectors to another.
 //!
-//! Axes of each body belong to the span.
+//! The span determines axes of each body.
 //!
-//! Symmetric 3 x 3 matrices formed from the projector on the span turn with the body. Their common principal axes are
-//! the axes; where two principal values agree, an angle about the third axis is left open, where all three agree, the
-//! whole rotation.
+//! Symmetric 3 x 3 matrices formed from the projector on the span rotate with the body. Their common principal axes are
+//! the axes. If two principal values agree, an angle about the third axis is open; if all three agree, the whole
+//! rotation is open.
 //!
 //! Gauss-Newton steps refine a pair of rigid motions until the moved legs lie in the span or cannot come nearer.
 
@@ -25,10 +25,10 @@ use platform::manipulator::Leg;
 pub(super) type Projector = SMatrix<f64, 16, 16>;
 
 /// Principal values closer than this (relative to the largest) count as equal. Two values that differ by less leave an
-/// angle open that other parts of the projector decide, so that nothing is lost by counting them as equal.
+/// angle open. Other parts of the projector decide it, so nothing is lost.
 const EQUAL: f64 = 1e-7;
 
-/// Which rotations of a body keep the principal axes.
+/// The rotations of a body that keep its principal axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Freedom {
     /// Half turns about the three axes.
@@ -44,23 +44,23 @@ pub(super) enum Freedom {
 pub(super) struct Axes {
     pub(super) frame: Matrix3<f64>,
     pub(super) values: Vector3<f64>,
-    /// Which neighbouring principal values, in falling order, count as equal.
+    /// Whether neighbouring principal values, in falling order, count as equal.
     equal: [bool; 2],
 }
 
 impl Axes {
-    /// Of the base; `equal` says which principal values count as equal, for the second of two designs that are
-    /// compared.
+    /// The axes of the base. `equal` tells which principal values count as equal, for the second of two compared
+    /// designs.
     pub(super) fn of_base(p: &Projector, equal: Option<[bool; 2]>) -> Self {
         Self::of(|i, j, k, l| p[(4 * i + j, 4 * k + l)], equal)
     }
 
-    /// Of the platform.
+    /// The axes of the platform.
     pub(super) fn of_platform(p: &Projector, equal: Option<[bool; 2]>) -> Self {
         Self::of(|i, j, k, l| p[(4 * j + i, 4 * l + k)], equal)
     }
 
-    /// `p(i, j, k, l)` with `i, k` for the body whose axes are wanted.
+    /// The axes for `p(i, j, k, l)`, with `i, k` for the body of interest.
     fn of(p: impl Fn(usize, usize, usize, usize) -> f64, equal: Option<[bool; 2]>) -> Self {
         let (found, vectors) = symmetric_eigen3(&moments(&p));
         let mut order = [0, 1, 2];
@@ -79,7 +79,7 @@ impl Axes {
         Self { frame, values: Vector3::from(values), equal }
     }
 
-    /// What the axes leave open.
+    /// The open rotations of the axes.
     pub(super) fn freedom(&self) -> Freedom {
         match self.equal {
             [false, false] => Freedom::HalfTurns,
@@ -89,8 +89,8 @@ impl Axes {
     }
 }
 
-/// A symmetric matrix that turns with the body: a sum with fixed unequal weights of all that come to hand, so that two
-/// principal values agree by symmetry only.
+/// A symmetric matrix that rotates with the body. It is a sum of all available matrices with fixed unequal weights, so
+/// that two principal values agree only by symmetry.
 fn moments(p: &impl Fn(usize, usize, usize, usize) -> f64) -> Matrix3<f64> {
     let square = |m: Matrix3<f64>| m * m.transpose();
     let vector = |f: &dyn Fn(usize) -> f64| {
@@ -115,7 +115,7 @@ fn moments(p: &impl Fn(usize, usize, usize, usize) -> f64) -> Matrix3<f64> {
 
 /// Parts of the projector with a smaller norm count as zero.
 const SILENT: f64 = 1e-10;
-/// Pairs of rotations tried at least for bodies without any axis.
+/// Least number of tried pairs of rotations for bodies without any axis.
 const DRAWN: usize = 144;
 
 /// A rotation of the base and one of the platform.
@@ -126,7 +126,7 @@ pub(super) type Turns = (Matrix3<f64>, Matrix3<f64>);
 pub(super) struct RotationCandidates {
     /// One of every connected family, if `complete`; starts for a search otherwise.
     pub(super) turns: Vec<Turns>,
-    /// Every pair of rotations that maps the one span to the other is in the list, up to rotations that keep both
+    /// Whether the list has every pair of rotations that maps one span to the other, up to rotations that keep both
     /// spans.
     pub(super) complete: bool,
 }
@@ -142,7 +142,7 @@ pub(super) fn turned(p: &Projector, turns: &Turns) -> Projector {
     k * p * k.transpose()
 }
 
-/// What takes the span with projector `b` to the span with projector `a`.
+/// Candidates for rotations that map the span with projector `b` to that with projector `a`.
 pub(super) fn candidates(a: &Projector, b: &Projector, seed: u64) -> RotationCandidates {
     let (base, platform) = (Axes::of_base(a, None), Axes::of_platform(a, None));
     let freedom = [base.freedom(), platform.freedom()];
@@ -151,7 +151,7 @@ pub(super) fn candidates(a: &Projector, b: &Projector, seed: u64) -> RotationCan
     let own = |p: &Projector, f: &Turns| turned(p, &(f.0.transpose(), f.1.transpose()));
     let (pa, pb) = (own(a, &in_a), own(b, &in_b));
     let mut turns = Vec::new();
-    // as many rotations of a body without axes as make the pairs come to DRAWN
+    // enough rotations of a body without axes to reach DRAWN pairs
     let drawn = if freedom == [Freedom::All; 2] { 12 } else { DRAWN / 2 };
     for base in flips(freedom[0], drawn, seed) {
         for platform in flips(freedom[1], drawn, seed ^ 1) {
@@ -167,7 +167,7 @@ pub(super) fn candidates(a: &Projector, b: &Projector, seed: u64) -> RotationCan
     RotationCandidates { turns, complete: !freedom.contains(&Freedom::All) }
 }
 
-/// Rotations among the axes, up to those about the third where these are left open.
+/// Rotations among the axes, up to open rotations about the third.
 fn flips(freedom: Freedom, drawn: usize, seed: u64) -> Vec<Matrix3<f64>> {
     let half = |x: f64, y: f64, z: f64| Matrix3::from_diagonal(&Vector3::new(x, y, z));
     match freedom {
@@ -182,7 +182,7 @@ fn flips(freedom: Freedom, drawn: usize, seed: u64) -> Vec<Matrix3<f64>> {
     }
 }
 
-/// A part of the projector that turns by `e^{i (m theta + n phi)}`: `(m, n)`, its norm in A, the phase that takes B to
+/// A part of the projector that rotates by `e^{i (m theta + n phi)}`: `(m, n)`, its norm in A, and the phase from B to
 /// A.
 #[derive(Debug, Clone, Copy)]
 struct FourierPart {
@@ -191,7 +191,7 @@ struct FourierPart {
     phase: f64,
 }
 
-/// Angles about the third axes of base and platform that take `b` to `a`; zero where the body has no angle open.
+/// Angles about the third axes of base and platform that map `b` to `a`; zero if the body has no open angle.
 fn angles(a: &Projector, b: &Projector, freedom: [Freedom; 2]) -> Vec<(f64, f64)> {
     let mut parts = parts(a, b, freedom.map(|f| f == Freedom::Axis));
     parts.sort_by(|x, y| y.norm.total_cmp(&x.norm));
@@ -240,7 +240,7 @@ fn gcd(a: u32, b: u32) -> u32 {
 /// The parts of `a` that are not silent, with weights up to sign and not zero.
 fn parts(a: &Projector, b: &Projector, open: [bool; 2]) -> Vec<FourierPart> {
     let (a, b) = (circular(a), circular(b));
-    // coordinates (1, x + i y, x - i y, z) turn by e^{0, i, -i, 0}
+    // coordinates (1, x + i y, x - i y, z) rotate by e^{0, i, -i, 0}
     let spin = |i: usize, open: bool| if open { [0, 1, -1, 0][i] } else { 0 };
     let weight = |r: usize, c: usize| {
         (spin(r / 4, open[0]) - spin(c / 4, open[0]), spin(r % 4, open[1]) - spin(c % 4, open[1]))
@@ -292,11 +292,11 @@ const FREE: f64 = 1e-7;
 pub(super) struct MotionPair {
     pub(super) base: Pose,
     pub(super) platform: Pose,
-    /// Dimensions in which the motions can move on without changing this to first order.
+    /// Number of dimensions in which the motions can vary without first-order change.
     pub(super) freedom: usize,
 }
 
-/// Improves the pair of rotations `turns`, joined by translations, so that the moved `legs` come near to `space`.
+/// Improves the pair of rotations `turns`, with translations, so that the moved `legs` come near `space`.
 pub(super) fn refine(space: &LegSpace, legs: &[Leg; 6], turns: &Turns) -> Result<MotionPair, LinalgError> {
     let normals = Spectrum::of(&space.basis, 16)?.kernel(space.dimension()).to_vec();
     let still = |m: &Matrix3<f64>| Pose { rotation: nearest_rotation(m), position: Vector3::zeros() };
@@ -319,7 +319,7 @@ pub(super) fn refine(space: &LegSpace, legs: &[Leg; 6], turns: &Turns) -> Result
     Ok(MotionPair { base: at.0, platform: at.1, freedom })
 }
 
-/// The step, halved until it brings the legs nearer; `None` when it does not.
+/// The step, halved until it brings the legs nearer; `None` if it never does.
 fn descend(
     normals: &[Vec<f64>],
     legs: &[Leg; 6],
@@ -355,8 +355,8 @@ fn residuals(normals: &[Vec<f64>], legs: &[Leg; 6], at: &(Pose, Pose)) -> Vec<f6
     vectors.flat_map(|v| normals.iter().map(|n| dot(n, &v)).collect::<Vec<_>>()).collect()
 }
 
-/// Derivatives of [`residuals`] by turn and shift of the base, turn and shift of the platform: one list each. The
-/// length of a leg vector is taken as constant, which is exact where the residuals vanish.
+/// Derivatives of [`residuals`], one list each: by rotation and shift of the base, then of the platform. The length of
+/// a leg vector is taken as constant, which is exact where the residuals vanish.
 fn tangents(normals: &[Vec<f64>], legs: &[Leg; 6], at: &(Pose, Pose)) -> Vec<Vec<f64>> {
     let moves: Vec<(usize, bool, Vector3<f64>)> = (0..12)
         .map(|k| {

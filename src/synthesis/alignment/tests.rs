@@ -90,7 +90,7 @@ fn lines_and_affinely_related_bodies_leave_families_of_motions() {
         let a = general(&mut rng);
         let line = changed(&a, |l| Leg { base: Point3::new(l.base.x, 0.0, 0.0), ..l });
         assert_eq!(count(&line, &moved(&line, &mut rng)), (1, 1), "turns about the line");
-        // all legs of the span: pairs (a, F a) of the plane; a and F a may be shifted together
+        // all legs of the span are pairs (a, F a) of the plane, so a and F a may shift together
         let affine =
             |l: Leg| Leg { base: flat(l.base), platform: Point3::new(0.5 * l.base.x, 0.7 * l.base.y, 0.0) };
         let affine = changed(&a, affine);
@@ -221,10 +221,10 @@ fn symmetric_hexapods_have_as_many_motions_as_symmetries() {
         }))
         .unwrap()
     };
-    // three turns, with the half turns about the axes of symmetry six
+    // three rotations, six with the half turns about the axes of symmetry
     assert_eq!(count(&design(false), &moved(&design(false), &mut rng)), (3, 0));
     assert_eq!(count(&design(true), &moved(&design(true), &mut rng)), (6, 0));
-    // a cube on either side: no axes to go by, but the search finds some of the motions
+    // a cube on either side: no unique axes, but the search finds some of the motions
     let corners = [
         (1.0, 0.0, 0.0),
         (-1.0, 0.0, 0.0),

@@ -1,4 +1,4 @@
-//! A family of replaceable legs as it is handed out.
+//! A family of replaceable legs, as returned by the search.
 
 use super::shape::Parametrisation;
 use super::spectrum::{Decision, real_roots};
@@ -18,7 +18,7 @@ pub fn flat_name(dimension: usize) -> &'static str {
     }
 }
 
-/// What kind of curve or surface of legs a family is.
+/// The kind of curve or surface of a family of legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FamilyKind {
@@ -26,11 +26,11 @@ pub enum FamilyKind {
     AllPairs,
     /// For every point of a line of one body a flat of points of the other; polynomials of these degrees.
     OverLine,
-    /// As `OverLine` for the points of a conic.
+    /// The same for the points of a conic.
     OverConic,
     /// One partner for every point of a plane.
     OverPlane,
-    /// A plane cubic that does not split, and its partner.
+    /// An irreducible plane cubic, and its partner.
     OverCubic,
 }
 
@@ -51,7 +51,7 @@ impl FamilyKind {
 /// One irreducible family of replaceable legs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
-    /// How the ends are paired.
+    /// The pairing of its ends.
     pub kind: FamilyKind,
     /// Dimension of the flat that its base ends span.
     pub base_span: usize,
@@ -61,16 +61,16 @@ pub struct Component {
     pub dimension: usize,
     /// Legs of the manipulator that belong to the family.
     pub legs: Vec<LegIndex>,
-    /// Legs whose squared lengths its legs are combinations of.
+    /// Legs whose squared lengths combine to those of its legs.
     pub support: Vec<LegIndex>,
     /// Formulas.
     pub parametrisation: Parametrisation,
-    /// `Some(true)`: the doubles of the design, taken as rational numbers, have this family; `Some(false)`: it exists
-    /// within the tolerance only; `None`: found in floating point and not decided exactly.
+    /// `Some(true)`: the design has this family exactly, with its doubles as rational numbers. `Some(false)`: it exists
+    /// only within the tolerance. `None`: found in floating point and undecided.
     pub exact: Option<bool>,
-    /// The numbers that decided.
+    /// The numbers of the decisions.
     pub decisions: Vec<Decision>,
-    /// Indices of the larger families that contain it.
+    /// Indices of the larger families that contain this one.
     pub contained_in: Vec<usize>,
     /// Parameters at which an end is at infinity, for rational families with one parameter.
     pub at_infinity: Vec<f64>,
@@ -83,22 +83,22 @@ pub struct SampledLeg {
     pub leg: Leg,
     /// Its parameters.
     pub parameters: Vec<f64>,
-    /// Coefficients of its vector in those of the six legs (the shortest ones when these are dependent).
+    /// Coefficients of its vector in the six leg vectors (the shortest ones if these are dependent).
     pub coefficients: [f64; 6],
-    /// Distance of its vector from the span of the six over its length.
+    /// Distance of its vector from the span of the six, over its length.
     pub residual: f64,
 }
 
 impl Component {
-    /// `"point-line"` and the like: the smaller flat first.
+    /// The type, for example `"point-line"`, with the smaller flat first.
     #[must_use]
     pub fn type_name(&self) -> String {
         let (low, high) = (self.base_span.min(self.platform_span), self.base_span.max(self.platform_span));
         format!("{}-{}", flat_name(low), flat_name(high))
     }
 
-    /// A random leg at moderate parameters with both ends within a few sizes of the joints; `None` when none was found
-    /// in 200 attempts, because the family has no real leg there.
+    /// A random leg at moderate parameters with both ends within a few sizes of the joints. `None` after 200 attempts
+    /// without success, since the family has no real leg there.
     ///
     /// # Errors
     /// When a singular value decomposition does not converge.
@@ -133,7 +133,7 @@ impl Component {
     }
 }
 
-/// Parameters at which a rational family with one parameter leaves for infinity.
+/// Parameters at which an end of a rational family with one parameter is at infinity.
 pub(super) fn infinite_parameters(p: &Parametrisation) -> Result<Vec<f64>, LinalgError> {
     let Parametrisation::Rational { parameters: 1, base, platform } = p else { return Ok(Vec::new()) };
     let mut out = real_roots(&base.denominator())?;

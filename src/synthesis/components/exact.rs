@@ -1,10 +1,10 @@
-//! Which legs and which partners of a point lie in the span of legs, exactly.
+//! Exact tests: the legs in the span of given legs, and the partners of a point.
 
 use num::algebraic::Algebraic;
 use num::exact::{product, rank, relations};
 use platform::manipulator::{AlgebraicVector, Body, ExactLeg, ExactLegs, Leg};
 
-/// `sum_k c_k rows_k`, the coefficients being small integers.
+/// `sum_k c_k rows_k` with small integer coefficients.
 pub(super) fn combination(rows: &[&AlgebraicVector], c: &[i32]) -> AlgebraicVector {
     let mut out: AlgebraicVector = vec![Algebraic::integer(0); rows.first().map_or(0, |r| r.len())];
     for (row, c) in rows.iter().zip(c) {
@@ -22,16 +22,16 @@ pub(super) fn contains(six: &ExactLegs, leg: &Leg) -> bool {
     relations(&rows).iter().any(|c| !c[six.vectors.len()].is_zero())
 }
 
-/// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
-/// the vectors of `legs`; `x` is a point of `body`.
+/// Dimension of the partners of the point `x` of `body`. Partners are the `y` in the span of the other ends of `legs`
+/// with `x (x) y` in the span of the vectors of `legs`.
 pub(super) fn fibre(six: &ExactLegs, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
     partners(six, body, x, legs, independent(&other_ends(six, body, legs)))
 }
 
-/// The part of [`fibre`] at infinity: with first entry 0.
+/// The part of [`fibre`] at infinity: `y` with first entry 0.
 pub(super) fn fibre_at_infinity(six: &ExactLegs, body: Body, x: &AlgebraicVector, legs: &[usize]) -> usize {
     let ends = independent(&other_ends(six, body, legs));
-    // all ends have first entry 1: the vectors of their span with first entry 0 are spanned by differences
+    // all ends have first entry 1, so differences span the vectors with first entry 0
     let differences = ends.iter().skip(1).map(|e| e.iter().zip(&ends[0]).map(|(x, y)| x - y).collect());
     let differences = differences.collect();
     partners(six, body, x, legs, differences)
@@ -87,7 +87,7 @@ mod tests {
         // 3 * 0.2 is not 0.6 as doubles
         assert_eq!(e.dimension(Body::Base, &[3, 4, 5]), 2);
         assert_eq!(e.dimension(Body::Platform, &[0, 1, 2]), 0);
-        // all legs meet the one platform point: every base point of the plane is replaceable
+        // all legs share the platform point: every base point of the plane is replaceable
         assert_eq!(e.rank(&[0, 1, 2, 3, 4, 5]), 3);
         assert_eq!(fibre(&e, Body::Platform, &e.platform[0], &[0, 1, 2, 3, 4, 5]), 3);
         assert_eq!(fibre(&e, Body::Base, &e.base[0], &[0, 1, 2, 3, 4, 5]), 1);

@@ -23,7 +23,7 @@ const LONG: u64 = 300;
 )]
 pub struct ExactPart {
     // it does not split over the rational numbers
-    /// What it is.
+    /// The kind of the part.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = [
         "line", "two_conjugate_real_lines", "two_conjugate_complex_lines", "three_conjugate_real_lines",
         "three_conjugate_lines_one_real", "conic", "conic_without_real_points", "cubic", "undecided"
@@ -31,10 +31,10 @@ pub struct ExactPart {
     pub kind: ExactKind,
     /// Its degree.
     pub degree: usize,
-    /// Integers as text.
-    // coprime, in the order of [`ExactCurve::coefficients`]
+    /// Coprime integers as text.
+    // in the order of [`ExactCurve::coefficients`]
     pub coefficients: Vec<String>,
-    /// How often it counts.
+    /// Its multiplicity.
     pub multiplicity: usize,
 }
 
@@ -49,41 +49,41 @@ pub struct ExactPoint {
     // the singular point of a cubic that is irreducible over the complex numbers
     /// (w, x, y), integers as text.
     pub coordinates: [String; 3],
-    /// What it is.
+    /// The kind of the singular point.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"])))]
     pub kind: SingularKind,
 }
 
-/// The curve of one plane for the joints as the rational numbers that their doubles are.
+/// The curve of one plane, with the doubles of the joints as rational numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExactCurve {
-    /// The two coordinates of the body (0: x, 1: y, 2: z) that are the coordinates `x, y` of the plane here.
+    /// The two coordinates of the body (0: x, 1: y, 2: z) that serve as the coordinates `x, y` of the plane.
     pub axes: [usize; 2],
     /// Rank of `M` at a generic point of the plane.
     pub generic_rank: usize,
-    /// Degree; 0 where there is no curve.
+    /// Degree; 0 without a curve.
     pub degree: usize,
     /// Coprime integers in decimal notation: coefficients of `1, x, y, x^2, x y, y^2, ..`, design units.
     pub coefficients: Vec<String>,
     /// The parts.
     pub parts: Vec<ExactPart>,
-    /// The singular point of a cubic that is irreducible over the complex numbers, where it has one.
+    /// The singular point of a cubic that is irreducible over the complex numbers, if it has one.
     pub singular_point: Option<ExactPoint>,
-    /// Whether a cubic has no singular point over the complex numbers; `None` for other degrees, and where the numbers
-    /// are too long to decide it.
+    /// Whether a cubic has no singular point over the complex numbers; `None` for other degrees, and if the numbers are
+    /// too long to decide.
     pub smooth: Option<bool>,
     forms: Vec<RationalPart>,
 }
 
-/// Why there is no exact curve.
+/// Reasons why there is no exact curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoExactCurve {
-    /// The exact joints do not have these flats: the pair exists within the tolerance only.
+    /// The exact joints do not have these flats: the pair exists only within the tolerance.
     OtherFlats,
-    /// Coordinates are no fractions.
+    /// Coordinates are not fractions.
     Irrational,
-    /// The greatest common divisor of minors with coefficients of so many bits is not computed.
+    /// The minors have coefficients too long for their greatest common divisor.
     TooLong {
         /// Bits of the longest coefficient.
         bits: u64,
@@ -110,7 +110,7 @@ impl std::fmt::Display for NoExactCurve {
     }
 }
 
-/// Three (four) of the homogeneous coordinates that tell the points of their flat apart.
+/// Three (four) homogeneous coordinates that distinguish the points of their flat.
 fn coordinates(points: &[ExactVector], dimension: usize) -> Option<(Vec<usize>, Vec<ExactVector>)> {
     let choices: [&[usize]; 4] = [&[0, 1, 2], &[0, 1, 3], &[0, 2, 3], &[0, 1, 2, 3]];
     choices.into_iter().filter(|c| c.len() == dimension + 1).find_map(|kept| {
@@ -140,7 +140,8 @@ fn matrix(near: &[ExactVector], far: &[ExactVector]) -> Vec<Vec<ExactForm>> {
     equations.map(|n| (0..width).map(|q| entry(&n, q)).collect()).collect()
 }
 
-/// The greatest rank at points of the plane on which no minor of order 4 can vanish without vanishing everywhere.
+/// The generic rank of the matrix. The tested points are such that a minor of order 4 that vanishes at all of them
+/// vanishes everywhere.
 fn generic_rank(m: &[Vec<ExactForm>]) -> usize {
     let most = m.len().min(m.first().map_or(0, Vec::len));
     let mut best = 0;
@@ -194,7 +195,7 @@ fn common_minor(m: &[Vec<ExactForm>], order: usize) -> Result<ExactForm, NoExact
 }
 
 impl ExactCurve {
-    /// Over the plane of the ends of legs on a body.
+    /// The curve over the plane of the ends of legs on a body.
     pub(super) fn of(exact: &ExactLegs, legs: &[usize], body: Body) -> Result<Self, NoExactCurve> {
         let fractions = |p: &AlgebraicVector| p.iter().map(|x| x.as_rational().cloned()).collect();
         let ends = |body: Body| -> Option<Vec<ExactVector>> {
@@ -257,7 +258,7 @@ impl ExactCurve {
         self.forms.iter().any(|p| p.kind == kind)
     }
 
-    /// Whether a part of one of these kinds passes through points near the body (design coordinates): `None` where the
+    /// Whether a part of one of these kinds passes through points near the body (design coordinates). `None` if the
     /// exact parts are not all known.
     pub(super) fn has_part(
         &self,
@@ -282,8 +283,8 @@ impl ExactCurve {
     }
 }
 
-/// The exact point in which the lines through two pairs of points of a plane meet, homogeneous; `None` where they do
-/// not meet in one point.
+/// The exact intersection of the lines through two pairs of points of a plane, homogeneous; `None` if they do not
+/// intersect in one point.
 pub(super) fn meeting(lines: [[&AlgebraicVector; 2]; 2]) -> Option<AlgebraicVector> {
     let rows: Vec<AlgebraicVector> = lines.iter().flatten().map(|p| (*p).clone()).collect();
     let [relation] = <[AlgebraicVector; 1]>::try_from(relations(&rows)).ok()?;

@@ -1,8 +1,8 @@
-//! Plane curves with integer coefficients of any length, and how they split over the complex numbers, exactly.
+//! Plane curves with integer coefficients of any length, and their exact factors over the complex numbers.
 //!
-//! A line that is the only one of a cubic besides an irreducible conic is taken to itself by every conjugation, so that
-//! its coefficients are rational. A cubic without rational line therefore is irreducible over the complex numbers or
-//! consists of three lines, and it consists of lines exactly when it divides the determinant of its second derivatives.
+//! If a cubic consists of a line and an irreducible conic, every conjugation maps the line to itself, so its
+//! coefficients are rational. A cubic without rational line is therefore irreducible over the complex numbers or
+//! consists of three lines. It consists of lines exactly if it divides the determinant of its second derivatives.
 
 use num_bigint::BigInt;
 
@@ -11,7 +11,7 @@ use num::exact::{ExactVector, Rational, approximate, primitive, rank, relations}
 use num::modular::Field;
 use num::poly::{IntPoly, real_roots};
 
-/// As [`Form`](super::form::Form), in the same order of the monomials.
+/// A form like [`Form`](super::form::Form), with the same order of the monomials.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct ExactForm {
     pub(super) degree: usize,
@@ -21,7 +21,7 @@ pub(super) struct ExactForm {
 /// Homogeneous coordinates in a plane.
 pub(super) type Place = [BigInt; 3];
 
-/// Coprime integers with the same ratios, the first that is not zero positive.
+/// Coprime integers with the same ratios; the first nonzero one is positive.
 pub(super) fn integers(list: &[Rational]) -> Vec<BigInt> {
     primitive(list).iter().map(|x| x.numer().clone()).collect()
 }
@@ -118,11 +118,11 @@ impl ExactForm {
         self.on_line(p, &[BigInt::ZERO; 3]).swap_remove(0)
     }
 
-    /// Whether the form vanishes on a line, given by its linear form.
+    /// Whether the form vanishes on a line, given as a linear form.
     pub(super) fn contains(&self, line: &Self) -> bool {
         let units: [Place; 3] = [0, 1, 2].map(|k| [0, 1, 2].map(|i| BigInt::from(i32::from(i == k))));
         let points: Vec<Place> = units.iter().map(|u| cross(&line.coefficients, u)).collect();
-        // two of the three points of the line on the axes of the coordinates differ
+        // two of the line's three intersections with the coordinate axes differ
         let differ =
             |(i, j): &(usize, usize)| cross(&points[*i], &points[*j]).iter().any(|x| *x != BigInt::ZERO);
         let pair = [(0, 1), (0, 2), (1, 2)].into_iter().find(differ);
@@ -134,7 +134,7 @@ impl ExactForm {
         exponents(degree).map(|e| rationals(&self.times(&Self::monomial(e)).coefficients)).collect()
     }
 
-    /// The quotient with coprime coefficients, where the divisor divides.
+    /// The quotient with coprime coefficients, if the divisor divides the form.
     pub(super) fn divided(&self, divisor: &Self) -> Option<Self> {
         let degree = self.degree.checked_sub(divisor.degree)?;
         let mut rows = divisor.shifts(degree);
@@ -145,11 +145,11 @@ impl ExactForm {
         Some(Self { degree, coefficients: integers(&relation) })
     }
 
-    /// The greatest common divisor of two forms that are not zero; `None` where it takes eliminations with numbers of
-    /// more than `longest` bits.
+    /// The greatest common divisor of two nonzero forms; `None` if elimination needs numbers of more than `longest`
+    /// bits.
     ///
-    /// `g self = h other` has a solution with `deg h = deg self - k` exactly when the divisor has at least degree `k`.
-    /// Where the products have full rank modulo a prime there is none, and no long numbers are needed.
+    /// `g self = h other` has a solution with `deg h = deg self - k` exactly if the divisor has at least degree `k`.
+    /// Full rank of the products modulo a prime excludes a solution without long numbers.
     pub(super) fn common_factor(&self, other: &Self, longest: u64) -> Option<Self> {
         for k in (1..=self.degree.min(other.degree)).rev() {
             let (g, h) = (other.degree - k, self.degree - k);
@@ -213,7 +213,7 @@ fn jacobian_products(form: &ExactForm) -> Vec<ExactVector> {
     form.gradient().iter().flat_map(|d| d.shifts((2 * form.degree).saturating_sub(4))).collect()
 }
 
-/// Whether two lists are proportional (the zero list is, to every other one).
+/// Whether two lists are proportional (the zero list is proportional to every list).
 fn proportional(a: &[BigInt], b: &[BigInt]) -> bool {
     let Some(k) = a.iter().position(|x| *x != BigInt::ZERO) else { return true };
     a.iter().zip(b).all(|(x, y)| x * &b[k] == y * &a[k])
@@ -222,7 +222,7 @@ fn proportional(a: &[BigInt], b: &[BigInt]) -> bool {
 /// Bits of a coefficient up to which long eliminations are done.
 const LONG: u64 = 1000;
 
-/// What a part of an exact curve is.
+/// The kind of a part of an exact curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ExactKind {
@@ -234,7 +234,7 @@ pub enum ExactKind {
     ComplexLines,
     /// Three lines, conjugate over a cubic field.
     ThreeLines {
-        /// How many of them are real: 1 or 3.
+        /// Number of real ones: 1 or 3.
         real: usize,
     },
     /// A conic with real points, irreducible over the complex numbers.
@@ -243,7 +243,7 @@ pub enum ExactKind {
     EmptyConic,
     /// A cubic that is irreducible over the complex numbers.
     Cubic,
-    /// A curve without rational lines of a degree for which there is no method here.
+    /// A curve without rational lines, of a degree that this module cannot decide.
     Undecided,
 }
 
@@ -268,7 +268,7 @@ impl ExactKind {
     }
 }
 
-/// A part that does not split over the rational numbers.
+/// A part that is irreducible over the rational numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct RationalPart {
     pub(super) kind: ExactKind,
@@ -276,12 +276,12 @@ pub(super) struct RationalPart {
     pub(super) multiplicity: usize,
 }
 
-/// What a real singular point of an irreducible cubic is; the point is rational.
+/// The kind of the real singular point of an irreducible cubic; the point is rational.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum CubicPoint {
-    /// There is none over the complex numbers.
+    /// No singular point over the complex numbers.
     None,
-    /// Two real branches cross, or two complex ones (`isolated`), or the branches have one tangent (`cusp`).
+    /// Two real branches cross, or two complex ones (`isolated`), or the branches share a tangent (`cusp`).
     At { coordinates: Place, cusp: bool, isolated: bool },
     /// The coefficients are too long.
     TooLong,
@@ -327,8 +327,8 @@ fn rational_line(form: &ExactForm, lines: &[ExactForm]) -> Option<ExactForm> {
     if let Some(found) = lines.iter().find(|l| form.contains(l)) {
         return Some(found.clone());
     }
-    // a line that divides the form meets three lines that do not, and are not of one point, in rational points, and the
-    // first in another point than one of the others
+    // a line that divides the form meets three lines that do not in rational points; if the three are not concurrent,
+    // two points differ
     let mut sections: Vec<(Place, Vec<Place>)> = Vec::new();
     for (p, q) in transversals() {
         let binary = form.on_line(&p, &q);
@@ -338,7 +338,7 @@ fn rational_line(form: &ExactForm, lines: &[ExactForm]) -> Option<ExactForm> {
             [first] => proportional(&across, &first.0),
             _ => false,
         };
-        // no root at infinity; a transversal that belongs to the curve has no leading coefficient either
+        // no root at infinity; a transversal in the curve also has no leading coefficient
         if concurrent || binary[form.degree] == BigInt::ZERO {
             continue;
         }
@@ -414,7 +414,7 @@ fn conic_kind(form: &ExactForm) -> ExactKind {
     let minors = principal_minors(&m);
     let whole = dot(&m[0], &cross(&m[1], &m[2]));
     if whole != BigInt::ZERO {
-        // definite: all principal minors of order 2 positive, the diagonal of the sign of the determinant
+        // definite: all principal minors of order 2 are positive, and the diagonal has the sign of the determinant
         let definite = minors.iter().all(|x| *x > BigInt::ZERO) && &m[0][0] * &whole > BigInt::ZERO;
         return if definite { ExactKind::EmptyConic } else { ExactKind::Conic };
     }
@@ -427,12 +427,11 @@ fn conic_kind(form: &ExactForm) -> ExactKind {
     }
 }
 
-/// Whether the cubic is proved to have no singular point over the complex numbers, modulo a prime; `false` proves
-/// nothing.
+/// Whether the cubic is proved to be smooth over the complex numbers, modulo a prime; `false` proves nothing.
 ///
-/// The three partial derivatives, quadrics, have no common zero exactly when their products with the six monomials of
-/// degree 2 span all 15 forms of degree 4 (Macaulay 1902: a regular sequence of three quadrics contains all forms of
-/// degree 4). A full rank modulo a prime is one over the rationals.
+/// The partial derivatives are three quadrics. They have no common zero exactly if their products with the six
+/// monomials of degree 2 span all 15 forms of degree 4. (Macaulay 1902: a regular sequence of three quadrics contains
+/// all forms of degree 4.) Full rank modulo a prime implies full rank over the rationals.
 fn is_smooth(form: &ExactForm) -> bool {
     form.degree == 3 && rank_modulo(&jacobian_products(form)) == 15
 }
@@ -444,7 +443,7 @@ fn cubic_kind(form: &ExactForm) -> ExactKind {
     if !hessian.is_some_and(|h| proportional(&h.coefficients, &form.coefficients)) {
         return ExactKind::Cubic;
     }
-    // three lines meet a line in as many real points as there are real lines among them, unless it passes a crossing
+    // a line meets three lines in as many real points as there are real lines, unless it passes an intersection
     let discriminant = transversals().find_map(|(p, q)| {
         let d = cubic_discriminant(&form.on_line(&p, &q));
         (d != BigInt::ZERO).then_some(d)
@@ -458,10 +457,10 @@ fn cubic_discriminant(c: &[BigInt]) -> BigInt {
     b * b * c * c - a * c * c * c * 4 - b * b * b * d * 4 - a * a * d * d * 27 + a * b * c * d * 18
 }
 
-/// The singular point of a cubic that is irreducible over the complex numbers: one at most, hence rational.
+/// The singular point of an irreducible cubic over the complex numbers: at most one, hence rational.
 ///
-/// The forms of degree 4 modulo the derivatives have dimension 1 at a node and 2 at a cusp; multiplication with
-/// `x_k / l` on them has the one eigenvalue `p_k / l(p)`.
+/// The forms of degree 4 modulo the derivatives have dimension 1 at a node and 2 at a cusp. Multiplication with
+/// `x_k / l` on them has the single eigenvalue `p_k / l(p)`.
 pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
     if is_smooth(form) {
         return CubicPoint::None;
@@ -476,7 +475,7 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
     if dual.is_empty() {
         return CubicPoint::None;
     }
-    // five lines of which no three meet: the point is on two at most
+    // five lines, no three through one point: the point is on two at most
     let Some(point) = (0..5).find_map(|k| eigenvalues(&dual, [1, k, k * k])) else {
         return CubicPoint::TooLong;
     };
@@ -492,7 +491,7 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
 /// at it.
 fn eigenvalues(dual: &[ExactVector], l: [i32; 3]) -> Option<Place> {
     let zero = || Rational::from_integer(BigInt::ZERO);
-    // functionals on cubics: multiplication with a linear form first
+    // functionals on cubics, by multiplication with a linear form
     let times = |d: &ExactVector, l: [i32; 3]| -> ExactVector {
         let at = |e: [usize; 3], k: usize| {
             let mut up = e;
@@ -591,12 +590,13 @@ mod tests {
     /// `w^3, w^2 x, w^2 y, w x^2, w x y, w y^2, x^3, x^2 y, x y^2, y^3`.
     #[test]
     fn cubics_of_every_kind() {
-        // the norm of w + 2^(1/3) x + 4^(1/3) y; three lines of one point: x^3 - 3 x y^2 + y^3 has three real roots
+        // the norm of w + 2^(1/3) x + 4^(1/3) y; three lines through one point: x^3 - 3 x y^2 + y^3 has three real
+        // roots
         let norm = form(3, &[1, 0, 0, 0, -6, 0, 2, 0, 0, 4]);
         assert_eq!(kinds(&norm), [(ExactKind::ThreeLines { real: 1 }, 1)]);
         let pencil = form(3, &[0, 0, 0, 0, 0, 0, 1, 0, -3, 1]);
         assert_eq!(kinds(&pencil), [(ExactKind::ThreeLines { real: 3 }, 1)]);
-        // y^2 w = x^3 + ..: smooth, cusp, node, isolated point; moved so that the point is (1, 2, 3)
+        // y^2 w = x^3 + ..: smooth, cusp, node, isolated point; moved to the point (1, 2, 3)
         let moved = |c: [i64; 10]| {
             let (w, x, y) = (form(1, &[1, 0, 0]), form(1, &[-2, 1, 0]), form(1, &[-3, 0, 1]));
             let mut out = ExactForm::zero(3);

@@ -1,8 +1,8 @@
-//! Flats that legs end on, and the pairs of flats that are looked at for families.
+//! Flats that contain leg ends, and the pairs of flats to search for families.
 //!
-//! A flat has coordinates of its own, normalised to the joints in it. The legs between two flats that are combinations
-//! of given legs satisfy bilinear equations `N_r(a, b) = 0`. Closed pairs, which hold all legs between the flats that
-//! these legs span, are found exactly and within a tolerance.
+//! A flat has local coordinates, normalised to its joints. The legs between two flats that are combinations of given
+//! legs satisfy bilinear equations `N_r(a, b) = 0`. Closed pairs contain all legs between the flats that these legs
+//! span. They are found exactly and within a tolerance.
 
 use std::collections::BTreeMap;
 
@@ -17,8 +17,8 @@ use platform::manipulator::{Body, ExactLegs, Leg};
 /// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.
 const NARROW: f64 = 1e-2;
 
-/// A flat `origin + sum_k xi_k axes_k` with orthogonal axes, as long as the joints reach: local coordinates are of
-/// order one, also for joints nearly on a line or nearly in a plane.
+/// A flat `origin + sum_k xi_k axes_k` with orthogonal axes that reach as far as the joints. Local coordinates are thus
+/// of order one, also for joints nearly on a line or in a plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Flat {
     pub(super) origin: Vector3<f64>,
@@ -30,7 +30,7 @@ fn rows(points: &[Vector3<f64>]) -> (Vector3<f64>, Vec<Vec<f64>>) {
     (mean, points.iter().map(|p| (p - mean).iter().copied().collect()).collect())
 }
 
-/// Singular values of the centred points: as many as their flat has dimensions are different from zero.
+/// Singular values of the centred points; the number of nonzero ones is the dimension of their flat.
 fn spread(points: &[Vector3<f64>]) -> Result<[f64; 3], LinalgError> {
     let s = Spectrum::of(&rows(points).1, 3)?;
     Ok(std::array::from_fn(|k| s.values[k]))
@@ -103,7 +103,7 @@ impl Flat {
     }
 }
 
-/// The direction with its largest component positive: the same for both signs of a singular vector.
+/// The direction with a positive largest component: the same for both signs of a singular vector.
 fn forward(v: Vector3<f64>) -> Vector3<f64> {
     if v[v.iamax()] < 0.0 { -v } else { v }
 }
@@ -115,7 +115,7 @@ fn plane_axes(normal: Vector3<f64>) -> Vec<Vector3<f64>> {
     vec![first, normal.cross(&first)]
 }
 
-/// The span of legs inside the product of two flats, and the equations that cut it out.
+/// The span of legs in the product of two flats, and its equations.
 ///
 /// In local homogeneous coordinates `alpha` (base, `i + 1` entries) and `beta` (platform, `j + 1` entries) a leg is
 /// `alpha (x) beta`. The span of the legs has rank `k'`; an orthonormal basis of its complement are the
@@ -131,7 +131,8 @@ pub(super) struct FlatProduct {
 }
 
 impl FlatProduct {
-    /// Of the legs with these ends (normalised coordinates); the rank is what the tolerance says, or prescribed.
+    /// The product for legs with these ends (normalised coordinates); the rank is prescribed or follows from the
+    /// tolerance.
     pub(super) fn new(
         base: Flat,
         platform: Flat,
@@ -194,13 +195,13 @@ impl FlatProduct {
     }
 }
 
-/// Which reading of the joints a pair of flats belongs to.
+/// The interpretation of the joints in which a pair of flats exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reading {
     /// The doubles as rational numbers, and the tolerance as well.
     Both,
-    /// The doubles as rational numbers only: within the tolerance the joints are more special, or less.
+    /// The doubles as rational numbers only: within the tolerance the joints have other dimensions.
     ExactOnly,
     /// Within the tolerance only.
     ToleranceOnly,
@@ -218,7 +219,7 @@ impl Reading {
     }
 }
 
-/// A closed pair: the legs between two flats that these legs span, and how it was decided.
+/// A closed pair: the legs between two flats that these legs span, and the reading in which it exists.
 #[derive(Debug, Clone)]
 pub(super) struct ClosedPair {
     pub(super) legs: Vec<usize>,
@@ -247,7 +248,7 @@ impl BothReadings {
         legs.iter().map(|i| (self.base[*i], self.platform[*i])).collect()
     }
 
-    /// Design coordinates of a point: those of the joint where it is one.
+    /// Design coordinates of a point; those of the joint if it is one.
     pub(super) fn design_point(&self, body: Body, p: &Vector3<f64>, n: &Normalisation) -> Vector3<f64> {
         let joint = self.side(body).iter().position(|q| q == p);
         match (joint, body) {

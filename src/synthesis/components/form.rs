@@ -1,6 +1,6 @@
 //! Homogeneous polynomials in three variables: curves of a plane in the coordinates `(1, xi_1, xi_2)`.
 //!
-//! A curve splits into lines, conics and what is left; its singular points are found and named.
+//! A curve is split into lines, conics and the rest; its singular points are found and classified.
 
 use nalgebra::Matrix3;
 
@@ -21,7 +21,7 @@ pub(super) fn exponents(degree: usize) -> impl Iterator<Item = [usize; 3]> {
     (0..=degree).rev().flat_map(move |i| (0..=degree - i).rev().map(move |j| [i, j, degree - i - j]))
 }
 
-/// Place of an exponent: `(degree - i)` rows of growing length come before, then `j` falls.
+/// Index of an exponent: `(degree - i)` rows of growing length come before, then `j` falls.
 pub(super) fn index(e: [usize; 3]) -> usize {
     let rest = e[1] + e[2];
     rest * (rest + 1) / 2 + e[2]
@@ -117,7 +117,7 @@ impl Form {
         out
     }
 
-    /// Norm of the form on a line (given by its linear form) over its own norm: zero when it contains the line.
+    /// Norm of the form on a line (given as a linear form) over its own norm: zero if it contains the line.
     fn residual_on_line(&self, line: &[f64]) -> f64 {
         let [p, q] = line_basis(line);
         let binary = self.on_line(&p, &q);
@@ -204,9 +204,9 @@ pub(super) fn laplace<F: Clone>(
     out
 }
 
-/// The greatest common divisor of two forms of equal degree, with the singular values on both sides of the decision.
+/// The greatest common divisor of two forms of equal degree, with the singular values on either side of the decision.
 ///
-/// `g f1 = h f2` has a solution with `deg g = deg h = e` exactly when the divisor has at least degree `deg f - e`.
+/// `g f1 = h f2` has a solution with `deg g = deg h = e` exactly if the divisor has at least degree `deg f - e`.
 pub(super) fn common_factor(
     f1: &Form,
     f2: &Form,
@@ -263,14 +263,14 @@ pub(super) fn incidence(line: &[f64], point: &[f64]) -> f64 {
     dot(line, point) / (norm(line) * norm(point))
 }
 
-/// A part of a plane curve that does not split further over the reals.
+/// A part of a plane curve that is irreducible over the reals.
 #[derive(Debug, Clone)]
 pub(super) struct RealPart {
     pub(super) form: Form,
     pub(super) kind: PartKind,
-    /// How often it divides the curve.
+    /// Its multiplicity.
     pub(super) multiplicity: usize,
-    /// Residual of the curve on the line, or the ratio of eigenvalues of the conic that was closest to a decision.
+    /// Residual of the curve on the line, or the eigenvalue ratio of the conic nearest to a decision.
     pub(super) measure: f64,
 }
 
@@ -314,12 +314,12 @@ impl PartKind {
 #[derive(Debug, Clone, Default)]
 pub(super) struct SplitCurve {
     pub(super) parts: Vec<RealPart>,
-    /// The smallest residual of a line that was not accepted.
+    /// The smallest residual of a rejected line.
     pub(super) rejected: Option<f64>,
 }
 
-/// Splits a form into real lines, conics and the rest. `points` are points known to lie on it: the lines through two of
-/// them are tried first, because they are known best.
+/// Splits a form into real lines, conics and the rest. Lines through two of the known `points` on it are tried first,
+/// since they are the most accurate.
 pub(super) fn split(
     form: &Form,
     points: &[Vec<f64>],
@@ -362,8 +362,8 @@ fn push(out: &mut SplitCurve, part: RealPart) {
     }
 }
 
-/// The line on which the form is smallest, out of those through two known points and those through intersections with
-/// two random lines: a line of the curve meets these in two of them.
+/// The line with the smallest residual of the form. Candidates pass through two known points, or through intersections
+/// with two random lines, which every line of the curve meets in two of them.
 fn best_line(
     form: &Form,
     points: &[Vec<f64>],
@@ -384,7 +384,7 @@ fn best_line(
             consider(&mut best, cross(&unit(p), &unit(q)));
         }
     }
-    // a line through two known points that fits is not replaced by a nearby one known less well
+    // a nearby, less accurate line must not replace a fitting line through two known points
     if best.1 <= tolerance {
         return Ok(best);
     }
@@ -436,7 +436,7 @@ pub(super) fn conic_frame(form: &Form) -> [Vec<f64>; 3] {
     [x, others.next().unwrap_or_default(), z]
 }
 
-/// What a curve looks like at a singular point.
+/// The kind of a singular point of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SingularKind {
@@ -444,7 +444,7 @@ pub enum SingularKind {
     Crossing,
     /// An isolated real point: two complex branches.
     Isolated,
-    /// The two branches have one tangent: a cusp, or parts that touch.
+    /// The two branches share a tangent: a cusp, or touching parts.
     Cusp,
     /// Three branches or a multiple part.
     Triple,
@@ -493,8 +493,8 @@ pub(super) fn singular_kind(form: &Form, p: &[f64]) -> SingularKind {
     }
 }
 
-/// The real singular point of a form without real lines that is found from many starts by Gauss-Newton steps on the
-/// gradient, with the size of the gradient there: a cubic that does not split has one at most.
+/// The real singular point of a form without real lines, with the size of the gradient there. Gauss-Newton steps on the
+/// gradient from many starts find it; an irreducible cubic has at most one.
 pub(super) fn singular_point(form: &Form, rng: &mut Rng) -> Result<(Vec<f64>, f64), LinalgError> {
     let f = form.normalised();
     let g = f.gradient();
@@ -505,7 +505,7 @@ pub(super) fn singular_point(form: &Form, rng: &mut Rng) -> Result<(Vec<f64>, f6
         let mut x = random_vector(rng, 3);
         for _ in 0..60 {
             let rhs: Vec<f64> = g.iter().map(|d| -d.value(&x)).chain(std::iter::once(0.0)).collect();
-            // three equations and one that keeps the step across x
+            // three equations, and one that keeps the step across x
             let columns: Vec<Vec<f64>> = (0..3)
                 .map(|k| hessian.iter().map(|h| h[k].value(&x)).chain(std::iter::once(x[k])).collect())
                 .collect();
@@ -532,7 +532,7 @@ pub(super) fn singular_point(form: &Form, rng: &mut Rng) -> Result<(Vec<f64>, f6
 /// Intersections of a line with another part, on the line.
 pub(super) fn on_line(line: &Form, other: &Form) -> Result<Vec<Vec<f64>>, LinalgError> {
     let [p, q] = line_basis(&line.coefficients);
-    // a root at the infinite end of the parameter is avoided by a turn of the two points
+    // a rotation of the two points avoids a root at the infinite end of the parameter
     let (sin, cos) = 0.7f64.sin_cos();
     let turned: Vec<f64> = p.iter().zip(&q).map(|(x, y)| cos * x + sin * y).collect();
     let across: Vec<f64> = p.iter().zip(&q).map(|(x, y)| cos * y - sin * x).collect();
@@ -543,7 +543,7 @@ pub(super) fn on_line(line: &Form, other: &Form) -> Result<Vec<Vec<f64>>, Linalg
         .collect())
 }
 
-/// Whether two homogeneous points are the same up to `limit`.
+/// Whether two homogeneous points agree up to `limit`.
 pub(super) fn same_point(p: &[f64], q: &[f64], limit: f64) -> bool {
     norm(&without(&unit(p), &[unit(q)])) < limit
 }

@@ -1,7 +1,6 @@
 //! The families of one closed pair over points, lines, conics and planes.
 //!
-//! Which platform points belong to a base point that moves along a line or conic is the kernel of a matrix of
-//! polynomials.
+//! The platform points of a base point that moves along a line or conic are the kernel of a matrix of polynomials.
 
 use nalgebra::Vector3;
 
@@ -43,11 +42,11 @@ fn shifted(v: &Polynomial, degree: usize) -> Vec<Vec<f64>> {
     (0..(degree + 2).saturating_sub(v.len())).map(at).collect()
 }
 
-/// A minimal polynomial basis, of `dimension` vectors, of the kernel of `M(t) = sum_e t^e matrices[e]`.
+/// A minimal polynomial basis of the kernel of `M(t) = sum_e t^e matrices[e]`, with `dimension` vectors.
 ///
-/// `M(t) b(t) = 0` with `deg b = d` is a linear system for the coefficients of `b`. Going through `d = 0, 1, ..` and
-/// leaving out `t^s b_l(t)` of the vectors found already gives a basis of least degrees (Forney 1975).
-/// The degrees are bounded by the sum of the row degrees.
+/// `M(t) b(t) = 0` with `deg b = d` is a linear system for the coefficients of `b`. The search goes through
+/// `d = 0, 1, ..` and leaves out `t^s b_l(t)` of the vectors already found. This gives a basis of least degrees (Forney
+/// 1975). The degrees are bounded by the sum of the row degrees.
 fn minimal_kernel(
     matrices: &[Vec<Vec<f64>>],
     width: usize,
@@ -96,7 +95,7 @@ fn stacked(matrices: &[Vec<Vec<f64>>], width: usize, degree: usize) -> Vec<Vec<f
     rows
 }
 
-/// Divided by the entry of largest modulus: a sign and a size that do not depend on the decomposition.
+/// Divided by the entry of largest modulus, which makes sign and size independent of the decomposition.
 pub(super) fn scaled(v: &[f64]) -> Vec<f64> {
     let largest = v.iter().fold(0.0f64, |m, x| if x.abs() > 1.000_001 * m.abs() { *x } else { m });
     let tiny = 1e-14 * largest.abs();
@@ -104,7 +103,7 @@ pub(super) fn scaled(v: &[f64]) -> Vec<f64> {
 }
 
 /// A vector of forms of least degree (at most 2) in three variables in the kernel of `M(alpha)`, whose entries are
-/// linear forms: the coefficient vectors in the order of [`exponents`].
+/// linear forms. It is given by coefficient vectors in the order of [`exponents`].
 fn planar_kernel(
     equations: &[Vec<f64>],
     width: usize,
@@ -137,7 +136,7 @@ fn planar_kernel(
     Ok(None)
 }
 
-/// A family before it is compared with the others.
+/// A family before the comparison with the others.
 #[derive(Debug, Clone)]
 pub(super) struct FoundComponents {
     pub(super) shape: FamilyShape,
@@ -148,8 +147,7 @@ pub(super) struct FoundComponents {
     pub(super) decisions: Vec<Decision>,
 }
 
-/// A product of flats seen from one body, which carries points over which partners stand: `product.base` belongs to
-/// `carrying`.
+/// A product of flats from the viewpoint of the body whose points have partners: `product.base` belongs to `carrying`.
 #[derive(Debug, Clone)]
 pub(super) struct View<'a> {
     pub(super) product: &'a FlatProduct,
@@ -220,7 +218,7 @@ impl View<'_> {
         self.found(shape, FamilyKind::AllPairs, spans, decisions)
     }
 
-    /// The partners of one point: a flat, if there is one of dimension 1 or more in the finite part.
+    /// The partners of one point: a flat, if its finite part has dimension 1 or more.
     pub(super) fn over_point(
         &self,
         point: &Vector3<f64>,
@@ -317,7 +315,7 @@ impl View<'_> {
         Ok(Some(self.found(shape, kind, (span, other_span), vec![decision])))
     }
 
-    /// One partner for every point of the carrying plane, when `M` has rank one less than its columns there.
+    /// One partner for every point of the carrying plane, if the rank of `M` there is one less than its columns.
     pub(super) fn over_plane(&self, decision: Decision) -> Result<Option<FoundComponents>, LinalgError> {
         let tolerance = COMPUTED * self.tolerance;
         let Some((degree, map)) = planar_kernel(&self.product.equations, self.width(), tolerance)? else {
@@ -346,11 +344,11 @@ pub(super) fn point(flat: &Flat, local: &[f64]) -> Vector3<f64> {
     Vector3::new(h[1], h[2], h[3]) / h[0]
 }
 
-/// The flat of all points whose homogeneous local coordinates lie in the span of `vectors`; `None` when it has no
-/// finite point.
+/// The flat of all points with homogeneous local coordinates in the span of `vectors`; `None` if it has no finite
+/// point.
 fn flat_of(within: &Flat, vectors: &[Vec<f64>], tolerance: f64) -> Option<Flat> {
     let basis = orthonormal(vectors, 1e-9);
-    // the vector of the span with the largest first coordinate; what is orthogonal to it is at infinity
+    // the vector of the span with the largest first coordinate; vectors orthogonal to it are at infinity
     let mut centre = vec![0.0; within.dimension() + 1];
     for v in &basis {
         centre.iter_mut().zip(v).for_each(|(c, x)| *c += v[0] * x);
@@ -371,7 +369,8 @@ fn flat_of(within: &Flat, vectors: &[Vec<f64>], tolerance: f64) -> Option<Flat> 
     Some(Flat::spanned(point(within, &centre), &directions))
 }
 
-/// Points of a list that span the flat, the first ones preferred; where they do not, points of the flat itself.
+/// Points that span the flat: those of a list if they do, the first ones preferred; otherwise points of the flat
+/// itself.
 fn spanning_points(flat: &Flat, points: &[Vector3<f64>], tolerance: f64) -> Vec<Vector3<f64>> {
     let limit = nearness(tolerance);
     let mut out: Vec<Vector3<f64>> = Vec::new();
@@ -396,7 +395,7 @@ fn spanning_points(flat: &Flat, points: &[Vector3<f64>], tolerance: f64) -> Vec<
     std::iter::once(flat.origin).chain(flat.axes.iter().map(|e| flat.origin + e)).collect()
 }
 
-/// The vector with the largest first coordinate first among those of least degree: `u = 0` then gives finite legs.
+/// Orders the vectors of least degree by falling first coordinate: `u = 0` then gives finite legs.
 fn finite_first(mut fibre: Vec<Polynomial>) -> Vec<Polynomial> {
     let finite = |p: &Polynomial| p.iter().map(|c| c[0].abs()).fold(0.0, f64::max);
     if let Some(k) = (0..fibre.len()).find(|k| finite(&fibre[*k]) > 1e-6) {

@@ -1,15 +1,15 @@
 //! Finds all families of replaceable legs of a design.
 //!
-//! The squared length of a leg `(a, b)` is an affine function of those of the six legs exactly when `(1, a) (x) (1, b)`
-//! lies in the span of `v_1, .., v_6` (see [`leg_vector`](super::leg_vector())); then the leg may replace one of those
-//! it is a combination of. These legs are a variety, and this module lists its components of positive dimension with
-//! formulas, together with what they are contained in.
+//! Let `v_1, .., v_6` be the vectors of the six legs (see [`leg_vector`](super::leg_vector())). The squared length of a
+//! leg `(a, b)` is an affine function of theirs exactly if `(1, a) (x) (1, b)` lies in their span. The leg may then
+//! replace one of the legs in its combination. These legs form a variety. This module lists its components of positive
+//! dimension with formulas and their inclusions.
 //!
-//! A combination of `k'` independent legs, all of them used, that is a leg between flats of dimensions `i` and `j`
-//! spanned by these legs needs `k' >= i + j + 1` (Sylvester's inequality for the rank of
-//! `sum c_l (1, a_l) (1, b_l)^T`). So for six legs only these pairs of flats have to be looked at: a point and any
-//! flat; two lines (`k' = 3, 4`); line and plane (4, 5, 6); line and space (5, 6); two planes (5, 6); plane and space
-//! (6). Proofs and formulas: `docs/theory/components.md`.
+//! Let a combination of `k'` independent legs, all of them used, be a leg between the flats of dimensions `i` and `j`
+//! that they span. Then `k' >= i + j + 1`, by Sylvester's inequality for the rank of `sum c_l (1, a_l) (1, b_l)^T`. So
+//! six legs need a search of only these pairs of flats. They are a point and any flat, two lines (`k' = 3, 4`), line
+//! and plane (4, 5, 6), and line and space (5, 6). Two planes (5, 6) and plane and space (6) complete the list. Proofs
+//! and formulas: `docs/theory/components.md`.
 
 mod component;
 pub(super) mod exact;
@@ -50,8 +50,8 @@ use platform::manipulator::{
 /// Limits of [`components`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComponentOptions {
-    /// Singular values, distances and residuals below this, relative to the size of the body, the largest singular
-    /// value or the norm of the equation, count as zero in the numerical reading.
+    /// Threshold for zero in the numerical reading, for singular values, distances and residuals. It is relative to the
+    /// size of the body, the largest singular value or the norm of the equation.
     pub tolerance: f64,
     /// Seed of the generic points.
     pub seed: u64,
@@ -64,7 +64,7 @@ impl Default for ComponentOptions {
     }
 }
 
-/// Why there is no answer.
+/// Reasons why there is no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ComponentsError {
@@ -79,7 +79,7 @@ pub enum ComponentsError {
     NonFinite,
 }
 
-/// A pair of flats that its legs span, and what was decided about it.
+/// A pair of flats that its legs span, with the decisions about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlatPair {
     /// The legs between the two flats.
@@ -90,11 +90,11 @@ pub struct FlatPair {
     pub platform: usize,
     /// Rank of the leg vectors.
     pub rank: usize,
-    /// `k' - 1 - i j`, or `i + j` where every pair of points is replaceable.
+    /// `k' - 1 - i j`, or `i + j` if every pair of points is replaceable.
     pub expected_dimension: isize,
     /// Largest dimension of a family found between the flats.
     pub dimension: usize,
-    /// Which reading of the joints has it.
+    /// The reading of the joints in which it exists.
     pub reading: Reading,
     /// Dimensions and rank with their gaps.
     pub decisions: Vec<Decision>,
@@ -103,26 +103,26 @@ pub struct FlatPair {
 /// All families of a design.
 #[derive(Debug, Clone)]
 pub struct Components {
-    /// Irreducible families of dimension 1 or more, with those that are contained in others.
+    /// Irreducible families of dimension 1 or more, including those contained in others.
     pub components: Vec<Component>,
-    /// The pairs of flats that were looked at.
+    /// The searched pairs of flats.
     pub pairs: Vec<FlatPair>,
     /// Pairs of planes with their curves.
     pub planes: Vec<PlanePair>,
     /// Rank of the six leg vectors.
     pub leg_rank: Decision,
-    /// Whether the list is known to be complete (in the numerical reading), and if not why.
+    /// Reasons why the list may be incomplete (in the numerical reading); empty if it is complete.
     pub doubts: Vec<String>,
     /// The span of the six legs, for sampling.
     pub span: LegSpan,
-    /// The limits used.
+    /// The options used.
     pub options: ComponentOptions,
 }
 
 /// All families of replaceable legs of `m`.
 ///
-/// Every rank is decided twice: exactly, on the joints as the numbers they are, and within the tolerance; the families
-/// of both readings are listed, and each says which it belongs to ([`Component::exact`]).
+/// Every rank is decided twice: exactly, on the joints as exact numbers, and within the tolerance. The families of both
+/// readings are listed with their reading ([`Component::exact`]).
 ///
 /// # Errors
 /// [`ComponentsError`].
@@ -159,7 +159,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     };
     let span = LegSpan::of(m, options.tolerance)?;
     let mut pairs = closed_pairs(&ends)?;
-    // families of the exact data first: what exists within the tolerance only is compared with them
+    // families of the exact data first; those within the tolerance only are compared with them
     pairs.sort_by_key(|p| (p.reading == Reading::ToleranceOnly, p.base.min(p.platform), p.base + p.platform));
     let mut search = FamilySearch {
         ends: &ends,
@@ -191,7 +191,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     .beside(Some(ends.exact.rank(&all)));
     let mut doubts = search.doubts;
     let leg_rank = match leg_rank.exact {
-        // the rank is that of the joints, exact or as written; a tolerance has no say about it
+        // the rank is that of the joints, exact or as written; the tolerance does not affect it
         Some(exact) if exact != leg_rank.value => {
             let joints = if m.level() == Level::ExactJoints { "exact joints" } else { "joints as written" };
             doubts.push(format!(
@@ -206,15 +206,13 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
 }
 
-/// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they
-/// are.
+/// Whether the vector of a leg is a combination of those of six, with all coordinates as rational numbers.
 #[must_use]
 pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
     ExactLegs::of_doubles(legs).is_some_and(|six| exact::contains(&six, leg))
 }
 
-/// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some
-/// of the six. Exact.
+/// Homogeneous partners of a point of one body: the `y` that form with it a leg in the span of the given legs. Exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ExactPartners {
     /// Dimension of their space; zero is a proof that no replaceable leg ends there.
@@ -261,7 +259,7 @@ fn record(p: &ClosedPair, components: &[Component]) -> FlatPair {
     }
 }
 
-/// The families in a fixed order, with what contains them.
+/// The families in a fixed order, with their inclusions.
 fn ordered(search: &mut FamilySearch<'_>) -> Result<Vec<Component>, LinalgError> {
     search.found.sort_by(|(_, a), (_, b)| {
         let key = |c: &Component| {

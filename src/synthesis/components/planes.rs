@@ -1,5 +1,5 @@
-//! Families over a plane: the curve on which `M(a)` loses rank and its parts, the points over which the rank falls by
-//! two, and, for two planes, the correspondence between their curves.
+//! Families over a plane: the curve on which `M(a)` loses rank, its parts, and the points at which the rank falls by
+//! two. Two planes also have a correspondence between their curves.
 
 use nalgebra::{Point3, Vector3};
 
@@ -21,18 +21,18 @@ use num::Rng;
 use num::linalg::{LinalgError, eigenvalues};
 use platform::manipulator::Body;
 
-/// What was found over the plane of one body.
+/// Results for the plane of one body.
 #[derive(Debug, Clone)]
 pub(super) struct PlaneSide {
     /// Rank of `M` at a generic point of the plane.
     pub(super) rank: usize,
-    /// The curve on which the rank falls, of degree 0 where there is none.
+    /// The curve on which the rank falls, of degree 0 if there is none.
     pub(super) form: Form,
     pub(super) split: SplitCurve,
     pub(super) decisions: Vec<Decision>,
     /// Families with the index of their part; `None` for one over the whole plane.
     pub(super) families: Vec<(Option<usize>, FoundComponents)>,
-    /// Whether every part was understood.
+    /// Whether every part was classified.
     pub(super) complete: bool,
     /// The curve of the exact data.
     pub(super) exact: Result<ExactCurve, NoExactCurve>,
@@ -101,7 +101,7 @@ pub(super) fn plane_side(
                 complete = false;
                 None
             }
-            // cubics are looked at with both bodies in view; the rest has no real curve
+            // cubics need both bodies; the other kinds have no real curve
             PartKind::Cubic | PartKind::EmptyConic | PartKind::ComplexLines => None,
         };
         if let Some(mut found) = found {
@@ -112,7 +112,7 @@ pub(super) fn plane_side(
     Ok(PlaneSide { rank, form, split, decisions, families, complete, exact })
 }
 
-/// The decision that made a part a part.
+/// The decision that established a part.
 fn part_decision(part: &RealPart, split: &SplitCurve, tolerance: f64) -> Decision {
     let line = part.kind == PartKind::Line;
     Decision {
@@ -132,8 +132,7 @@ pub(super) fn joints_on_line(line: &Form, joints: &[Vec<f64>], tolerance: f64) -
     (0..joints.len()).filter(|k| incidence(&line.coefficients, &joints[*k]).abs() <= limit).collect()
 }
 
-/// Two finite points of a line, first coordinate 1: two joints on it where there are two. `None` for the line at
-/// infinity.
+/// Two finite points of a line, first coordinate 1: two joints on it if it has two. `None` for the line at infinity.
 pub(super) fn line_points(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> Option<[Vec<f64>; 2]> {
     let on = joints_on_line(line, joints, tolerance);
     if let Some(first) = on.first() {
@@ -154,7 +153,7 @@ pub(super) fn line_points(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> O
     Some([foot.to_vec(), vec![1.0, foot[1] - c[2] / normal, foot[2] + c[1] / normal]])
 }
 
-/// Random points of a part, first those with real coordinates found on random lines.
+/// Random points of a part, starting with real ones on random lines.
 pub(super) fn points_of(form: &Form, count: usize, rng: &mut Rng) -> Result<Vec<Vec<f64>>, LinalgError> {
     let mut out = Vec::new();
     for _ in 0..40 {
@@ -182,14 +181,14 @@ fn functionals(view: &View<'_>, rng: &mut Rng) -> Result<Vec<Vec<f64>>, LinalgEr
     Ok(s.kernel(s.rank(COMPUTED * view.tolerance * s.values[0])).to_vec())
 }
 
-/// How many independent conditions the points of rank `j - 1` or less put on forms: ten less the dimension of the span
-/// of the minors of order `j`, cubics for a space over a plane. Zero shows that there is no such point.
+/// Number of independent conditions on forms from the points of rank `j - 1` or less. It is ten minus the dimension of
+/// the span of the minors of order `j`, cubics for a space over a plane. Zero shows that there is no such point.
 pub(super) fn conditions(view: &View<'_>, rng: &mut Rng) -> Result<usize, LinalgError> {
     Ok(functionals(view, rng)?.len())
 }
 
-/// The points of rank `j - 1` or less, as long as there are finitely many, none of them multiple and no more than forms
-/// of degree `j - 1` tell apart; and the number of complex ones.
+/// The points of rank `j - 1` or less, and the number of complex ones. They must be finitely many, simple, and no more
+/// than forms of degree `j - 1` can separate.
 ///
 /// The functionals are combinations of the values at the points. So `d(x_k q)` for forms `q` of degree `j - 1` is
 /// `C P_k V` with diagonal `P_k`, the coordinates of the points, and `(C P_k V) (C P_l V)^+ = C P_k / P_l C^-1`.
@@ -233,7 +232,7 @@ pub(super) fn located(view: &View<'_>, rng: &mut Rng) -> Result<(Vec<Vec<f64>>, 
     Ok((points, complex))
 }
 
-/// How many independent conditions it is for forms of a degree to vanish at these points.
+/// Number of independent conditions for forms of a degree to vanish at these points.
 pub(super) fn conditions_of(points: &[Vec<f64>], degree: usize) -> Result<usize, LinalgError> {
     let monomials = |p: &Vec<f64>| {
         exponents(degree).map(|e| (0..3).map(|k| power(p[k], e[k])).product()).collect::<Vec<f64>>()
@@ -269,14 +268,14 @@ pub(super) fn candidates(joints: &[Vec<f64>]) -> Vec<Vec<f64>> {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurvePartRecord", transform = num::nullable))]
 pub struct CurvePart {
-    /// What it is.
+    /// The kind of the part.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"])))]
     pub kind: PartKind,
     /// In the order of the monomials of its degree.
     pub coefficients: Vec<f64>,
-    /// How often it counts.
+    /// Its multiplicity.
     pub multiplicity: usize,
-    /// What decided its kind.
+    /// The measure that decided its kind.
     // the residual of the curve on a line, or the ratio of eigenvalues of a conic
     pub measure: f64,
 }
@@ -288,7 +287,7 @@ pub struct SingularPoint {
     pub coordinates: [f64; 3],
     /// The point, `None` at infinity.
     pub point: Option<Point3<f64>>,
-    /// What the curve looks like there.
+    /// The kind of the singular point.
     pub kind: SingularKind,
     /// Norm of the gradient there over the norm of the form.
     pub gradient: f64,
@@ -303,9 +302,10 @@ pub struct PlaneCurve {
     pub body: Body,
     /// Origin of the plane coordinates, design units, frame of the body.
     pub origin: Point3<f64>,
-    /// Axes: the point `(x, y)` is `origin + x axes_0 + y axes_1`. Orthogonal, as long as the joints reach.
+    /// Axes: the point `(x, y)` is `origin + x axes_0 + y axes_1`. They are orthogonal and as long as the reach of the
+    /// joints.
     pub axes: [Vector3<f64>; 2],
-    /// Degree of the curve; 0 when there is none, or when the whole plane carries replaceable legs.
+    /// Degree of the curve; 0 without a curve, or if the whole plane has replaceable legs.
     pub degree: usize,
     /// Coefficients of `1, x, y, x^2, x y, y^2, ..` (norm of Bombieri 1, the largest positive).
     pub coefficients: Vec<f64>,
@@ -315,9 +315,9 @@ pub struct PlaneCurve {
     pub parts: Vec<CurvePart>,
     /// Singular points found.
     pub singular_points: Vec<SingularPoint>,
-    /// The numbers that decided.
+    /// The numbers of the decisions.
     pub decisions: Vec<Decision>,
-    /// The same curve for the joints as rational numbers, with its splitting over the complex numbers.
+    /// The same curve with the joints as rational numbers, and its factors over the complex numbers.
     pub exact: Result<ExactCurve, NoExactCurve>,
 }
 
@@ -333,12 +333,12 @@ pub struct PlanePair {
     /// `sum_pq equations[r][p][q] alpha_p beta_q = 0` for the legs, `alpha = (1, x, y)` on the base and `beta` on the
     /// platform.
     pub equations: Vec<[[f64; 3]; 3]>,
-    /// `Some(true)`: the cubic of the base plane of the exact data is proved to have no singular point, so that it does
-    /// not split; `Some(false)`: it has one; `None`: there is no exact cubic, or its numbers are too long.
+    /// `Some(true)`: the exact cubic of the base plane is proved to be smooth, so it is irreducible. `Some(false)`: it
+    /// has a singular point. `None`: there is no exact cubic, or its numbers are too long.
     pub smooth: Option<bool>,
 }
 
-/// What corresponds to a point.
+/// The partners of a point.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Partners {
     /// None: the point is not on the curve.
@@ -352,8 +352,8 @@ pub enum Partners {
 }
 
 impl PlanePair {
-    /// The points of the other plane that make a replaceable leg with a point of the plane of `body`; singular values
-    /// of `M` not above `limit` (unit equations, unit point) count as zero.
+    /// The points of the other plane that form a replaceable leg with a point of the plane of `body`. Singular values
+    /// of `M` up to `limit` (unit equations, unit point) count as zero.
     ///
     /// # Errors
     /// When the decomposition does not converge.
@@ -443,7 +443,7 @@ fn curve(
     })
 }
 
-/// Real singular points: where parts meet, and those of a part that does not split.
+/// Real singular points: intersections of parts, and those of an irreducible part.
 fn singular_points(
     side: &PlaneSide,
     tolerance: f64,
@@ -451,7 +451,7 @@ fn singular_points(
 ) -> Result<(Vec<Vec<f64>>, Option<Decision>), LinalgError> {
     let mut out: Vec<Vec<f64>> = Vec::new();
     let mut add = |p: Vec<f64>| {
-        // a line that touches a conic meets it in a double root, known to the square root of rounding
+        // a tangent line of a conic meets it in a double root, accurate to the square root of rounding
         if !out.iter().any(|q| same_point(q, &p, SAME)) {
             out.push(p);
         }
@@ -502,8 +502,8 @@ mod tests {
     use super::super::form::same_point;
     use super::*;
 
-    /// Legs between two base lines and two platform lines, three each: a line of partners stands over the crossing of
-    /// the base lines.
+    /// Legs between two base lines and two platform lines, three each: the intersection of the base lines has a line of
+    /// partners.
     #[test]
     fn the_crossing_of_two_pairings_is_located_and_nothing_in_a_general_design() {
         let mut rng = Rng::new(41);

@@ -1,7 +1,7 @@
 //! The search for all families of a design.
 //!
-//! Every closed pair is looked at; each family is kept once, with the legs that belong to it, and exact arithmetic
-//! confirms or denies what floating point has found.
+//! Every closed pair is searched. Each family is kept once with its legs, and exact arithmetic confirms or denies the
+//! results of floating point.
 
 use nalgebra::Vector3;
 
@@ -24,16 +24,16 @@ use num::linalg::LinalgError;
 /// Base and platform end in normalised coordinates.
 type NormalisedLeg = (Vector3<f64>, Vector3<f64>);
 
-/// The families with the sets they are, in the order in which they were found.
+/// The families as sets, in the order of their discovery.
 #[derive(Debug)]
 pub(super) struct FamilySearch<'a> {
     pub(super) ends: &'a BothReadings,
     pub(super) span: &'a LegSpan,
     pub(super) rng: Rng,
     pub(super) found: Vec<(FoundComponents, Component)>,
-    /// Two planes: the closed pair and what was found over each.
+    /// Two planes: the closed pair and the results for each.
     pub(super) planes: Vec<(usize, PlaneSide, PlaneSide)>,
-    /// What could not be shown to be complete.
+    /// Parts of the search that may be incomplete.
     pub(super) doubts: Vec<String>,
 }
 
@@ -42,12 +42,12 @@ impl FamilySearch<'_> {
         self.span.normalisation()
     }
 
-    /// How near a leg must be to a family to belong to it.
+    /// Greatest distance of a leg from a family that contains it.
     pub(super) fn near(&self) -> f64 {
         nearness(self.ends.tolerance)
     }
 
-    /// Everything in one closed pair.
+    /// The whole search of one closed pair.
     pub(super) fn pair(&mut self, index: usize, pair: &ClosedPair) -> Result<(), LinalgError> {
         let ends = self.ends.of(&pair.legs);
         let base: Vec<Vector3<f64>> = ends.iter().map(|e| e.0).collect();
@@ -74,7 +74,7 @@ impl FamilySearch<'_> {
         }
     }
 
-    /// A line and any flat: one family over the line. What stands over single points of it stands over joints.
+    /// A line and any flat: one family over the line. Families over single points of it are families over joints.
     fn line(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let flat = &view.product.base;
         let first = view.near[0];
@@ -103,7 +103,7 @@ impl FamilySearch<'_> {
             plane_side(view, exact, &mut self.rng)
         });
         let (base, platform) = (base?, platform?);
-        // lines of both bodies, then conics of both: what is rational is described so
+        // lines of both bodies, then conics of both: rational parts are described first
         let mut only_nearly = false;
         for kind in [PartKind::Line, PartKind::Conic] {
             for (view, side) in [(over_base, &base), (over_platform, &platform)] {
@@ -114,9 +114,9 @@ impl FamilySearch<'_> {
         for part in cubics.cloned().collect::<Vec<_>>() {
             self.cubic(over_base, pair, &part.form, Some(&platform), &base)?;
         }
-        // lines that the exact data do not have: their curve does not split there
+        // lines that the exact data lack: their curve does not split there
         if only_nearly && pair.rank == 6 && pair.reading != Reading::ToleranceOnly {
-            // one that splits otherwise (a conic for two lines) is told in the record of the planes
+            // the record of the planes shows another splitting, such as a conic for two lines
             if !base.exact.as_ref().is_ok_and(|c| !c.has(ExactKind::Cubic)) {
                 let form = base.form.clone();
                 self.cubic(over_base, pair, &form, None, &base)?;
@@ -130,8 +130,8 @@ impl FamilySearch<'_> {
         Ok(())
     }
 
-    /// Families over the parts of one kind of the curve in one plane, and over the plane itself; whether exact
-    /// arithmetic denies one of them.
+    /// Families over the parts of one kind of the curve in one plane, and over the plane itself. Also returns whether
+    /// exact arithmetic denies one of them.
     fn parts(
         &mut self,
         view: &View<'_>,
@@ -160,7 +160,7 @@ impl FamilySearch<'_> {
             for d in &mut found.decisions {
                 match d.question {
                     Question::LineFactor => d.exact = exact.map(usize::from),
-                    // of a conic that is none nothing more is known than that it is not part
+                    // for a degenerate conic it is known only that it is no part
                     Question::ConicRank if exact == Some(true) => d.exact = Some(3),
                     _ => {}
                 }
@@ -170,7 +170,7 @@ impl FamilySearch<'_> {
         Ok(denied)
     }
 
-    /// The family over a cubic that does not split.
+    /// The family over an irreducible cubic.
     fn cubic(
         &mut self,
         view: &View<'_>,
@@ -189,7 +189,7 @@ impl FamilySearch<'_> {
             self.doubts.push(format!("a cubic of legs {} passes through no joint", names(&pair.legs)));
             return Ok(());
         };
-        // the part of the platform's curve on which the partners lie
+        // the part of the platform's curve that contains the partners
         let mut partners: Vec<Vec<f64>> = Vec::new();
         for alpha in points_of(form, 6, &mut self.rng)? {
             partners.extend(view.product.spectrum(&alpha)?.vectors.pop());
@@ -245,7 +245,7 @@ impl FamilySearch<'_> {
                 let exact = exact_fibre(&ends.exact, carrying, &exact_ends[i], &whole.legs);
                 if let Some(found) = view.over_point(&near[i], None)? {
                     let dimension = found.shape.dimension();
-                    // within a larger family every joint has such a flat, and it says nothing new
+                    // in a larger family every joint has such a flat, which adds nothing
                     if !self.inside_larger(&found) {
                         self.add(found, whole, Some(exact == dimension + 1))?;
                     }
@@ -255,9 +255,9 @@ impl FamilySearch<'_> {
         Ok(())
     }
 
-    /// Points of a plane over which whole lines stand that are not joints: crossings of lines through joints, and what
-    /// is left as common zeros of the minors of order 3; that there are no others is shown by the dimension these leave
-    /// of all cubics.
+    /// Points of a plane with a whole line of partners that are not joints. They are intersections of lines through
+    /// joints, and further common zeros of the minors of order 3. The dimension of the cubics through them proves that
+    /// there are no others.
     fn isolated_points(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
         let conditions = super::planes::conditions(view, &mut self.rng)?;
@@ -306,7 +306,7 @@ impl FamilySearch<'_> {
         self.found.iter().any(|(k, c)| c.dimension > found.shape.dimension() && inside(&k.shape))
     }
 
-    /// Adds a family unless it is there already.
+    /// Adds a family unless it is known already.
     pub(super) fn add(
         &mut self,
         mut found: FoundComponents,
@@ -376,7 +376,7 @@ impl FamilySearch<'_> {
         Ok(out)
     }
 
-    /// A random leg, near the joints where there is one: a family whose fixed end is far out has none.
+    /// A random leg, near the joints if possible; a family with a distant fixed end has none there.
     fn sample(&mut self, component: &Component) -> Result<Option<SampledLeg>, LinalgError> {
         let near = component.sample(self.span, &mut self.rng)?;
         if near.is_some() { Ok(near) } else { component.sample_within(1e4, self.span, &mut self.rng) }
@@ -403,8 +403,8 @@ impl FamilySearch<'_> {
         view.carrying.of(((n.base_centre.coords, n.base_unit), (n.platform_centre.coords, n.platform_unit)))
     }
 
-    /// Exact dimension of the partners of a generic point of the flat of the carrying body, if asked on an exact pair:
-    /// the least at points on which no minor of order 4 can vanish without vanishing everywhere.
+    /// Exact dimension of the partners of a generic point of the flat of the carrying body, for exact pairs. It is the
+    /// least over points such that a minor of order 4 that vanishes at all of them vanishes everywhere.
     fn exact_over(&self, view: &View<'_>, pair: &ClosedPair, steps: &[i32]) -> Option<usize> {
         if pair.reading == Reading::ToleranceOnly {
             return Some(usize::MAX);
@@ -459,7 +459,7 @@ impl FamilySearch<'_> {
         ExactCurve::of(&self.ends.exact, &pair.legs, view.carrying)
     }
 
-    /// Whether the exact curve has a line or conic where the one within the tolerance has part `k`.
+    /// Whether the exact curve has a line or conic at part `k` of the curve within the tolerance.
     fn exact_part(&self, view: &View<'_>, side: &PlaneSide, k: usize) -> Result<Option<bool>, LinalgError> {
         let curve = match &side.exact {
             Ok(curve) => curve,
@@ -474,7 +474,7 @@ impl FamilySearch<'_> {
             let along = |t: f64| p.iter().zip(&q).map(|(x, y)| x + t * (y - x)).collect::<Vec<f64>>();
             [-1.0, 0.0, 0.5, 1.0, 2.0].map(along).to_vec()
         } else {
-            // a stream of its own: what is found does not depend on how it is checked
+            // a separate random stream keeps the results independent of their checks
             points_of(&part.form, 8, &mut Rng::new(8))?
         };
         let (centre, unit) = self.frame(view);
@@ -487,8 +487,8 @@ impl FamilySearch<'_> {
         Ok(curve.has_part(|k| if line { lines(k) } else { k == ExactKind::Conic }, &places))
     }
 
-    /// Whether the exact data have partners of that dimension over the crossing of two lines of joints that is nearest
-    /// to a point.
+    /// Whether the exact data have partners of that dimension over the intersection of two lines of joints nearest to a
+    /// point.
     fn exact_meeting(
         &self,
         view: &View<'_>,

@@ -1,4 +1,4 @@
-//! An irreducible family as a set: how far a leg is from it, and explicit formulas for its legs.
+//! An irreducible family as a set: distances of legs from it, and explicit formulas for its legs.
 
 use nalgebra::{Point3, Vector3};
 
@@ -32,7 +32,7 @@ impl Curve {
         }
     }
 
-    /// Parameter `num / den` of the point of the curve near `alpha`, and how far `alpha` is from it.
+    /// Parameter `num / den` of the point of the curve near `alpha`, and the distance of `alpha` from it.
     fn locate(&self, alpha: &[f64]) -> (f64, f64, f64) {
         match self {
             Self::Line { p, q } => {
@@ -88,7 +88,7 @@ impl FamilyShape {
         }
     }
 
-    /// How far a leg (normalised ends) is from the family: distances over the sizes of the bodies, sines of angles.
+    /// Distance of a leg (normalised ends) from the family: distances over the sizes of the bodies, sines of angles.
     pub(super) fn distance(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
         match self {
             Self::Product { base, platform, .. } => base.distance(a).max(platform.distance(b)),
@@ -292,22 +292,22 @@ impl MovingPoint {
 
 /// The legs of a plane cubic and its partner, by the lines through one base joint on the cubic.
 ///
-/// At the parameter `t` in `[0, 2)` the line has the direction `cos(pi t) axes_0 + sin(pi t) axes_1`; besides the
-/// centre it meets the cubic in the two points with `s = (-B +- sqrt(B^2 - 4 A C)) / (2 A)`, the upper sign for
-/// `t < 1`, where `A s^3 + B s^2 + C s` is the cubic at `(1, s cos + c1, s sin + c2)`. The platform point is the null
-/// vector of `M`.
+/// At the parameter `t` in `[0, 2)` the line has the direction `cos(pi t) axes_0 + sin(pi t) axes_1`. Besides the
+/// centre it meets the cubic in the two points `s = (-B +- sqrt(B^2 - 4 A C)) / (2 A)`, with the upper sign for
+/// `t < 1`. `A s^3 + B s^2 + C s` is the cubic at `(1, s cos + c1, s sin + c2)`. The platform point is the null vector
+/// of `M`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CubicPencil {
     /// Origin and axes of the base plane, design units: `a = origin + x axes_0 + y axes_1`.
     pub base_frame: [Vector3<f64>; 3],
     /// Origin and axes of the platform plane.
     pub platform_frame: [Vector3<f64>; 3],
-    /// Coordinates `(1, x, y)` of the joint through which the lines go.
+    /// Coordinates `(1, x, y)` of the common joint of the lines.
     pub centre: [f64; 3],
     /// The cubic of the base plane: coefficients of `1, x, y, x^2, xy, y^2, x^3, x^2 y, x y^2, y^3`.
     pub cubic: [f64; 10],
-    /// `equations[r][p][q]`: `sum alpha_p beta_q equations[r][p][q] = 0` for the legs with `alpha = (1, x, y)` on the
-    /// base and `beta` likewise on the platform.
+    /// `equations[r][p][q]`: `sum alpha_p beta_q equations[r][p][q] = 0` for the legs, with `alpha = (1, x, y)` on the
+    /// base and `beta` in the same form on the platform.
     pub equations: Vec<[[f64; 3]; 3]>,
 }
 
@@ -337,8 +337,8 @@ impl Parametrisation {
         }
     }
 
-    /// The leg at the parameters; `None` where an end is at infinity, where the line through the centre meets the cubic
-    /// in no further real point, or where parameters are missing.
+    /// The leg at the parameters. `None` if an end is at infinity, the line through the centre has no further real
+    /// point of the cubic, or parameters are missing.
     ///
     /// # Errors
     /// When a singular value decomposition does not converge.
@@ -398,7 +398,7 @@ impl CubicPencil {
         s.is_finite().then(|| [1.0, self.centre[1] + s * cos, self.centre[2] + s * sin])
     }
 
-    /// The platform point (homogeneous plane coordinates) that belongs to a base point of the cubic.
+    /// The platform point (homogeneous plane coordinates) of a base point of the cubic.
     ///
     /// # Errors
     /// When a singular value decomposition does not converge.

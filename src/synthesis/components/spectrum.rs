@@ -1,21 +1,21 @@
-//! Ranks, kernels and least squares by singular values, and the record of what a singular value or a residual decided.
+//! Ranks, kernels and least squares by singular values, and the record of each numerical decision.
 
 use num::linalg::{LinalgError, svd};
 
-/// Kernels of computed polynomials and minors know a digit less than the data: what counts as zero there, over the
-/// tolerance of the data.
+/// Factor of the tolerance for kernels of computed polynomials and minors, which are accurate to a digit less than the
+/// data.
 pub(super) const COMPUTED: f64 = 10.0;
 /// Parts of unit vectors below this add no dimension to a span of computed vectors.
 pub(super) const NO_DIMENSION: f64 = 1e-7;
-/// Unit homogeneous points and lines whose directions differ by less are one: a double root is known to the square root
-/// of rounding.
+/// Unit homogeneous points and lines whose directions differ by less count as one: a double root is accurate to the
+/// square root of rounding.
 pub(super) const SAME: f64 = 1e-6;
 /// First coordinate of a unit homogeneous point below which the point is at infinity.
 pub(super) const AT_INFINITY: f64 = 1e-9;
-/// Least distance of two joints that a line is drawn through, in reaches of the joints.
+/// Least distance of two joints for a line through them, in reaches of the joints.
 pub(super) const APART: f64 = 1e-3;
 
-/// How near a leg or a joint must be to a set that was computed from the data to belong to it, in sizes of the body.
+/// Greatest distance of a leg or joint from a computed set that contains it, in sizes of the body.
 pub(super) fn nearness(tolerance: f64) -> f64 {
     (COMPUTED * tolerance).max(1e-8)
 }
@@ -25,12 +25,12 @@ pub(super) fn nearness(tolerance: f64) -> f64 {
 pub(crate) struct Spectrum {
     /// Singular values, largest first, padded with zeros to `n` entries.
     pub(crate) values: Vec<f64>,
-    /// Right singular vectors, one an entry, in the order of `values`: an orthonormal basis of `R^n`.
+    /// Right singular vectors, one per entry, in the order of `values`: an orthonormal basis of `R^n`.
     pub(crate) vectors: Vec<Vec<f64>>,
 }
 
 impl Spectrum {
-    /// Of the matrix with these rows; none at all is the zero matrix.
+    /// The spectrum of the matrix with these rows; without rows it is the zero matrix.
     pub(crate) fn of(rows: &[Vec<f64>], n: usize) -> Result<Self, LinalgError> {
         if rows.is_empty() || n == 0 {
             let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
@@ -75,7 +75,7 @@ pub(crate) fn unit(a: &[f64]) -> Vec<f64> {
     if n > 0.0 { a.iter().map(|x| x / n).collect() } else { a.to_vec() }
 }
 
-/// What is left of `a` without its parts along an orthonormal system.
+/// The remainder of `a` without its parts along an orthonormal system.
 pub(crate) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = a.to_vec();
     for _ in 0..2 {
@@ -87,7 +87,7 @@ pub(crate) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
     rest
 }
 
-/// An orthonormal basis of the span of `vectors`, leaving out what is shorter than `limit` of its vector.
+/// An orthonormal basis of the span of `vectors`; remainders shorter than `limit` of their vector are left out.
 pub(crate) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for v in vectors {
@@ -101,7 +101,7 @@ pub(crate) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
 
 /// The shortest `x` that minimises `|sum_k x_k columns_k - target|`, and that distance over `|target|`.
 pub(crate) fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<(Vec<f64>, f64), LinalgError> {
-    // rows of the transposed system: left singular vectors of it are the coefficients
+    // rows of the transposed system: its left singular vectors are the coefficients
     let d = svd(columns)?;
     let top = d.s.first().copied().unwrap_or(0.0);
     let mut x = vec![0.0; columns.len()];
@@ -117,7 +117,7 @@ pub(crate) fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<(Vec
     Ok((x, if size > 0.0 { norm(&rest) / size } else { 0.0 }))
 }
 
-/// Real roots of `c[0] + c[1] x + ..`, those of a leading coefficient below `1e-13` of the largest left out.
+/// Real roots of `c[0] + c[1] x + ..`; leading coefficients below `1e-13` of the largest are ignored.
 pub(crate) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
     let size = c.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let Some(degree) = c.iter().rposition(|x| x.abs() > 1e-13 * size) else { return Ok(Vec::new()) };
@@ -132,14 +132,14 @@ pub(crate) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
         })
         .collect();
     let roots = num::linalg::eigenvalues(&companion)?;
-    // a double root comes out as a pair with imaginary parts of the square root of rounding
+    // a double root appears as a pair with imaginary parts of the square root of rounding
     let near = |z: &f64, im: f64| im.abs() <= 1e-6 * (1.0 + z.abs());
     let mut real: Vec<f64> = roots.iter().filter(|z| near(&z.re, z.im)).map(|z| z.re).collect();
     real.sort_by(f64::total_cmp);
     Ok(real)
 }
 
-/// What a number decided.
+/// The question of a numerical decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Question {
@@ -149,9 +149,9 @@ pub enum Question {
     PlatformDimension,
     /// Rank of leg vectors.
     LegRank,
-    /// Rank of `M(a)` at a generic base point of the curve or flat the family stands over.
+    /// Rank of `M(a)` at a generic base point of the curve or flat below the family.
     RankOverBase,
-    /// Rank of the transposed matrix at a generic platform point of the curve or flat the family stands over.
+    /// Rank of the transposed matrix at a generic platform point of the curve or flat below the family.
     RankOverPlatform,
     /// Degree of the common factor of the minors of `M`.
     CommonFactor,
@@ -187,13 +187,13 @@ impl Question {
 /// of an equation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
-    /// What was asked.
+    /// The question.
     pub question: Question,
-    /// The answer the family was built on.
+    /// The answer used for the family.
     pub value: usize,
-    /// The answer with the tolerance.
+    /// The answer within the tolerance.
     pub numerical: usize,
-    /// The answer of exact arithmetic on the doubles, where it was asked.
+    /// The answer of exact arithmetic on the doubles, if it was computed.
     pub exact: Option<usize>,
     /// The smallest number that counted as different from zero.
     pub above: Option<f64>,
@@ -204,7 +204,8 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// A rank read off singular values (largest first); `value` is the numerical rank until told otherwise.
+    /// A rank from singular values (largest first); `value` is the numerical rank until [`taken`](Self::taken) changes
+    /// it.
     pub(super) fn rank(question: Question, values: &[f64], scale: f64, tolerance: f64) -> Self {
         let relative: Vec<f64> = values.iter().map(|s| if scale > 0.0 { s / scale } else { 0.0 }).collect();
         let rank = relative.iter().filter(|s| **s > tolerance).count();
@@ -219,19 +220,19 @@ impl Decision {
         }
     }
 
-    /// The same decision next to what exact arithmetic says.
+    /// The same decision with the answer of exact arithmetic.
     pub(super) fn beside(mut self, exact: Option<usize>) -> Self {
         self.exact = exact;
         self
     }
 
-    /// The same decision taken as `value`.
+    /// The same decision with `value` as the answer.
     pub(super) fn taken(mut self, value: usize) -> Self {
         self.value = value;
         self
     }
 
-    /// Whether exact arithmetic gives the answer that was used; `None` when it was not asked.
+    /// Whether exact arithmetic gives the answer used; `None` if it was not computed.
     #[must_use]
     pub fn agrees(&self) -> Option<bool> {
         self.exact.map(|e| e == self.value)

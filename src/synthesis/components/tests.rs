@@ -83,7 +83,7 @@ fn one(c: &Components, kind: &str, of: &str, dimension: usize, legs: &[usize]) {
     check_samples(c, 1e-9);
 }
 
-/// As `one`, and exact arithmetic confirms it.
+/// The test of `one`, confirmed by exact arithmetic.
 fn one_exactly(c: &Components, kind: &str, of: &str, dimension: usize, legs: &[usize]) {
     one(c, kind, of, dimension, legs);
     assert_eq!(c.components[0].exact, Some(true));
@@ -95,7 +95,7 @@ fn one_exactly(c: &Components, kind: &str, of: &str, dimension: usize, legs: &[u
 fn a_general_design_has_none() {
     let c = found(&design(3, 3, 6, &mut Rng::new(1)));
     assert!(c.components.is_empty() && c.doubts.is_empty() && c.leg_rank.value == 6);
-    // space and plane: none either, and that is shown
+    // space and plane: none either, and this is proved
     let c = found(&design(2, 3, 6, &mut Rng::new(2)));
     assert!(c.components.is_empty() && c.doubts.is_empty(), "{:?} {:?}", list(&c), c.doubts);
     let c = found(&design(3, 2, 6, &mut Rng::new(3)));
@@ -109,7 +109,8 @@ fn shared_joints_carry_lines_planes_and_space() {
         let legs = design(0, 3, count, &mut rng);
         let c = found(&legs);
         let all: Vec<usize> = (1..=count).collect();
-        // with four legs at a joint the other legs gain families of their own: the joint reaches every platform point
+        // with four legs at a joint the other legs gain families of their own: every platform point pairs with the
+        // joint
         let top = c.components.iter().max_by_key(|x| x.dimension).unwrap();
         assert_eq!((top.type_name().as_str(), top.dimension, top.base_span), (of, count - 1, 0));
         assert_eq!(top.legs.iter().map(|l| l.get() + 1).collect::<Vec<_>>(), all);
@@ -164,7 +165,7 @@ fn a_pairing_of_rank_one_is_two_point_line_families() {
     let all = list(&c);
     assert_eq!(all.len(), 2);
     assert_eq!(all[0], ("point-line".into(), "all_pairs", 1, vec![1, 2]));
-    // its platform joint is that of leg 3 only, and the other leg of it is none of the design's
+    // its platform joint is that of leg 3 only, and its other leg does not belong to the design
     assert_eq!(all[1], ("point-line".into(), "all_pairs", 1, vec![3]));
     assert_eq!(c.components[1].support.len(), 3);
     check_samples(&c, 1e-12);
@@ -252,7 +253,7 @@ fn six_sampled_legs_are_an_equivalent_platform_and_a_point_off_the_cubic_is_not_
     let map = leg_map(&from, &to, LegMapTolerances::default()).unwrap();
     assert!(map.is_regular_within_rounding());
     assert!(map.residual < 1e-10 && map.determinant.abs() > 1e-9);
-    // off the cubic by 1e-3 of the size no platform point does
+    // at 1e-3 of the size off the cubic no platform point is a partner
     let planes = &c.planes[0];
     let mut off = new[0];
     off.base += planes.base.axes[0] * 1e-3;
@@ -262,7 +263,7 @@ fn six_sampled_legs_are_an_equivalent_platform_and_a_point_off_the_cubic_is_not_
     assert!(curve_value(&planes.base, [1.0, x[0], x[1]]).abs() > 1e-6);
     let partners = planes.partners(platform::manipulator::Body::Base, [1.0, x[0], x[1]], 1e-8).unwrap();
     assert_eq!(partners, Partners::None);
-    // and on it the partner is the platform end
+    // and on the cubic the partner is the platform end
     let d = new[0].base - planes.base.origin;
     let x = planes.base.axes.map(|a| a.dot(&d) / a.norm_squared());
     let Partners::Point(b) =
@@ -288,12 +289,11 @@ fn a_joint_off_by_a_millionth_keeps_the_family_within_the_tolerance_only() {
         c.components.iter().filter(|x| x.exact == exact && x.type_name() == "point-line").count()
     };
     assert_eq!(six(&found(&legs), Some(true)), 6);
-    // along an edge the new joint is one more member of the class: the sixth side stands over the point where edges
-    // meet
+    // along an edge the new joint gives another member of the class: the sixth side is over the intersection of edges
     let mut slid = legs;
     slid[0].base += (legs[1].base - legs[0].base) * 1e-6;
     assert_eq!(list(&found(&slid)).len(), 6);
-    // out of the plane the line of partners of the corner that two legs shared is gone
+    // out of the plane, the line of partners of the shared corner disappears
     legs[0].base.z += 2e-6;
     let strict = found(&legs);
     assert_eq!((six(&strict, Some(true)), six(&strict, Some(false))), (5, 0), "{:?}", list(&strict));
@@ -314,7 +314,7 @@ fn frames_order_unit_and_exchange_of_the_bodies_do_not_matter() {
         let plain = found(&legs);
         let (r, q) = (Rotation3::new(p(&mut rng)), Rotation3::new(p(&mut rng)));
         let (u, v) = (p(&mut rng), p(&mut rng) * 10.0);
-        // rotations round the joints: what was a flat is one to 1e-15
+        // rotations round the joints, so flats hold to 1e-15
         let moved = legs.map(|l| Leg { base: r * l.base + u, platform: q * l.platform + v });
         let key = |c: &Components| {
             c.components.iter().map(|x| (x.type_name(), x.kind.name(), x.dimension)).collect::<Vec<_>>()
@@ -369,7 +369,7 @@ fn dependent_legs_are_said_to_be_dependent() {
     assert_eq!((c.leg_rank.value, c.leg_rank.exact), (5, Some(5)));
     one(&c, "all_pairs", "point-line", 1, &[1, 2, 3]);
     assert_eq!(c.components[0].exact, Some(true));
-    // off by rounding the three are independent as doubles, which decides the rank, and a plane of legs is exact
+    // with rounding errors the three are independent as doubles, which decides the rank, and a plane of legs is exact
     legs[2].platform.x += 1e-15;
     let c = found(&legs);
     assert_eq!((c.leg_rank.value, c.leg_rank.numerical, c.leg_rank.exact), (6, 5, Some(6)));
@@ -418,7 +418,7 @@ fn conics_are_exact_or_denied() {
         leg.platform = Point3::new(*t, t * t, t * t * t);
     }
     one_exactly(&found(&twisted), "over_conic", "plane-space", 1, &[1, 2, 3, 4, 5, 6]);
-    // spoilt beyond rounding and below the tolerance
+    // disturbed by more than rounding and less than the tolerance
     legs[4].platform.x += 1e-12;
     let c = found(&legs);
     assert_eq!(list(&c).len(), 1);

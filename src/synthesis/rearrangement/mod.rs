@@ -1,9 +1,9 @@
-//! Says for each of the topologies whether equivalent rearrangement frees it of shared joints or makes it octahedral.
+//! Whether equivalent rearrangement frees each of the topologies of shared joints or makes it octahedral.
 //!
-//! The replaceable legs of a design are the points of its leg span `L` on the Segre variety; an equivalent
-//! rearrangement is a choice of six of them that span `L`. For general members of a topology, bodies in space or in a
-//! plane, the families of replaceable legs are found in exact arithmetic; how few joints six legs can share follows
-//! from ranks of unions of families (Rado's theorem on independent transversals). Theorems and proofs:
+//! The replaceable legs of a design are the points of its leg span `L` on the Segre variety. An equivalent
+//! rearrangement is a choice of six of them that span `L`. For general members of a topology, with bodies in space or
+//! in a plane, exact arithmetic finds the families of replaceable legs. Ranks of unions of families give the least
+//! number of shared joints of six legs (Rado's theorem on independent transversals). Theorems and proofs:
 //! `docs/theory/rearrangements.md`.
 
 mod octahedral;

@@ -1,8 +1,8 @@
 //! Whether a design is equivalent to an octahedral one.
 //!
 //! The replaceable legs of an octahedral design are the six sides of a hexagon of lines between two planes, and nothing
-//! else (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among
-//! them is a proof that there is no octahedral one.
+//! else (`docs/theory/octahedral-class.md`). Every equivalent design has the same replaceable legs, so any other family
+//! proves that no octahedral design is equivalent.
 
 use super::pieces::{Piece, PlaneGroups, scroll};
 use super::sample::{Arrangement, DesignSample, leg_through};
@@ -13,13 +13,13 @@ use platform::topology::Topology;
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reduction {
-    /// This octahedral design is equivalent.
+    /// An equivalent octahedral design.
     Octahedral(Arrangement),
-    /// None is.
+    /// No octahedral design is equivalent.
     Not(NoOctahedralEquivalent),
 }
 
-/// Why no octahedral design is equivalent.
+/// The reason why no octahedral design is equivalent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoOctahedralEquivalent {
@@ -27,7 +27,7 @@ pub enum NoOctahedralEquivalent {
     BodyInSpace(Body),
     /// There is a family of dimension two or three.
     Surface,
-    /// There is a replaceable leg whose ends have no further partners: it lies on no line of legs.
+    /// There is a replaceable leg whose ends have no further partners: it belongs to no line of legs.
     LegOnNoLine,
 }
 
@@ -44,7 +44,7 @@ impl NoOctahedralEquivalent {
     }
 }
 
-/// Decides from all families.
+/// The decision from all families.
 pub(super) fn from_families(sample: &DesignSample, pieces: &[Piece]) -> Option<Reduction> {
     if let Some(body) = in_space(sample) {
         return Some(Reduction::Not(NoOctahedralEquivalent::BodyInSpace(body)));
@@ -58,7 +58,7 @@ pub(super) fn from_families(sample: &DesignSample, pieces: &[Piece]) -> Option<R
     corners(sample, pieces).map(Reduction::Octahedral)
 }
 
-/// Decides from the cubics of two planes.
+/// The decision from the cubics of two planes.
 pub(super) fn from_cubics(
     sample: &DesignSample,
     planes: &PlaneGroups,

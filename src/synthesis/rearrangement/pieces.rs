@@ -1,23 +1,23 @@
 //! Irreducible families of replaceable legs in exact form, found for three kinds of designs.
 //!
-//! Designs whose legs span a sum of stars: `L = sum_j alpha_j (x) V_j` with independent points `alpha_j` of one body.
+//! First kind: designs whose legs span a sum of stars, `L = sum_j alpha_j (x) V_j` with independent points `alpha_j` of
+//! one body.
 //!
-//! Then `(a, b)` with `(1, a) = sum_j lambda_j alpha_j` is replaceable exactly when `(1, b)` lies in `V_j` for every
-//! `j` with `lambda_j != 0`, so that the replaceable legs are the legs between the flats `span(alpha_j, j in S)` and
-//! `V_S`, the intersection of the `V_j` with `j` in `S`.
+//! Then `(a, b)` with `(1, a) = sum_j lambda_j alpha_j` is replaceable exactly if `(1, b)` lies in `V_j` for every `j`
+//! with `lambda_j != 0`. So the replaceable legs are the legs between the flats `span(alpha_j, j in S)` and `V_S`, the
+//! intersection of the `V_j` with `j` in `S`.
 //!
-//! Designs with one body or both in space and too many joints for a sum of stars: families at the joints, and one
-//! pairing.
+//! Second kind: designs with one body or both in space and too many joints for a sum of stars. They have families at
+//! the joints, and one pairing.
 //!
-//! A leg that is a combination of legs `S` with coefficients all different from zero needs `|S| >= i + j + 1` (lemma of
-//! `docs/theory/components.md`). If the joints of one body used by `S` are independent the argument for stars holds for
-//! `S`; otherwise `i` and `j` are the dimensions of the bodies, and only a plane and a space with all six legs are
-//! left.
+//! A leg that is a combination of legs `S` with nonzero coefficients needs `|S| >= i + j + 1` (lemma of
+//! `docs/theory/components.md`). If the joints of one body in `S` are independent, the argument for stars holds for
+//! `S`. Otherwise `i` and `j` are the dimensions of the bodies, and only a plane and a space with all six legs remain.
 //!
-//! Replaceable legs between two planes, drawn from the pair of cubics by chords.
+//! Third kind: replaceable legs between two planes, constructed from the pair of cubics by chords.
 //!
 //! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic
-//! `det M = 0` meets it once more, so that six rational legs lead to further rational ones.
+//! `det M = 0` meets it once more, so six rational legs give further rational ones.
 
 use super::sample::{DesignSample, finite, integer, leg_through, meet, subsets, weighted};
 use num::Rng;
@@ -43,16 +43,16 @@ pub enum PieceKind {
 /// One irreducible family of replaceable legs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// How the ends are paired.
+    /// The pairing of its ends.
     pub kind: PieceKind,
     /// Homogeneous coordinates of points that span the flat of the base ends.
     pub(super) base: Vec<ExactVector>,
-    /// Points that span the flat of the platform ends; for a pairing partner `k` belongs to base point `k`, and sums to
+    /// Points that span the flat of the platform ends. In a pairing, partner `k` belongs to base point `k`, and sums to
     /// sums.
     pub(super) platform: Vec<ExactVector>,
-    /// Where its legs lie: summands of the span of all legs, with the dimension it has in each at most.
+    /// The summands of the span of all legs that contain its legs.
     pub(super) parts: Vec<usize>,
-    /// That dimension.
+    /// Greatest dimension of the span of its legs in each of these summands.
     pub(super) weight: usize,
 }
 
@@ -94,13 +94,13 @@ impl Piece {
         &self.parts
     }
 
-    /// See [`parts`](Self::parts).
+    /// The greatest dimension in each of the [`parts`](Self::parts).
     #[must_use]
     pub fn weight(&self) -> usize {
         self.weight
     }
 
-    /// Whether all its legs, more than one, meet in a joint.
+    /// Whether all its legs, more than one, share a joint.
     #[must_use]
     pub fn has_common_joint(&self) -> bool {
         (self.base.len() == 1) != (self.platform.len() == 1)
@@ -128,7 +128,7 @@ impl Piece {
     }
 }
 
-/// Barycentric coordinates, quarters and halves: points spread about the given ones.
+/// Barycentric coordinates in quarters and halves, for points spread about the given ones.
 fn weights(count: usize, rng: &mut Rng) -> Vec<Rational> {
     const LINE: [[i64; 2]; 8] = [[2, 2], [1, 3], [3, 1], [6, -2], [-2, 6], [5, -1], [-1, 5], [8, -4]];
     let quarter = |x: i64| integer(x) / integer(4);
@@ -137,7 +137,7 @@ fn weights(count: usize, rng: &mut Rng) -> Vec<Rational> {
     }
     let mut out = vec![integer(1)];
     for _ in 1..count {
-        // one point of the simplex so far, then the line to the next vertex
+        // the current point of the simplex, then the line to the next vertex
         let [s, t] = LINE[(rng.next_u64() % 8) as usize].map(quarter);
         for w in &mut out {
             *w *= &s;
@@ -147,7 +147,7 @@ fn weights(count: usize, rng: &mut Rng) -> Vec<Rational> {
     out
 }
 
-/// A point of a body and joints of the other one to which it has replaceable legs in every design of the topology.
+/// A point of a body, and the joints of the other one to which it has replaceable legs in every design of the topology.
 #[derive(Debug, Clone)]
 struct Star {
     point: ExactVector,
@@ -161,24 +161,25 @@ pub(super) struct SplitFamilies {
     pub(super) summands: Vec<usize>,
 }
 
-/// What was found about a sample.
+/// The result for a sample.
 #[derive(Debug, Clone)]
 pub(super) enum SampleOutcome {
     /// All families of the sample, which are those of every general member.
     Found(SplitFamilies),
-    /// An intersection is larger than it is in general: another sample has to be drawn.
+    /// An intersection is larger than in general: another sample is needed.
     Special,
-    /// The span is no such sum.
+    /// The span is not such a sum.
     None,
 }
 
-/// Joints of a body whose legs reach every point of the other body's flat.
+/// Joints of a body with legs to every point of the other body's flat.
 fn full(sample: &DesignSample, body: Body) -> Vec<usize> {
     let enough = sample.dimension(body.other()) + 1;
     (0..sample.joints(body).len()).filter(|k| sample.neighbours(body, *k).len() >= enough).collect()
 }
 
-/// The joints of a body, and the points of its plane where the lines of two double joints of the other body cross.
+/// The stars of a body: its joints, and the intersections in its plane of the lines of two double joints of the other
+/// body.
 fn stars(sample: &DesignSample, body: Body) -> Vec<Star> {
     let there = body.other();
     let everywhere = full(sample, there);
@@ -203,7 +204,7 @@ fn stars(sample: &DesignSample, body: Body) -> Vec<Star> {
     out
 }
 
-/// Finds the sum over points of `body`.
+/// The sum over points of `body`.
 pub(super) fn split(sample: &DesignSample, body: Body) -> SampleOutcome {
     let there = body.other();
     let (own, most) = (sample.dimension(body) + 1, sample.dimension(there) + 1);
@@ -218,8 +219,7 @@ pub(super) fn split(sample: &DesignSample, body: Body) -> SampleOutcome {
     families(sample, body, &basis).map_or(SampleOutcome::Special, SampleOutcome::Found)
 }
 
-/// The least dimension that the intersection of the `V_j` has: joints in common, and what counting dimensions
-/// guarantees.
+/// The least dimension of the intersection of the `V_j`, from common joints and from counting dimensions.
 fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
     let Some((first, rest)) = set.split_first() else { return most };
     let common =
@@ -232,7 +232,7 @@ fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
     parts.max().unwrap_or(0).max(common)
 }
 
-/// The families; `None` when an intersection has more than its least dimension.
+/// The families; `None` if an intersection has more than its least dimension.
 fn families(sample: &DesignSample, body: Body, basis: &[&Star]) -> Option<SplitFamilies> {
     let there = body.other();
     let most = sample.dimension(there) + 1;
@@ -288,7 +288,7 @@ pub(super) fn at_joints(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Op
     Some(split)
 }
 
-/// Whether the flats that two joints see on the other body have joints in common and nothing else.
+/// Whether the flats of the neighbours of two joints on the other body intersect only in common joints.
 fn flats_meet_in_joints(sample: &DesignSample, body: Body) -> bool {
     let there = body.other();
     subsets(sample.joints(body).len()).filter(|s| s.len() == 2).all(|pair| {
@@ -299,7 +299,7 @@ fn flats_meet_in_joints(sample: &DesignSample, body: Body) -> bool {
     })
 }
 
-/// Maximal sets of joints that are all joined to each each leg in at least one.
+/// Maximal sets of joints with a leg between every two on different bodies, such that each leg is in at least one set.
 fn complete_graphs(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
     let count = sample.joints(Body::Base).len();
     let seen: Vec<Vec<usize>> = (0..count).map(|k| sample.neighbours(Body::Base, k)).collect();
@@ -319,17 +319,19 @@ fn complete_graphs(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Vec<Pie
     sets.map(piece).collect()
 }
 
-/// The pairing of the line `a1 a2` of a planar body of four joints with the line in space through the double joint `b`
-/// that meets the flats which `a1` and `a2` see, where `b` is joined to the other two joints and no other joint is.
+/// The pairing of the line `a1 a2` of a planar body of four joints with a line in space. The line goes through the
+/// double joint `b` and meets the flats of the neighbours of `a1` and `a2`. Joint `b` is joined to the other two
+/// joints, and no other joint is.
 ///
-/// With `b = w1 + w2` (`wk` in the flat of `ak`) and the crossing `c = a1 + a2` (suitably scaled) of `a1 a2` with the
-/// line of the other two joints, the legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are replaceable and lie between two lines.
+/// Let `b = w1 + w2` (`wk` in the flat of `ak`). Let `c = a1 + a2` (suitably scaled) be the intersection of `a1 a2`
+/// with the line of the other two joints. The legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are then replaceable and lie
+/// between two lines.
 fn pairing(sample: &DesignSample, planar: Body) -> Option<Piece> {
     let space = planar.other();
     if sample.joints(planar).len() != 4 || sample.joints(space).len() != 5 {
         return None;
     }
-    // its rank is counted in a summand of its own, after those of the six legs
+    // its rank counts in a separate summand, after those of the six legs
     let double = (0..5).find(|k| sample.neighbours(space, *k).len() == 2)?;
     let held = sample.neighbours(space, double);
     let free: Vec<usize> = (0..4).filter(|k| !held.contains(k)).collect();
@@ -346,7 +348,7 @@ fn pairing(sample: &DesignSample, planar: Body) -> Option<Piece> {
     Some(Piece { kind: PieceKind::Pairing, base, platform, parts: vec![6], weight: 3 })
 }
 
-/// `x = u + v` with `u` and `v` in two spans that have only zero in common.
+/// `x = u + v` with `u` and `v` in two spans that intersect only in zero.
 fn parts(x: &ExactVector, spans: [&[ExactVector]; 2]) -> Option<[ExactVector; 2]> {
     let rows: Vec<ExactVector> = spans[0].iter().chain(spans[1]).chain([x]).cloned().collect();
     let relation = relations(&rows).into_iter().next()?;
@@ -364,7 +366,7 @@ pub(super) struct PlaneGroups {
 }
 
 impl PlaneGroups {
-    /// Of six legs with independent vectors.
+    /// The equations of six legs with independent vectors.
     pub(super) fn of(sample: &DesignSample) -> Self {
         let vectors: Vec<ExactVector> = sample.legs().iter().map(|l| flat(&l.base, &l.platform)).collect();
         let columns: Vec<ExactVector> =
@@ -420,7 +422,7 @@ impl PlaneGroups {
         all.iter().filter_map(finite).collect()
     }
 
-    /// The six legs, and legs at chords of the two cubics through joints, those with the shorter numbers first.
+    /// The six legs, and legs from chords of the two cubics through joints, those with the shorter numbers first.
     pub(super) fn legs(&self, sample: &DesignSample) -> Vec<ExactLeg> {
         let mut out = sample.legs();
         for body in Body::BOTH {
@@ -457,20 +459,20 @@ impl PlaneGroups {
         }
     }
 
-    /// Whether each end of the leg has the other one as its only partner.
+    /// Whether each end of the leg has no other partner.
     pub(super) fn alone(&self, leg: &ExactLeg) -> bool {
         self.partners(Body::Base, &leg.base).len() == 1
             && self.partners(Body::Platform, &leg.platform).len() == 1
     }
 }
 
-/// Whether five of the legs and of those they imply lie between the line of two joints of a body and the other plane:
-/// then every point of the line has a line of partners.
+/// Whether five of the legs, including implied ones, lie between the line of two joints of a body and the other plane.
+/// Then every point of the line has a line of partners.
 pub(super) fn scroll(sample: &DesignSample) -> bool {
     Body::BOTH.into_iter().any(|body| {
         let there = body.other();
-        // two legs at a joint of the other body imply one at the crossing of the line of their joints with the line in
-        // question
+        // two legs at a joint of the other body imply one at the intersection of the line of their joints with this
+        // line
         let crossing = |pair: &[usize]| {
             let joints = (0..sample.joints(there).len()).map(|k| sample.neighbours(there, k));
             joints.filter(|s| s.len() == 2 && s.iter().all(|k| !pair.contains(k))).count()

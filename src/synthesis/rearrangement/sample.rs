@@ -1,4 +1,4 @@
-//! A member of a topology with small integer coordinates in exact arithmetic, and six exact legs as a design with the
+//! A member of a topology with small integer coordinates in exact arithmetic. Also six exact legs as a design, with the
 //! proof that it is equivalent to another one.
 
 use nalgebra::Point3;
@@ -46,7 +46,7 @@ pub(super) fn leg_through(base: &ExactVector, platform: &ExactVector) -> Option<
 }
 
 impl DesignSample {
-    /// Joints drawn from the integers `-9..=9`, planar bodies in `z = 0`.
+    /// A sample with joints from the integers `-9..=9`, and planar bodies in `z = 0`.
     pub(super) fn draw(legs: [(usize, usize); 6], planar: (bool, bool), rng: &mut Rng) -> Self {
         let mut joints = |count: usize, planar: bool| -> Vec<ExactVector> {
             let mut coordinate = || (rng.next_u64() % 19).cast_signed() - 9;
@@ -94,8 +94,8 @@ impl DesignSample {
         self.legs.iter().map(leg).collect()
     }
 
-    /// Whether no joints coincide, any joints of a body as many as its flat allows are independent, and so are the six
-    /// leg vectors.
+    /// Whether the sample is general. No joints coincide, as many joints as the flat of a body allows are independent,
+    /// and so are the six leg vectors.
     pub(super) fn is_general(&self, planar: (bool, bool)) -> bool {
         let vectors: Vec<ExactVector> = self.legs().iter().map(ExactLeg::vector).collect();
         let general = |body: Body, planar: bool| {
@@ -113,7 +113,7 @@ fn rounded(x: &ExactVector) -> Point3<f64> {
     Point3::new(near(&x[1]), near(&x[2]), near(&x[3]))
 }
 
-/// All subsets of `0..count` without the empty one.
+/// All nonempty subsets of `0..count`.
 pub(super) fn subsets(count: usize) -> impl Iterator<Item = Vec<usize>> {
     (1..1usize << count).map(move |set| (0..count).filter(|k| set >> k & 1 == 1).collect())
 }
@@ -127,12 +127,12 @@ pub struct Arrangement {
 }
 
 impl Arrangement {
-    /// The design of a sample's own joints.
+    /// The design of a sample with its original joints.
     pub(super) fn of_sample(sample: &DesignSample) -> Option<Self> {
         Self::of_legs(&sample.legs())
     }
 
-    /// Ends at one place become one joint; `None` unless there are six legs.
+    /// Coincident ends become one joint; `None` unless there are six legs.
     pub(super) fn of_legs(legs: &[ExactLeg]) -> Option<Self> {
         let (mut base, mut platform) = (Vec::new(), Vec::new());
         let pairs: Vec<(usize, usize)> =
@@ -155,7 +155,7 @@ impl Arrangement {
         shared(self.base.len(), |l| l.0) + shared(self.platform.len(), |l| l.1)
     }
 
-    /// Twelve less the number of joints.
+    /// Twelve minus the number of joints.
     #[must_use]
     pub fn merged_ends(&self) -> usize {
         12 - self.base.len() - self.platform.len()
@@ -176,7 +176,7 @@ impl Arrangement {
     /// The design with its coordinates rounded to doubles.
     ///
     /// # Errors
-    /// [`InvalidManipulator`] when the joints make no manipulator.
+    /// [`InvalidManipulator`] if the joints form no manipulator.
     pub fn manipulator(&self) -> Result<Manipulator, InvalidManipulator> {
         let points = |list: &[ExactVector]| list.iter().map(rounded).collect::<Vec<Point3<f64>>>();
         Manipulator::try_new(points(&self.base), points(&self.platform), self.legs)

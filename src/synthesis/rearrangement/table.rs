@@ -1,6 +1,6 @@
 //! The answer for one topology, and for all of them.
 //!
-//! How few joints six legs share follows from how they can be spread over the families.
+//! The possible distributions of six legs over the families determine the least number of shared joints.
 
 use thiserror::Error;
 
@@ -13,7 +13,7 @@ use num::{Purpose, Rng};
 use platform::manipulator::{Body, ExactLeg};
 use platform::topology::{NamedTopology, catalogue};
 
-/// Which bodies have all their joints in a plane.
+/// The bodies with all joints in a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PlanarBodies {
     /// The base joints lie in a plane.
@@ -22,18 +22,18 @@ pub struct PlanarBodies {
     pub platform: bool,
 }
 
-/// How the families were found.
+/// The method that found the families.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Argument {
     /// The span of the legs is a sum of stars at independent points of a body: all families are in the list.
     Stars(Body),
     /// The lemma on supports leaves the joints and at most one pairing: all families are in the list.
     Supports,
-    /// Two planes with a pair of curves: families are not listed. That joints can be free is shown by the design.
+    /// Two planes with a pair of curves: families are not listed. The design shows that joints can be free.
     Curves,
 }
 
-/// What equivalent rearrangement can do for the general members of a topology.
+/// The result of equivalent rearrangement for the general members of a topology.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rearrangement {
     /// The topology.
@@ -42,26 +42,26 @@ pub struct Rearrangement {
     pub planar: PlanarBodies,
     /// A member with small integer coordinates.
     pub member: Arrangement,
-    /// How the families were found.
+    /// The method that found the families.
     pub argument: Argument,
     /// All families of replaceable legs of the member; empty for [`Argument::Curves`].
     pub families: Vec<Piece>,
-    /// Dimensions of the summands of the span of the legs that [`Piece::parts`] refers to.
+    /// Dimensions of the summands of the span of the legs, in the order of [`Piece::parts`].
     pub summands: Vec<usize>,
     /// The least number of joints that carry two or more legs.
     pub fewest_shared: usize,
-    /// The least value of twelve less the number of joints.
+    /// The least value of twelve minus the number of joints.
     pub fewest_merged: usize,
-    /// An equivalent design with [`fewest_shared`](Self::fewest_shared) such joints and
+    /// An equivalent design with [`fewest_shared`](Self::fewest_shared) shared joints and
     /// [`fewest_merged`](Self::fewest_merged).
     pub fewest: Arrangement,
-    /// Why there cannot be fewer shared joints.
+    /// The reasons why there cannot be fewer shared joints.
     pub obstructions: Vec<Obstruction>,
     /// Whether an octahedral design is equivalent.
     pub octahedral: Reduction,
 }
 
-/// The argument did not come to an end.
+/// The argument did not decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("no proof was found for {topology} (plane base: {}, plane platform: {})", planar.base, planar.platform, topology = topology.id())]
 pub struct NotDecided {
@@ -75,7 +75,7 @@ pub struct NotDecided {
 /// anyway.
 ///
 /// # Errors
-/// [`NotDecided`], which does not happen.
+/// [`NotDecided`], which does not occur.
 pub fn rearrangements() -> Result<Vec<Rearrangement>, NotDecided> {
     let mut out = Vec::new();
     for topology in catalogue() {
@@ -87,7 +87,7 @@ pub fn rearrangements() -> Result<Vec<Rearrangement>, NotDecided> {
 }
 
 impl Rearrangement {
-    /// The families in words, base first: `2 x line-point, pairing, 3 legs`; `curves` where they are not listed.
+    /// The families in words, base first: `2 x line-point, pairing, 3 legs`; `curves` if they are not listed.
     #[must_use]
     pub fn family_names(&self) -> String {
         if self.argument == Argument::Curves {
@@ -134,7 +134,7 @@ impl PlanarBodies {
         [self.base, self.platform].map(|flat| if flat { "plane" } else { "space" })
     }
 
-    /// The cases to tell apart for a topology.
+    /// The cases of a topology with bodies in space or in a plane.
     #[must_use]
     pub fn of(topology: NamedTopology) -> Vec<Self> {
         let choice = |joints: usize| if joints > 3 { vec![false, true] } else { vec![true] };
@@ -202,7 +202,7 @@ fn of_sample(
     };
     let spreads = spreads(&pieces, &summands);
     let best = spreads.first()?;
-    // one design has the least of both numbers; a topology where that is not so would be left undecided
+    // one design has the least of both numbers; a topology without such a design would remain undecided
     let fewest_merged = spreads.iter().map(|s| s.merged).min().filter(|m| *m == best.merged)?;
     let fewest = realise(&pieces, best, &member, rng)?;
     Some(Rearrangement {
@@ -235,7 +235,8 @@ fn families(sample: &DesignSample, topology: NamedTopology) -> Option<(Argument,
     Some((Argument::Curves, None))
 }
 
-/// Six legs spread as told, equivalent to the member, with no more shared joints than the spread asks for.
+/// Six legs with the given distribution, equivalent to the member, with no more shared joints than the distribution
+/// requires.
 fn realise(
     pieces: &[Piece],
     spread: &FamilySpread,
@@ -274,12 +275,12 @@ fn joint_free(legs: &[ExactLeg], taken: &mut Vec<ExactLeg>, from: usize) -> Opti
     None
 }
 
-/// Number of legs taken from each family, with what they share at least.
+/// Number of legs from each family, with their least number of shared joints.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct FamilySpread {
     /// Joints with two or more legs.
     pub(super) shared: usize,
-    /// Twelve less the number of joints.
+    /// Twelve minus the number of joints.
     merged: usize,
     /// Legs from each family.
     pub(super) counts: Vec<usize>,
@@ -295,8 +296,8 @@ fn rank_bound<'a>(pieces: impl Iterator<Item = &'a Piece>, summands: &[usize]) -
     filled.iter().zip(summands).map(|(f, s)| f.min(s)).sum()
 }
 
-/// All ways to take six legs such that no families hold more of them than their rank bound, those that share fewest
-/// joints first.
+/// All ways to take six legs such that no families hold more of them than their rank bound, those with the fewest
+/// shared joints first.
 fn spreads(pieces: &[Piece], summands: &[usize]) -> Vec<FamilySpread> {
     let bounds: Vec<usize> = (0..1usize << pieces.len())
         .map(|set| {
@@ -336,7 +337,7 @@ fn spread(
     counts[next] = 0;
 }
 
-/// Why no equivalent design has fewer shared joints.
+/// The reason why no equivalent design has fewer shared joints.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -344,21 +345,21 @@ fn spread(
     schemars(rename = "ObstructionRecord")
 )]
 pub struct Obstruction {
-    // Any number of legs is taken from the families `allowed` (with a joint in common) and one from each of the others
-    // with a joint in common. The bound is the rank of the families `within`, and for each family outside its rank, or
-    // 1 where its joint must not be shared.
-    /// Families that legs may be on, from 0.
+    // Any number of legs comes from the families `allowed` (with a common joint), and one from each of the others with
+    // a common joint. The bound is the rank of the families `within`, plus for each family outside its rank, or 1 if
+    // its joint must not be shared.
+    /// Families that may have several legs, from 0.
     pub allowed: Vec<usize>,
-    /// Summands they lie in, from 0.
+    /// Their summands, from 0.
     pub within: Vec<usize>,
-    /// The most independent legs there.
+    /// The greatest number of independent legs there.
     // below six
     pub most: usize,
 }
 
-/// One obstruction for every choice of `fewest - 1` families whose joints may be shared; `None` when one is missing.
+/// One obstruction for every choice of `fewest - 1` families whose joints may be shared; `None` if one is missing.
 ///
-/// The rank bound is submodular, so that the least sum over `within` is the greatest number of legs (Edmonds 1970).
+/// The rank bound is submodular, so the least sum over `within` is the greatest number of legs (Edmonds 1970).
 pub(super) fn obstructions(pieces: &[Piece], summands: &[usize], fewest: usize) -> Option<Vec<Obstruction>> {
     let Some(free) = fewest.checked_sub(1) else { return Some(Vec::new()) };
     let common: Vec<usize> = (0..pieces.len()).filter(|k| pieces[*k].has_common_joint()).collect();

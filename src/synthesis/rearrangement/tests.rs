@@ -1,4 +1,4 @@
-//! The table against another search for families, other members, and ranks of random legs.
+//! The table compared with another search for families, other members, and ranks of random legs.
 
 use super::sample::{finite, subsets};
 use super::table::from_seed;
@@ -20,7 +20,8 @@ const CURVES: [(&str, &[Kind]); 11] = [
     ("T06", &[(1, 0, 1), (1, 1, 0), (1, 1, 1), (1, 1, 1)]),
     ("T10", &[(1, 0, 1), (1, 1, 0), (1, 1, 0), (1, 1, 2)]),
     ("T11", &[(1, 0, 1), (1, 0, 1), (1, 1, 0), (1, 1, 0), (1, 1, 1)]),
-    // the second line lies in the surface, over the point where its formula is 0/0: the general search does not say so
+    // the second line lies in the surface, over the point where its formula is 0/0; the general search does not report
+    // it
     ("T13", &[(1, 0, 1), (1, 0, 1), (2, 2, 1)]),
     ("T21", &[(1, 1, 1), (2, 1, 1)]),
     ("T22", &[(1, 0, 1), (1, 0, 1), (1, 1, 0), (1, 1, 0), (1, 1, 1)]),
@@ -67,11 +68,11 @@ fn other_members_give_the_same_table() {
     }
 }
 
-/// Rank of random legs: many from the families that may be used freely, one from each other.
+/// Rank of random legs: many from the freely usable families, one from each other.
 fn rank_of_random_legs(r: &Rearrangement, allowed: &[usize], rng: &mut Rng) -> usize {
     let mut legs: Vec<ExactVector> = Vec::new();
     for (k, family) in r.families.iter().enumerate() {
-        // more legs than the rank: some of the fractions are drawn twice
+        // more legs than the rank, since some fractions are drawn twice
         let count = if family.has_common_joint() && !allowed.contains(&k) { 1 } else { 3 * family.rank() };
         let drawn = std::iter::from_fn(|| Some(family.draw(rng))).flatten().take(count);
         legs.extend(drawn.map(|l| l.vector()));

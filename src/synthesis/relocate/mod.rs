@@ -1,16 +1,14 @@
-//! Moves legs of any platform along their families of replaceable legs, which leads to the platforms equivalent to it.
+//! Moves legs of any platform along their families of replaceable legs, which gives the equivalent platforms.
 //!
-//! With `v' = sum c_l v_l` the vector of a replaceable leg (see [`components`](super::components)), putting it in the
-//! place of leg `k` gives the leg map whose row `k` is `c` and whose other rows are those of the identity:
-//! `det A = c_k`. Several legs moved together give the matrix with their rows `c`; its determinant decides, not those
-//! of the single moves.
+//! Let `v' = sum c_l v_l` be the vector of a replaceable leg (see [`components`](super::components)). If it replaces
+//! leg `k`, row `k` of the leg map is `c`, and the other rows are those of the identity: `det A = c_k`. Several legs
+//! moved together give the matrix with their rows `c`. Its determinant decides, not those of the single moves.
 //!
-//! A regular move does not change the span of the six leg vectors. So **the families never change**, whatever is moved,
-//! and every platform equivalent to a given one is reached by single moves in a suitable order
-//! (`docs/theory/moves.md`).
+//! A regular move does not change the span of the six leg vectors. So **the families never change** under moves, and
+//! single moves in a suitable order reach every platform equivalent to a given one (`docs/theory/moves.md`).
 //!
-//! [`relocate`] moves legs, [`Chain`] composes moves made one after another, [`search`](mod@search) looks for
-//! equivalent platforms that fulfil wishes.
+//! [`relocate`] moves legs, [`Chain`] composes successive moves, and [`search`](mod@search) looks for equivalent
+//! platforms that meet requirements.
 
 mod names;
 pub mod search;
@@ -28,7 +26,7 @@ use super::leg_map::{AffineLegMap, LegMapOutcome, LegMapTolerances, leg_map_to_l
 use num::linalg::LinalgError;
 use platform::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
 
-/// One leg and where it is to go.
+/// One leg and its target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LegMove {
     /// The leg that is replaced.
@@ -37,45 +35,44 @@ pub struct LegMove {
     pub family: usize,
     /// Parameters of the new leg, as many as the family has dimensions.
     pub parameters: Vec<f64>,
-    /// Formulas the parameters are meant for, if not those of the family itself (see [`counted_from()`]).
+    /// The formulas of the parameters, if not those of the family itself (see [`counted_from()`]).
     pub formulas: Option<Parametrisation>,
 }
 
 impl LegMove {
-    /// The formulas its parameters are meant for.
+    /// The formulas of its parameters.
     fn formulas<'a>(&'a self, family: &'a Component) -> &'a Parametrisation {
         self.formulas.as_ref().unwrap_or(&family.parametrisation)
     }
 }
 
-/// A leg that was moved.
+/// A moved leg.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovedLeg {
-    /// What was asked.
+    /// The requested move.
     pub request: LegMove,
     /// The old leg.
     pub from: Leg,
-    /// The new leg, its coordinates as doubles; an end that is a joint of the platform within rounding has the
-    /// coordinates of that joint.
+    /// The new leg, in doubles; an end within rounding of a joint of the platform has the coordinates of that joint.
     pub to: Leg,
-    /// Coefficients of its vector in those of the six legs it was moved from: the row of `A`.
+    /// Coefficients of its vector in those of the six old legs: the row of `A`.
     pub coefficients: [f64; 6],
     /// Distance of its vector from their span over its length.
     pub residual: f64,
-    /// Whether the doubles of the new joints, as rational numbers, fulfil the span condition exactly. In general they
+    /// Whether the doubles of the new joints, as rational numbers, satisfy the span condition exactly. In general they
     /// are rounded and do not.
     pub exact: bool,
-    /// Where on the family the determinant of the whole move vanishes, the other moves and the other parameters being
-    /// what they are.
+    /// Parameters on the family at which the determinant of the whole move vanishes, with the other moves and
+    /// parameters fixed.
     pub singular: SingularParameters,
 }
 
 /// Legs moved together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relocation {
-    /// The new platform with the origin of its joints.
+    /// The new platform, with the origins of its joints.
     pub assembled: Assembled,
-    /// What became of each leg that was moved.
+    /// The result for each moved leg.
     pub moved: Vec<MovedLeg>,
     /// The map from the old platform, with the relation.
     pub map: LegMapOutcome,
@@ -89,16 +86,16 @@ impl Relocation {
     }
 }
 
-/// Why legs cannot be moved as asked.
+/// Reasons why legs cannot be moved as requested.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RelocateError {
-    /// There is no such family.
+    /// The family does not exist.
     #[error("there is no family {}, the platform has {count}", index + 1)]
     NoSuchFamily {
-        /// The index asked for, from 0.
+        /// The requested index, from 0.
         index: usize,
-        /// How many there are.
+        /// The number of families.
         count: usize,
     },
     /// A family has another number of parameters.
@@ -108,10 +105,10 @@ pub enum RelocateError {
         family: usize,
         /// Its dimension.
         expected: usize,
-        /// What was given.
+        /// The given number.
         given: usize,
     },
-    /// An end is at infinity at these parameters, or they belong to no real leg.
+    /// An end is at infinity at these parameters, or they have no real leg.
     #[error("family {} has no leg at {parameters:?}: an end is at infinity or not real", family + 1)]
     NoLeg {
         /// The family, from 0.
@@ -135,11 +132,11 @@ pub enum RelocateError {
     Linalg(#[from] LinalgError),
 }
 
-/// Moves legs together: the families are those of `m`, [`components`](super::components::components())`(m, ..)`, for
-/// all of them.
+/// Moves legs together. The families of all moves are those of `m`,
+/// [`components`](super::components::components())`(m, ..)`.
 ///
-/// The answer with `det A = 0` is a value too: [`Relation::Singular`](super::Relation::Singular), with the parameters
-/// where that happens. A single move of a leg on which the family does not depend at all is refused.
+/// A result with `det A = 0` is returned too: [`Relation::Singular`](super::Relation::Singular), with the singular
+/// parameters. A single move of a leg whose coefficient vanishes on the whole family is refused.
 ///
 /// ```
 /// # mod equipod { pub mod methods { pub use equipod_synthesis as synthesis; pub use platform::manipulator; } }
@@ -206,7 +203,7 @@ pub fn relocate(
     Ok(Relocation { assembled, moved, map })
 }
 
-/// The leg a move asks for.
+/// The target leg of a move.
 fn target(found: &Components, step: &LegMove) -> Result<Leg, RelocateError> {
     let count = found.components.len();
     let family =
@@ -220,22 +217,22 @@ fn target(found: &Components, step: &LegMove) -> Result<Leg, RelocateError> {
     leg.ok_or_else(|| RelocateError::NoLeg { family: step.family, parameters: step.parameters.clone() })
 }
 
-/// A new end nearer than this to a joint, relative to the size, is that joint: rounding of formulas, not of data.
+/// A new end within this of a joint, relative to the size, is that joint: rounding of formulas, not of data.
 const SNAP: f64 = 1e-12;
 
-/// Where a joint of the new platform comes from; indices of joints of the same body of the old one.
+/// The origin of a joint of the new platform, with indices of the same body of the old one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointOrigin {
-    /// It is where it was.
+    /// The unchanged joint.
     Kept(usize),
-    /// All legs left the old joint, and this is where the first of them went.
+    /// The displaced joint: all legs left the old joint, and the first of them went here.
     Displaced(usize),
     /// A leg left the old joint for this one.
     Split(usize),
 }
 
 impl JointOrigin {
-    /// The joint that it is, where it stayed.
+    /// The index of the old joint, if it is unchanged.
     #[must_use]
     pub fn kept(&self) -> Option<usize> {
         match self {
@@ -248,7 +245,7 @@ impl JointOrigin {
 /// The new platform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled {
-    /// Joints and legs. Two legs that have become the same leg are not a platform.
+    /// Joints and legs. Two coincident legs form no platform.
     pub platform: Result<Manipulator, InvalidManipulator>,
     /// The six legs.
     pub legs: [Leg; 6],
@@ -258,14 +255,14 @@ pub struct Assembled {
     pub platform_joints: Vec<JointOrigin>,
 }
 
-/// Joints of one body and which of them carries each leg.
+/// Joints of one body, and the joint of each leg.
 struct BodyJoints {
     points: Vec<Point3<f64>>,
     origins: Vec<JointOrigin>,
     of_leg: [usize; 6],
 }
 
-/// Puts the legs that are given in the place of the old ones. An end that is within rounding of a joint shares it.
+/// Replaces the old legs by the given ones. An end that is within rounding of a joint shares it.
 fn assemble(m: &Manipulator, new: &[Option<Leg>; 6]) -> Assembled {
     let limit = SNAP * m.size();
     let pairs = m.pairs();
@@ -286,7 +283,7 @@ fn side(old: &[Point3<f64>], of_leg: [usize; 6], new: [Option<Point3<f64>>; 6], 
     let mut ends = of_leg;
     for (k, p) in new.iter().enumerate().filter_map(|(k, p)| p.map(|p| (k, p))) {
         let near = |q: &Point3<f64>| (p - q).norm() <= limit;
-        // the leg's own joint first: two joints may stand at one place
+        // the leg's own joint first, since two joints may coincide
         let found = if near(&points[of_leg[k]]) { Some(of_leg[k]) } else { points.iter().position(near) };
         ends[k] = found.unwrap_or_else(|| {
             points.push(p);
@@ -294,7 +291,7 @@ fn side(old: &[Point3<f64>], of_leg: [usize; 6], new: [Option<Point3<f64>>; 6], 
             points.len() - 1
         });
     }
-    // a joint that all legs left goes, and the first new one that came from it takes its place in the list
+    // a joint without legs is removed, and the first new joint from it takes its place in the list
     let mut order: Vec<(usize, JointOrigin)> = Vec::new();
     for j in 0..old.len() {
         if ends.contains(&j) || !of_leg.contains(&j) {
@@ -322,13 +319,13 @@ pub struct Chain {
     pub composed: AffineLegMap,
     /// The map computed from the first platform and the legs of the last one.
     pub direct: LegMapOutcome,
-    /// Largest difference of the two matrices over the largest entry, and of the constants over the squared size:
-    /// rounding, when all is well.
+    /// Largest difference of the two matrices over the largest entry, and of the constants over the squared size. It is
+    /// of the size of rounding for a correct chain.
     pub disagreement: f64,
 }
 
 impl Chain {
-    /// Composes moves that were made one after another from `first`; a singular one can only be the last.
+    /// Composes successive moves from `first`; only the last one may be singular.
     ///
     /// # Errors
     /// When a decomposition does not converge.

@@ -1,6 +1,6 @@
-//! Names of families and parameters that stay the same when legs are moved.
+//! Names of families and parameters that are invariant under moves of legs.
 //!
-//! A family is told by the joints that span the flats it lies between, and a parameter is counted from given joints.
+//! A family is identified by the joints that span its flats, and a parameter counts from given joints.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +12,8 @@ use num::linalg::LinalgError;
 use num::small::bounded_svd;
 use platform::manipulator::Manipulator;
 
-/// Orthonormal directions of the flat through the points, and one of them; what is within `limit` of the flat of the
-/// points before adds nothing.
+/// Orthonormal directions of the flat through the points, and one of the points. Points within `limit` of the flat of
+/// the earlier ones add nothing.
 struct Through {
     origin: Point3<f64>,
     axes: Vec<Vector3<f64>>,
@@ -45,7 +45,7 @@ impl Through {
     }
 }
 
-/// Four ends of legs of the family on each body: they span what the ends of all its legs span.
+/// Four ends of legs of the family on each body: they span the flats of all its legs.
 fn samples(found: &Components, family: &Component) -> Result<[Vec<Point3<f64>>; 2], LinalgError> {
     let mut rng = Purpose::FAMILY_ENDS.rng(found.options.seed);
     let mut ends = [Vec::new(), Vec::new()];
@@ -62,7 +62,7 @@ fn limit(m: &Manipulator, found: &Components) -> f64 {
     (100.0 * found.options.tolerance).max(1e-7) * m.size()
 }
 
-/// Indices of the families whose base ends span the flat of the base points given, and whose platform ends span that of
+/// Indices of the families whose base ends span the flat of the given base points, and whose platform ends span that of
 /// the platform points.
 ///
 /// # Errors
@@ -92,8 +92,8 @@ pub fn family_between(
     Ok(out)
 }
 
-/// Joints of `m` (indices on the base, indices on the platform) that span the two flats of a family; `None` when the
-/// joints of the platform do not.
+/// Joints of `m` that span the two flats of a family (indices on the base, indices on the platform); `None` if there
+/// are none.
 ///
 /// # Errors
 /// When a decomposition does not converge.
@@ -121,10 +121,10 @@ pub fn spanning_joints(
     Ok(ends.map(|(a, b)| [a, b]))
 }
 
-/// `t_i = map[i][0] + sum_j map[i][j + 1] s_j`: the family's own parameters by the new ones.
+/// `t_i = map[i][0] + sum_j map[i][j + 1] s_j`: the family's original parameters by the new ones.
 type AffineMap = [[f64; 4]; 3];
 
-/// A point that is affine in some parameters: where it is at zero, and a direction for each of them.
+/// A point that is affine in some parameters: its place at zero, and a direction for each of them.
 struct AffineEnd {
     start: Vector3<f64>,
     directions: Vec<(usize, Vector3<f64>)>,
@@ -146,7 +146,7 @@ impl AffineEnd {
         (!out.directions.is_empty()).then_some(out)
     }
 
-    /// Own parameters of a point or, with the start left out, of a direction, by least squares.
+    /// Original parameters of a point or, without the start, of a direction, by least squares.
     fn solve(&self, target: Vector3<f64>) -> Option<Vec<f64>> {
         let d = DMatrix::from_fn(3, self.directions.len(), |i, k| self.directions[k].1[i]);
         let x = bounded_svd(&d)?.solve(&DVector::from_column_slice(target.as_slice()), 1e-12).ok()?;
@@ -154,11 +154,11 @@ impl AffineEnd {
     }
 }
 
-/// The formulas of a family with parameters counted from joints: on an end that is affine in its parameters,
-/// `x_0 + sum s_j (x_j - x_0)` with the points given for that body, in that order. Ends that follow (partners on a
-/// line, a plane) follow the new parameters.
+/// The formulas of a family with parameters counted from joints. On an end that is affine in its parameters they are
+/// `x_0 + sum s_j (x_j - x_0)` with the given points of that body, in that order. Dependent ends (partners on a line, a
+/// plane) use the new parameters.
 ///
-/// `None` when no end is affine in parameters and has one more point than those: conics and cubics keep their own
+/// `None` if no end is affine in its parameters with one more point than parameters: conics and cubics keep their own
 /// parameters.
 #[must_use]
 pub fn counted_from(
@@ -182,7 +182,7 @@ pub fn counted_from(
             map[*slot] = [start[i], 0.0, 0.0, 0.0];
             done[*slot] = true;
         }
-        // the end itself is written down as it is wanted: its joints stay what they are, to the last digit
+        // the end itself is written in the new form, so its joints keep all digits
         let first = points[0].coords;
         let mut terms = vec![([0; 3], [1.0, first.x, first.y, first.z])];
         for (slot, p) in slots.iter().zip(&points[1..]) {

@@ -1,4 +1,4 @@
-//! Where along a family a move is singular.
+//! Singular parameters of a move along a family.
 
 use nalgebra::Matrix6;
 
@@ -13,18 +13,18 @@ use platform::manipulator::Leg;
 pub enum SingularParameters {
     /// Everywhere on the family.
     Everywhere,
-    /// At these values of the first parameter, in order; the other parameters, if any, being those of the move. For
-    /// plane cubics the changes of sign are found, those of the determinant at 360 lines through the centre.
+    /// At these values of the first parameter, in order; other parameters are those of the move. For plane cubics these
+    /// are the changes of sign of the determinant over 360 lines through the centre.
     At(Vec<f64>),
 }
 
-/// Below this share of its largest value along the family the determinant is zero.
+/// The determinant counts as zero below this share of its largest value along the family.
 const ZERO: f64 = 1e-9;
-/// Lines of the pencil of a cubic that are looked at.
+/// Number of sampled lines of the pencil of a cubic.
 const LINES: usize = 360;
 
-/// The determinant of `a` with the row of the move replaced by the coefficients of the leg, times the denominators of
-/// the leg's ends.
+/// The determinant of `a` with the coefficients of the leg in the row of the move, times the denominators of the leg's
+/// ends.
 struct RowDeterminant<'a> {
     found: &'a Components,
     step: &'a LegMove,
@@ -72,10 +72,10 @@ pub(super) fn singular_parameters(
     }
 }
 
-/// `det A` times the denominators is a polynomial of known degree: interpolated, and its roots.
+/// Roots of `det A` times the denominators, a polynomial of known degree found by interpolation.
 fn rational(along: &RowDeterminant, degree: usize) -> Result<SingularParameters, LinalgError> {
     let mut nodes = Vec::new();
-    // Chebyshev points of [-1, 2], those without a leg left out
+    // Chebyshev points of [-1, 2], without those that have no leg
     let count = degree + 1;
     for extra in 0..6 {
         nodes.clear();
@@ -142,7 +142,7 @@ fn cubic(along: &RowDeterminant) -> Result<SingularParameters, LinalgError> {
     }
     let mut moderate: Vec<f64> = values.iter().filter_map(|x| x.1.map(f64::abs)).collect();
     moderate.sort_by(f64::total_cmp);
-    // the determinant has poles: its median is a measure of its size, its largest value is none
+    // the determinant has poles, so its median measures its size and its largest value does not
     let Some(size) = moderate.get(moderate.len() / 2).copied().filter(|m| *m > ZERO) else {
         return Ok(SingularParameters::Everywhere);
     };

@@ -1,4 +1,4 @@
-//! Laws of moves, the published ones, and moves that must fail.
+//! Laws of moves, published moves, and moves that must fail.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
@@ -104,7 +104,7 @@ fn holds(map: &AffineLegMap, from: &Manipulator, to: &Manipulator, rng: &mut Rng
     })
 }
 
-/// The family that lies over side `k` of the published hexagon, told by places that never change.
+/// The family over side `k` of the published hexagon, identified by places that never change.
 fn side(octahedral: &Manipulator, current: &Manipulator, found: &Components, k: usize) -> usize {
     let legs = octahedral.legs();
     let (x, y) = (legs[k], legs[(k + 1) % 6]);
@@ -211,7 +211,7 @@ fn all_six_together_are_the_joint_free_platform_of_the_paper() {
     assert!((done.map.closest.a - known.a).abs().max() < 1e-12);
     let new = done.assembled.platform.unwrap();
     assert_eq!((new.base_joints().len(), new.platform_joints().len()), (6, 6));
-    // Delta1 + 2 Delta2 = 12: singular, all midpoints and another pair, and a hair off it is not
+    // Delta1 + 2 Delta2 = 12: singular at all midpoints and at another pair, and regular slightly off
     for (base, platform) in [(0.5, 0.5), (0.25, 0.75)] {
         let done = together(base, platform);
         assert_eq!(done.map.relation, Relation::Singular);
@@ -235,10 +235,10 @@ fn one_after_another_reaches_it_too_but_the_last_move_has_no_second_leg_at_its_j
         let sides = found.components.iter().filter(|c| c.type_name() == "point-line").count();
         assert_eq!(sides, 6, "the families are those of the first platform");
         let family = side(&m, &current, &found, k);
-        // a move of the paper needs a second leg at the joint that stays; the sixth has none, and takes all six legs
+        // a move of the paper needs a second leg at the fixed joint; the sixth has none, and uses all six legs
         let (on_it, used) = (&found.components[family].legs, found.components[family].support.len());
         assert_eq!((on_it.len(), used), if k < 5 { (2, 2) } else { (1, 6) }, "{on_it:?}");
-        // a fifth of the edge, counted from the places the legs had in the first platform
+        // a fifth of the edge, counted from the places of the legs in the first platform
         let ends = [k, (k + 1) % 6].map(|l| m.legs()[l]);
         let (base, platform) = if k.is_multiple_of(2) { (2, 1) } else { (1, 2) };
         let formulas = counted_from(
@@ -274,7 +274,7 @@ fn a_move_and_its_inverse_give_the_design_back() {
     let moved = there.assembled.platform.clone().unwrap();
     let back = families(&moved);
     let family = back.components.iter().position(|c| c.type_name() == "line-line").unwrap();
-    // the parameter of the old leg: its base end on the line, on which t is affine
+    // the parameter of the old leg: its base end on the line, where t is affine
     let line = &back.components[family].parametrisation;
     let [x, y] = [0.0, 1.0].map(|t| line.leg_at(&[t]).unwrap().unwrap());
     let d = y.base - x.base;
@@ -332,7 +332,7 @@ fn at_singular_parameters_the_leg_depends_on_the_others() {
             else {
                 panic!("{}", family.type_name())
             };
-            // on the two other legs of the family at least; on a cubic on all five others that are not a centre
+            // on the two other legs of the family at least; on a cubic on all five others except a centre
             let least = if family.kind.name() == "over_cubic" { 4 } else { family.legs.len() - 1 };
             assert!(list.len() >= least, "{} {list:?}", family.type_name());
             for t in list {
@@ -362,7 +362,7 @@ fn what_cannot_be_done_is_refused() {
         within(&m, &found, 0, line, &[]),
         Err(RelocateError::ParameterCount { family: line, expected: 1, given: 0 })
     );
-    // leg 6 has no part in any family
+    // leg 6 belongs to no family
     assert_eq!(
         within(&m, &found, 5, line, &[0.5]),
         Err(RelocateError::NotCarried { leg: index(5), family: line })
@@ -427,13 +427,13 @@ fn a_leg_that_leaves_a_shared_joint_splits_it_and_the_last_one_displaces_it() {
         [JointOrigin::Displaced(0), JointOrigin::Kept(1), JointOrigin::Kept(2), JointOrigin::Split(0)]
     );
     assert_eq!(both.legs[5], legs[5].unwrap());
-    // onto another joint, off by rounding: shared
+    // onto another joint, up to rounding: shared
     let shared = Leg { base: corner(2.0, 2) + Vector3::new(1e-14, 0.0, 0.0), platform: corner(1.0, 0) };
     let third = assemble(&m, &[Some(shared), None, None, None, None, None]);
     assert_eq!(third.base.len(), 3);
     assert_eq!(third.legs[0].base, corner(2.0, 2));
     assert!(third.platform.is_ok());
-    // onto another leg: two legs of one line
+    // onto another leg: two coincident legs
     let same = Leg { base: corner(2.0, 1), platform: corner(1.0, 0) };
     let twice = assemble(&m, &[Some(same), None, None, None, None, None]).platform.unwrap();
     assert!((1..6).any(|leg| twice.pairs()[leg] == twice.pairs()[0]));

@@ -1,7 +1,7 @@
-//! Names for architectural singularities, each with an exact test.
+//! Names of architectural singularities, each with an exact test.
 //!
-//! Whether corresponding points of two planes are images under a projectivity is decided exactly too. A singular design
-//! that is known in doubles only gets its name with a tolerance.
+//! The test for a projectivity between corresponding points of two planes is exact too. A tolerance only determines the
+//! name of a singular design that is known in doubles.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,20 +12,20 @@ use num::exact::{product, rank, relations};
 use num::linalg::{LinalgError, svd};
 use platform::manipulator::{AlgebraicVector, Body, ExactLegs, Manipulator};
 
-/// A geometric reason for which the leg lines are dependent at every pose.
+/// A geometric reason for dependent leg lines at every pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Case {
     /// Two legs join the same two points.
     CoincidentLegs,
-    /// Four or more legs end in one point of `body`: their lines have rank 3.
+    /// Four or more legs share one point of `body`: their lines have rank 3.
     ConcurrentFour {
         /// The body of the common point.
         body: Body,
     },
-    /// Two points hold all six legs: every line meets the line of the two.
+    /// All six legs pass through two points, so every line meets the line of the two.
     TwoJointsHoldAllLegs,
-    /// All joints of one body lie on a line, which every leg meets.
+    /// All joints of one body lie on a line that every leg meets.
     AllCollinear {
         /// The body.
         body: Body,
@@ -38,8 +38,8 @@ pub enum Case {
     /// Four or five legs with ends on two lines: the pairing of four is projective (equal cross-ratios), five are
     /// always dependent.
     LineLine,
-    /// Dependent legs with ends on a line of one body and in a plane or in space on the other: five legs and a plane
-    /// (six and a plane or space have all ends of a body on a line).
+    /// Dependent legs with ends on a line of one body and in a plane or in space on the other. These are five legs and
+    /// a plane; for six, all ends of the body are on the line.
     LineOther {
         /// The body with the line.
         line: Body,
@@ -47,15 +47,15 @@ pub enum Case {
     /// Both bodies planar, corresponding joints under a projectivity of the planes, the joints on a conic (Ma, Angeles
     /// 1991).
     Conic {
-        /// What takes the base joints to the platform joints.
+        /// The map from the base joints to the platform joints.
         map: PlanarMap,
     },
     /// Joints on the sides of two triangles with `prod t_i = prod (1 - t_i)` (Griffis, Duffy 1993; Husty, Karger 2000).
     GriffisDuffy,
     /// Both bodies planar, dependent leg vectors, no special name.
     PlanarBodies,
-    /// Three legs from one point `X`, two from one point `Y` of the other body to points on a line through `X`: the
-    /// plane pencil at `Y` holds the line `XY`, and so does the bundle at `X`.
+    /// Three legs from one point `X`, and two from one point `Y` of the other body to points on a line through `X`.
+    /// Both the plane pencil at `Y` and the bundle at `X` contain the line `XY`.
     StarAndPencil {
         /// The body of `X`.
         star: Body,
@@ -70,7 +70,7 @@ pub enum Case {
 }
 
 impl Case {
-    /// The code of the command line: one of a few that are stable.
+    /// The code for the command line, from a short stable list.
     #[must_use]
     pub fn reason(self) -> &'static str {
         match self {
@@ -150,7 +150,7 @@ impl Case {
     }
 }
 
-/// A case and the legs it is about (0-based).
+/// A case and its legs (0-based).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
     /// The case.
@@ -159,13 +159,13 @@ pub struct Finding {
     pub legs: Vec<usize>,
 }
 
-/// The legs that end where `leg` does.
+/// The legs with the same end as `leg`.
 fn at_point_of(legs: &ExactLegs, body: Body, leg: usize) -> Vec<usize> {
     let ends = legs.ends(body);
     (0..6).filter(|j| ends[*j] == ends[leg]).collect()
 }
 
-/// The cases that need no more than the positions of the joints, worst first.
+/// The cases that follow from positions of joints alone, worst first.
 pub(super) fn positional(legs: &ExactLegs) -> Vec<Finding> {
     let mut found = Vec::new();
     let same = |i: usize, j: usize| legs.base[i] == legs.base[j] && legs.platform[i] == legs.platform[j];
@@ -206,7 +206,7 @@ pub(super) fn of_dependency(legs: &ExactLegs, d: &Dependency, hexagon: Option<&G
         (1, 1) => Case::LineLine,
         (1, _) => Case::LineOther { line: Body::Base },
         (_, 1) => Case::LineOther { line: Body::Platform },
-        // k legs of a smallest relation have i + j <= k - 2 <= 4: what is left is two planes
+        // k legs of a smallest relation have i + j <= k - 2 <= 4: two planes remain
         _ => planar_case(legs, d, hexagon),
     };
     Finding { case, legs: d.legs.clone() }
@@ -224,14 +224,14 @@ fn planar_case(legs: &ExactLegs, d: &Dependency, hexagon: Option<&GriffisDuffy>)
     }
 }
 
-/// Whether points of a plane satisfy a quadratic equation of the plane that is not zero on all of it.
+/// Whether points of a plane lie on a conic (a quadratic equation that is not identically zero on the plane).
 fn on_a_conic(points: &[AlgebraicVector]) -> bool {
     let squares: Vec<_> = points.iter().map(|x| product(x, x)).collect();
     // six quadratic monomials in the plane
     rank(&squares) < 6
 }
 
-/// The case of a design with independent leg vectors and dependent lines, and the legs to blame, `among`.
+/// The case of a design with independent leg vectors and dependent lines; `among` are the legs at fault.
 pub(super) fn of_lines(legs: &ExactLegs, among: Vec<usize>) -> Finding {
     if let Some(star) = Body::BOTH.into_iter().find(|b| is_star_and_pencil(legs, *b, &among)) {
         return Finding { case: Case::StarAndPencil { star }, legs: among };
@@ -257,7 +257,7 @@ fn is_star_and_pencil(legs: &ExactLegs, star: Body, among: &[usize]) -> bool {
         })
 }
 
-/// Singular values below this times the largest count as zero; names only, nothing is decided with it.
+/// Singular values below this times the largest count as zero, for names only.
 const NEGLIGIBLE: f64 = 1e-7;
 
 /// The case of a relation between the vectors of `legs`; codes as in [`Case::name`](super::Case::name).
@@ -271,7 +271,7 @@ pub(super) fn name(m: &Manipulator, legs: &[usize]) -> Result<&'static str, Lina
         (0, _) | (_, 0) => "concurrent_four",
         (1, 1) => "line_line",
         (1, _) | (_, 1) => "line_other",
-        // nothing but two planes is left for a relation of six legs or fewer
+        // a relation of six legs or fewer leaves only two planes
         _ if legs.len() == 6 && GriffisDuffy::recognise(m).is_some_and(|g| g.is_nearly_singular()) => {
             "griffis_duffy"
         }
@@ -298,7 +298,7 @@ fn plane_coordinates(m: &Manipulator, points: &[Point3<f64>]) -> Result<Principa
     Ok(PrincipalSpread { dimension, coordinates })
 }
 
-/// Whether a projectivity takes one set to the other: `b_i x T a_i = 0`, linear in the nine entries of `T`, has a
+/// Whether a projectivity maps one set to the other: `b_i x T a_i = 0`, linear in the nine entries of `T`, has a
 /// solution. With dependent leg vectors the points then lie on a conic.
 fn projective_within(a: &[[f64; 3]], b: &[[f64; 3]]) -> Result<bool, LinalgError> {
     let mut rows = Vec::new();
@@ -317,7 +317,7 @@ fn projective_within(a: &[[f64; 3]], b: &[[f64; 3]]) -> Result<bool, LinalgError
     Ok(s[8] <= NEGLIGIBLE * s[0])
 }
 
-/// What takes one planar set of points to another.
+/// The map from one planar set of points to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlanarMap {
     /// A similarity: all distances in one ratio.
@@ -410,8 +410,8 @@ mod tests {
     use num::exact::rational;
     use platform::manipulator::{Leg, homogeneous};
 
-    /// The names for singular designs with independent leg vectors that are not of the known kinds; no such design is
-    /// known, so that the names are tested on designs that are not singular.
+    /// Names of hypothetical singular designs with independent leg vectors beyond the known kinds. No such design is
+    /// known, so the names are tested on regular designs.
     #[test]
     fn lines_without_a_known_kind_are_named_by_what_their_joints_do() {
         let joints = [[0., 0., 0.], [7., 1., 0.], [9., 6., 1.], [4., 9., -1.], [-3., 5., 2.], [-5., -2., 3.]];
@@ -428,7 +428,7 @@ mod tests {
         let found = of_lines(&legs(lined), all);
         assert_eq!(found.case, Case::FourCollinear { body: Body::Base });
         assert_eq!((found.case.name(), Case::Unnamed.reason()), ("four_collinear", "jacobian_vanishes"));
-        // four on a line count when they are among the guilty ones only
+        // four collinear joints count only if all are among the legs at fault
         assert_eq!(of_lines(&legs(lined), vec![0, 1, 2, 3, 4]).case, Case::Unnamed);
     }
 
@@ -443,7 +443,7 @@ mod tests {
         let plane = [[0.0, 0.0], [3.0, 1.0], [5.0, 2.0], [4.0, 6.0], [1.0, 7.0], [-2.0, 3.0]];
         let image = |f: &dyn Fn(f64, f64) -> [f64; 3]| points(&plane.map(|[x, y]| f(x, y)));
         let a = image(&|x, y| [x, 1.0, y]);
-        // turned by the angle of the triangle 3, 4, 5 and scaled
+        // rotated by the angle of the triangle 3, 4, 5 and scaled
         assert_eq!(
             planar_map(&a, &image(&|x, y| [3.0 * x - 4.0 * y, 4.0 * x + 3.0 * y, 2.0])),
             Some(PlanarMap::Similar)

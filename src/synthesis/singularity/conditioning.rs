@@ -1,4 +1,4 @@
-//! Figures that show how near a design is to being singular everywhere.
+//! Measures of how near a design is to an architectural singularity.
 
 use crate::LegSpan;
 use num::Rng;
@@ -14,23 +14,23 @@ pub struct Conditioning {
     /// Singular values of the six normalised leg vectors, largest first.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub leg_vectors: [f64; 6],
-    /// How many poses.
+    /// The number of poses.
     // any rotation, middle of the platform within the size of the middle of the base in every coordinate
     pub poses: usize,
     /// The best.
     // small for a design near singular
     pub best: f64,
-    /// The median.
+    /// The median value.
     pub median: f64,
     /// The worst.
     // small for every design, because singular poses exist
     pub worst: f64,
 }
 
-/// Random poses that the figures are taken over.
+/// Number of random poses.
 const POSES: usize = 200;
 
-/// The figures of `m`, poses drawn with `seed`.
+/// The measures of `m`, with poses from `seed`.
 ///
 /// # Errors
 /// When the singular value decomposition does not converge.

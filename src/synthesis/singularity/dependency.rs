@@ -4,15 +4,15 @@ use num::algebraic::Algebraic;
 use num::exact::{Rational, approximate, relations};
 use platform::manipulator::{Body, ExactLegs, SquaredLegLengths};
 
-/// A smallest set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper part of it is dependent.
+/// A minimal set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper subset is dependent.
 ///
 /// It forces `sum c_i s_i = constant` on the squared leg lengths of every pose: other lengths cannot be assembled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dependency {
     /// The legs, 0-based, ascending.
     pub legs: Vec<usize>,
-    /// `c_1 .. c_6`, zero for the legs outside; small integers where there are such, otherwise scaled to a largest
-    /// of 1.
+    /// `c_1 .. c_6`, zero for legs outside the set. They are small integers if possible, otherwise scaled to a largest
+    /// modulus of 1.
     pub coefficients: [f64; 6],
     /// `sum c_i (|a_i|^2 + |b_i|^2)`, design units squared, computed exactly and rounded once.
     pub constant: f64,
@@ -23,7 +23,7 @@ pub struct Dependency {
 }
 
 impl Dependency {
-    /// How far squared lengths are from the condition: `sum c_i s_i - constant`, over the sum of the moduli of its
+    /// Violation of the condition by squared lengths: `sum c_i s_i - constant`, over the sum of the moduli of its
     /// terms.
     #[must_use]
     pub fn defect(&self, s: &SquaredLegLengths) -> f64 {
@@ -37,14 +37,14 @@ fn one() -> Rational {
     Rational::from_integer(1.into())
 }
 
-/// All smallest dependent sets, fewest legs first.
+/// All minimal dependent sets, fewest legs first.
 pub(super) fn dependencies(six: &ExactLegs) -> Vec<Dependency> {
     let mut found: Vec<Dependency> = Vec::new();
     for legs in subsets_by_size(2) {
         if found.iter().any(|d| d.legs.iter().all(|i| legs.contains(i))) {
             continue;
         }
-        // no part is dependent: there is at most one relation
+        // no proper subset is dependent, so there is at most one relation
         if let Some(c) = relations(&six.vectors_of(&legs)).first() {
             found.push(dependency(six, &legs, c));
         }
@@ -82,7 +82,7 @@ pub(super) fn subsets_by_size(least: usize) -> Vec<Vec<usize>> {
     all
 }
 
-/// The multiple of `c` with a largest modulus of 1 and a positive first entry that is not zero.
+/// The multiple of `c` with a largest modulus of 1 and a positive first nonzero entry.
 fn scaled_to_one(c: &[Algebraic]) -> Vec<Algebraic> {
     let largest = c.iter().map(|x| x.approximate().abs()).enumerate().max_by(|x, y| x.1.total_cmp(&y.1));
     let Some(most) = largest.map(|(k, _)| &c[k]).filter(|x| !x.is_zero()) else { return c.to_vec() };

@@ -11,19 +11,19 @@ fn plane(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>) -> Vector4<f64> {
     Vector4::new(n.x, n.y, n.z, -n.dot(p))
 }
 
-/// Determinants of the two sets of four alternate faces of the octahedron: base with the three triangles of a platform
-/// edge and a base joint; platform with the three triangles of a base edge and a platform joint. Units: design units to
-/// the ninth power.
+/// Determinants of the two sets of four alternate faces of the octahedron. The first is the base with the three
+/// triangles of a platform edge and a base joint. The second is the platform with the three triangles of a base edge
+/// and a platform joint. Units: design units to the ninth power.
 ///
-/// Each vanishes exactly when its four planes have a common point (or direction), which is when the pose is singular:
-/// both are `det J` of the leg lines that are not divided by lengths (rows `[n, a x n]` about the base origin), up to
-/// sign. Source: Downing, Samuel, Hunt 2002; Rojas, Borras, Thomas, sec. 3.
+/// Each vanishes exactly if its four planes have a common point (or direction), that is, at singular poses. Up to sign
+/// both are `det J` of the leg lines without division by lengths (rows `[n, a x n]` about the base origin). Source:
+/// Downing, Samuel, Hunt 2002; Rojas, Borras, Thomas, sec. 3.
 #[must_use]
 pub fn four_planes(octahedral: &Octahedral, pose: &Pose) -> [f64; 2] {
     let [p1, p2, p3] = octahedral.base().map(|p| p.coords);
     let [p4, p5, p6] = octahedral.platform().map(|p| pose.transform(&p).coords);
     let determinant = |faces: [Vector4<f64>; 4]| Matrix4::from_columns(&faces).determinant();
-    // P2 carries legs to P4 and P5, P3 to P5 and P6, P1 to P6 and P4
+    // P2 has legs to P4 and P5, P3 to P5 and P6, P1 to P6 and P4
     let base = [plane(&p1, &p2, &p3), plane(&p4, &p5, &p2), plane(&p5, &p6, &p3), plane(&p6, &p4, &p1)];
     let platform = [plane(&p4, &p5, &p6), plane(&p1, &p2, &p4), plane(&p2, &p3, &p5), plane(&p3, &p1, &p6)];
     [determinant(base), determinant(platform)]

@@ -1,4 +1,4 @@
-//! Platforms of Griffis-Duffy type: one joint on each side of two triangles, and when they are singular.
+//! Platforms of Griffis-Duffy type: one joint on each side of two triangles, and their singular cases.
 //!
 //! Base triangle `B1 B2 B3`, platform triangle `C1 C2 C3`. Going round, the legs join
 //!
@@ -6,20 +6,20 @@
 //! B1B2 - C1,   B2 - C1C2,   B2B3 - C2,   B3 - C2C3,   B3B1 - C3,   B1 - C3C1,
 //! ```
 //!
-//! a side standing for a point of its line at the fraction `t_k` from the first vertex. They are the inner points of
-//! the hexagon of the octahedral platform: `v_k = (1 - t_k) w_k + t_k w_(k+1)` with the six octahedral leg vectors `w`.
-//! These are independent for any two triangles, so that the platform is architecturally singular exactly on the surface
+//! where a side stands for the point of its line at the fraction `t_k` from the first vertex. They are the inner points
+//! of the hexagon of the octahedral platform: `v_k = (1 - t_k) w_k + t_k w_(k+1)` with the six octahedral leg vectors
+//! `w`. These are independent for any two triangles, so the platform is architecturally singular exactly on the surface
 //!
 //! ```text
 //! det A = prod (1 - t_k) - prod t_k = 0.
 //! ```
 //!
-//! [`assembly`] says which leg lengths a singular platform of this type can be assembled with. On the surface
-//! `det A = 0` the squared lengths `s` determine the octahedral squared lengths `o` behind them up to one parameter,
-//! `A o = s + k`, `k_i = t_i (1 - t_i) d_i^2`, if they satisfy the one affine condition: `o = o_0 + x n` with
-//! `A n = 0`. Each `x` whose octahedral platform has a real pose gives one pose; they form curves. For a real pose six
-//! triangles have to close, those of consecutive legs and the side on which they end: `16 area^2 = 4 o_k d_k^2 - (o_k +
-//! d_k^2 - o_(k+1))^2 >= 0`, concave in `x`: an interval.
+//! [`assembly`] determines the leg lengths with which a singular platform of this type can be assembled. On the surface
+//! `det A = 0` the octahedral squared lengths `o` satisfy `A o = s + k` with `k_i = t_i (1 - t_i) d_i^2`. If the
+//! squared lengths `s` satisfy the single affine condition, they determine `o` up to one parameter: `o = o_0 + x n`
+//! with `A n = 0`. Each `x` whose octahedral platform has a real pose gives one pose; they form curves. A real pose
+//! needs six closed triangles, each of two consecutive legs and the side between their ends. The condition is
+//! `16 area^2 = 4 o_k d_k^2 - (o_k + d_k^2 - o_(k+1))^2 >= 0`. It is concave in `x` and thus gives an interval.
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
@@ -29,7 +29,7 @@ use num::linalg::{LinalgError, svd};
 use platform::geom::Pose;
 use platform::manipulator::{ExactLegs, Manipulator, SquaredLegLengths, flat_dimension, is_collinear};
 
-/// A platform recognised as one of Griffis-Duffy type.
+/// A platform of Griffis-Duffy type.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GriffisDuffy {
     /// Leg (0-based) on side `k` of the hexagon.
@@ -40,18 +40,18 @@ pub struct GriffisDuffy {
     pub sides: [f64; 6],
     /// Largest distance of a joint from the line of its side, design units.
     pub deviation: f64,
-    /// Whether the joints as written lie on the sides and satisfy `det A = 0` without any rounding.
+    /// Whether the joints as written lie exactly on the sides and satisfy `det A = 0` exactly.
     exactly_singular: bool,
 }
 
-/// Joints count as lying on a side within this times the size of the design.
+/// Joints within this times the size of the design of a side count as lying on it.
 const ON_SIDE: f64 = 1e-9;
 
 impl GriffisDuffy {
-    /// Recognises the type in any order of the legs, base and platform as they stand.
+    /// Recognises the type in any order of the legs, with fixed roles of base and platform.
     ///
-    /// Joints may be off their sides by `1e-9` of the size; [`deviation`](Self::deviation) tells how far they are. Of
-    /// several ways the one with the least deviation is taken.
+    /// Joints may be off their sides by `1e-9` of the size; [`deviation`](Self::deviation) is their greatest distance.
+    /// If several ways exist, the one with the least deviation is taken.
     #[must_use]
     pub fn recognise(m: &Manipulator) -> Option<Self> {
         let limit = Self::limit(m);
@@ -67,7 +67,7 @@ impl GriffisDuffy {
         Some(found)
     }
 
-    /// How far a joint of `m` may be off its side, design units.
+    /// Greatest allowed distance of a joint of `m` from its side, design units.
     #[must_use]
     pub fn limit(m: &Manipulator) -> f64 {
         ON_SIDE * m.size()
@@ -93,13 +93,13 @@ impl GriffisDuffy {
         Some(Self { order, t, sides, deviation, exactly_singular: false })
     }
 
-    /// `det A`; the platform is singular where it is zero.
+    /// `det A`; the platform is singular if it is zero.
     #[must_use]
     pub fn determinant(&self) -> f64 {
         offset_determinant(&self.t)
     }
 
-    /// Whether the joints as written lie on their sides and on the surface `det A = 0` exactly.
+    /// Whether the joints as written are exactly on their sides and on the surface `det A = 0`.
     #[must_use]
     pub fn is_exactly_singular(&self) -> bool {
         self.exactly_singular
@@ -135,8 +135,8 @@ impl GriffisDuffy {
     /// The constant of the assembly condition `sum c_i s_i = constant`, with `c` from
     /// [`coefficients`](Self::coefficients): `- sum c t (1 - t) d^2`, `d` the length of the side.
     ///
-    /// Follows from `s_k = (1 - t_k) o_k + t_k o_(k+1) - t_k (1 - t_k) d_k^2` with the octahedral squared lengths `o`,
-    /// which `c` cancels.
+    /// It follows from `s_k = (1 - t_k) o_k + t_k o_(k+1) - t_k (1 - t_k) d_k^2` with the octahedral squared lengths
+    /// `o`, which `c` cancels.
     #[must_use]
     pub fn constant(&self) -> f64 {
         let c = self.coefficients();
@@ -144,7 +144,7 @@ impl GriffisDuffy {
         -(0..6).map(term).sum::<f64>()
     }
 
-    /// How far squared lengths are from the assembly condition, relative to the moduli of its terms.
+    /// Violation of the assembly condition by squared lengths, relative to the moduli of its terms.
     #[must_use]
     pub fn assembly_defect(&self, s: &SquaredLegLengths) -> f64 {
         let (c, constant) = (self.coefficients(), self.constant());
@@ -176,22 +176,22 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), serde(tag = "verdict", rename_all = "snake_case"), schemars(rename = "AssemblyRecord", transform = num::nullable))]
 pub enum Assembly {
-    /// The lengths miss the condition.
+    /// The lengths violate the condition.
     // by more than rounding: there is no pose, real or complex
     Incompatible {
-        /// By how much, relative.
+        /// The relative violation.
         defect: f64,
     },
     /// The triangles of the legs do not close.
     // the condition holds within rounding, and there is no real pose
     NoRealPose {},
-    /// No real pose was found.
+    /// The search found no real pose.
     Undecided {
         /// Squared lengths of the octahedral platforms.
         #[cfg_attr(feature = "serde", serde(rename = "octahedral_squared_lengths"))]
         corners: CornerLengths,
     },
-    /// There is a real pose, and the platform moves.
+    /// There is a real pose, and the platform has a self-motion.
     Real {
         /// The pose.
         pose: Pose,
@@ -209,27 +209,27 @@ pub enum Assembly {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CornerLengthsRecord", transform = num::nullable))]
 pub struct CornerLengths {
     // of the octahedral platforms, in the order of the hexagon
-    /// For x = 0.
+    /// The origin at x = 0.
     // the shortest solution, design units squared
     pub origin: [f64; 6],
-    /// What x multiplies.
+    /// The direction of x.
     // a unit vector with `A direction = 0`
     pub direction: [f64; 6],
-    /// Where x may be.
+    /// The interval of x.
     // there all six triangles close
     pub interval: [f64; 2],
 }
 
-/// The condition counts as satisfied within this: rounding of lengths, squares and offsets.
+/// Threshold of the condition: rounding of lengths, squares and offsets.
 const COMPATIBLE: f64 = 1e-12;
-/// Values of the parameter `x` that the search goes through.
+/// Number of values of the parameter `x` in the search.
 const PARAMETERS: usize = 48;
-/// Angles of the platform that it goes through at each of them.
+/// Number of platform angles at each of them.
 const ANGLES: usize = 120;
-/// Steps of bisection between two of them: to rounding.
+/// Steps of bisection between two of them, down to rounding.
 const BISECTIONS: usize = 60;
 
-/// Decides for a platform on the surface `det A = 0` (nearly: the caller looks at `g.determinant()`).
+/// Decides for a platform on the surface `det A = 0` (nearly: the caller checks `g.determinant()`).
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
@@ -257,7 +257,7 @@ pub fn assembly(g: &GriffisDuffy, m: &Manipulator, s: &SquaredLegLengths) -> Res
     Ok(Assembly::Undecided { corners })
 }
 
-/// The family of octahedral lengths, `None` where the triangles do not close for any parameter.
+/// The family of octahedral lengths; `None` if the triangles do not close for any parameter.
 fn corner_lengths(g: &GriffisDuffy, s: &SquaredLegLengths) -> Result<Option<CornerLengths>, LinalgError> {
     let mut rows = vec![vec![0.0; 6]; 6];
     let mut right = [0.0; 6];
@@ -283,13 +283,13 @@ fn corner_lengths(g: &GriffisDuffy, s: &SquaredLegLengths) -> Result<Option<Corn
     Ok((interval[0] <= interval[1]).then_some(CornerLengths { origin, direction, interval }))
 }
 
-/// Where `c + b x - a x^2 >= 0`, `a >= 0`.
+/// The interval with `c + b x - a x^2 >= 0`, `a >= 0`.
 fn where_positive(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     let root = (b * b + 4.0 * a * c).sqrt();
     if root.is_nan() {
         return None;
     }
-    // the two roots without cancellation; a may vanish, then one is at infinity
+    // the two roots without cancellation; for a = 0 one is at infinity
     let q = 0.5 * (b + if b < 0.0 { -root } else { root });
     if q.abs() <= 0.0 {
         // b = 0, and a = 0 or c = 0
@@ -340,7 +340,7 @@ impl TriangleFrame {
         Self { base, normal, platform, sides: [1, 3, 5].map(|k| g.sides[k].powi(2)) }
     }
 
-    /// Where corner `k` of the platform can be.
+    /// The possible places of corner `k` of the platform.
     fn circle(&self, k: usize, o: &[f64; 6]) -> Option<SideCircle> {
         let (from, to) = (self.base[k], self.base[(k + 1) % 3]);
         let side = to - from;
@@ -355,7 +355,7 @@ impl TriangleFrame {
         })
     }
 
-    /// The corners with the first at `angle`, the others on the branches `first` and `second`.
+    /// The corners with the first at `angle`, and the others on the branches in the bits of `branch`.
     fn corners(&self, circles: &[SideCircle; 3], angle: f64, branch: usize) -> Option<[Vector3<f64>; 3]> {
         let first = circles[0].at(angle);
         let second = circles[1].at_distance(&first, self.sides[0])?[branch % 2];
@@ -363,9 +363,9 @@ impl TriangleFrame {
         Some([first, circles[1].at(second), circles[2].at(third)])
     }
 
-    /// A real pose of the octahedral platform with squared lengths `o`, by changes of sign of the last side.
+    /// A real pose of the octahedral platform with squared lengths `o`, from changes of sign of the last side.
     ///
-    /// The first corner runs over half a circle: the other half has the mirror images.
+    /// The first corner runs over half a circle; the other half has the mirror images.
     fn search(&self, o: &[f64; 6]) -> Option<Pose> {
         let circles = [self.circle(0, o)?, self.circle(1, o)?, self.circle(2, o)?];
         for branch in 0..4 {
@@ -394,7 +394,7 @@ impl TriangleFrame {
         None
     }
 
-    /// The pose that takes the platform triangle to `corners`.
+    /// The pose that maps the platform triangle to `corners`.
     fn pose(&self, corners: &[Vector3<f64>; 3]) -> Option<Pose> {
         let axes = |p: [Vector3<f64>; 3]| {
             let x = (p[1] - p[0]).normalize();

@@ -1,9 +1,7 @@
-//! Decides whether the legs hold the platform at a pose, and along a path of poses: the one test that all commands
-//! share.
+//! Decides whether the legs hold the platform at a pose and along a path of poses; all commands share this test.
 //!
-//! The sign of `det J` is proved by intervals. Where the intervals hold zero, exact arithmetic decides on joints that
-//! are exact. A pose that is left
-//! is singular to rounding: `det J` is not above the rounding errors of its own computation.
+//! Intervals prove the sign of `det J`. If they contain zero, exact arithmetic decides for exact joints. A pose that
+//! remains is singular within rounding: `det J` is not above the rounding errors of its own computation.
 
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3};
 
@@ -13,7 +11,7 @@ use num::surd::{Surd, combination, eliminate};
 use platform::geom::Pose;
 use platform::manipulator::{ExactEnds, Manipulator};
 
-/// What shows that a pose is singular.
+/// The evidence that a pose is singular.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -50,7 +48,7 @@ pub enum PoseHold {
 }
 
 impl PoseHold {
-    /// What shows that the pose is singular, where it is.
+    /// The evidence for a singular pose.
     #[must_use]
     pub fn singular(self) -> Option<SingularEvidence> {
         match self {
@@ -60,7 +58,7 @@ impl PoseHold {
     }
 }
 
-/// Whether the legs hold the platform at a pose. The rotation is that of the rounded quaternion of the pose, exactly.
+/// Whether the legs hold the platform at a pose. The rotation is exactly that of the rounded quaternion of the pose.
 #[must_use]
 pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
     if let Some(sign) = signs_along(m, pose, pose).kept().or_else(|| sign_in_scale(m, pose)) {
@@ -72,12 +70,12 @@ pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
     }
 }
 
-/// The sign of `det J` with moments about the mean of the platform ends and lengths over the size of the platform, so
-/// that a platform far smaller than the base is judged by its own size. `None` where the determinant may be zero to
+/// The sign of `det J` with moments about the mean of the platform ends and lengths over the size of the platform. A
+/// small platform over a large base is thus judged by its own size. `None` if the determinant may be zero within
 /// rounding.
 ///
-/// Rows `[u_i, (r_i x u_i) / rho]` have norms of at most `sqrt(7)`, and each is off by `err` at most, so that the
-/// determinant is off by `6 err 7^(5/2) < 800 err` (Hadamard); the elimination adds less than as much again.
+/// Rows `[u_i, (r_i x u_i) / rho]` have norms of at most `sqrt(7)` and errors of at most `err`. The determinant error
+/// is then at most `6 err 7^(5/2) < 800 err` (Hadamard); elimination adds at most as much again.
 fn sign_in_scale(m: &Manipulator, pose: &Pose) -> Option<Sign> {
     let legs = m.legs();
     let centre = legs.iter().map(|leg| leg.platform.coords).sum::<Vector3<f64>>() / 6.0;
@@ -112,18 +110,18 @@ pub struct SingularOnPath {
     pub at: f64,
     /// The pose there.
     pub pose: Pose,
-    /// What shows it.
+    /// The evidence.
     pub evidence: SingularEvidence,
 }
 
-/// The first singular pose of a path of Bezier curves, each of which begins where the one before ends; `None` where
-/// every pose is proved to be regular.
+/// The first singular pose of a path of Bezier curves, each beginning at the end of the one before. `None` if every
+/// pose is proved to be regular.
 #[must_use]
 pub fn singular_along<'a>(
     m: &Manipulator,
     curves: impl IntoIterator<Item = &'a [ControlPoint]>,
 ) -> Option<SingularOnPath> {
-    // the sign before the open pieces, which may reach over the ends of curves, and the first of these
+    // the sign before the open pieces, which may extend over the ends of curves, and the first of these
     let mut before = None;
     let mut open: Option<SingularOnPath> = None;
     for (curve, control) in curves.into_iter().enumerate() {
@@ -168,8 +166,8 @@ fn on_curve(control: &[ControlPoint], u: f64) -> Pose {
     Pose { rotation: turn.to_rotation_matrix(), position: Vector3::new(x, y, z) }
 }
 
-/// Whether the leg lines are dependent, in exact arithmetic; `None` where joints are not known exactly, or numbers
-/// become too long.
+/// Whether the leg lines are dependent, in exact arithmetic; `None` if joints are not known exactly, or numbers become
+/// too long.
 fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
     let ends = m.exact_ends()?;
     let number = |x: f64| Surd::rational(&rational(x)?);
@@ -212,8 +210,8 @@ mod tests {
     use num::Rng;
     use platform::geom::random_rotation;
 
-    /// Platforms of all sizes beside a base of one: the sign is that of the intervals where these decide, and a
-    /// platform of a ten-millionth is held as one of a half is.
+    /// Platforms of all sizes over a base of size one. The sign is that of the intervals if these decide. A platform of
+    /// a ten-millionth is held in the same way as one of a half.
     #[test]
     fn the_size_of_the_platform_decides_nothing() {
         let mut rng = Rng::new(5);

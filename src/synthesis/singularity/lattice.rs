@@ -1,13 +1,13 @@
 //! The generic rank of the Jacobian, decided exactly at finitely many poses.
 //!
-//! Theorem (proof in `docs/theory/architectural-singularity.md`). With the rotation of the Cayley vector `c` every
-//! minor of the matrix of leg lines, times `(1 + c.c)^3`, is a polynomial of degree at most 6 in `c` and at most 3 in
-//! `p`. It is zero at all poses as soon as it is zero at the 84 x 20 poses with `c` in `{i + j + k <= 6}` and `p` in
-//! `{i + j + k <= 3}` (natural numbers; `p` in any unit).
+//! Theorem (proof in `docs/theory/architectural-singularity.md`). With the rotation of the Cayley vector `c`, take a
+//! minor of the matrix of leg lines times `(1 + c.c)^3`. It is a polynomial of degree at most 6 in `c` and at most 3 in
+//! `p`. It vanishes at all poses if it vanishes at the 84 x 20 poses of a lattice. These have `c` in `{i + j + k <= 6}`
+//! and `p` in `{i + j + k <= 3}` (natural numbers; `p` in any unit).
 //!
-//! Minors are looked at modulo primes. With a common denominator of the coordinates taken out a minor is an algebraic
-//! integer of a field of degree `n`, and so are its conjugates, none of which exceeds `B` (Hadamard). Its norm is an
-//! integer below `B^n`, which every prime divides whose residue field has the minor zero: it is zero when the product
+//! Minors are computed modulo primes. Without the common denominator of the coordinates, a minor is an algebraic
+//! integer of a field of degree `n`, as are its conjugates. None of them exceeds `B` (Hadamard). Its norm is an integer
+//! below `B^n`. A prime divides it if the minor is zero in one of its residue fields. The minor is zero if the product
 //! of these primes is `B^n` or more. Doubles are the case `n = 1`.
 
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
@@ -18,8 +18,7 @@ use num::small::singular_values;
 use platform::geom::Pose;
 use platform::manipulator::{ExactJoints, LegResidues, Manipulator, plucker_matrix};
 
-/// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design
-/// unit.
+/// A pose with integer numbers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RationalPose {
     /// Quaternion, scalar part first, of any norm.
@@ -31,7 +30,7 @@ pub struct RationalPose {
 }
 
 impl RationalPose {
-    /// The pose in doubles; the position is exact where it has at most 53 bits.
+    /// The pose in doubles; the position is exact up to 53 bits.
     #[must_use]
     pub fn pose(&self) -> Pose {
         let [w, x, y, z] = self.quaternion.map(|n| n as f64);
@@ -47,23 +46,23 @@ impl RationalPose {
     }
 }
 
-/// What is known of the rank of the leg lines at almost all poses.
+/// The rank of the leg lines at almost all poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GenericRank {
     /// The rank at all poses but a set of measure zero; no pose has a greater one.
     pub rank: usize,
-    /// A pose that has it: the rank is not less.
+    /// A pose with this rank, which proves that it is not less.
     pub witness: RationalPose,
-    /// Why it is not greater.
+    /// The proof that it is not greater.
     pub bound: RankBound,
 }
 
-/// Why the rank is nowhere greater.
+/// The proof that the rank is nowhere greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RankBound {
-    /// There are no more legs.
+    /// The number of legs bounds it.
     Legs,
-    /// The lines are linear in the leg vectors, and these have no greater rank.
+    /// The lines are linear in the leg vectors, whose rank bounds it.
     LegVectors,
     /// All greater minors vanish at all poses of the lattice, exactly.
     Lattice {
@@ -74,9 +73,9 @@ pub enum RankBound {
     },
 }
 
-/// Degree in the Cayley vector and in the position; see the module.
+/// Degree in the Cayley vector and in the position; see the module documentation.
 const DEGREES: [i64; 2] = [6, 3];
-/// Candidates among which the witness is chosen.
+/// Number of candidates for the witness.
 const CANDIDATES: u64 = 96;
 
 /// The generic rank of the lines of some legs of `m`, whose joints are `joints`; `leg_rank` is the exact rank of their
@@ -119,12 +118,12 @@ pub(crate) fn rank_at_least(legs: &LegResidues, chosen: &[usize], pose: &Rationa
     legs.field.rank(rows_at(legs, chosen, pose))
 }
 
-/// Poses with small numbers that hold the platform as well as any, best first.
+/// Poses with small numbers and good conditioning, best first.
 pub(crate) fn candidate_poses(m: &Manipulator) -> impl Iterator<Item = RationalPose> {
     candidates(m, unit_of(m), 6).into_iter()
 }
 
-/// The power of two next below the size of the design.
+/// The exponent of the power of two below the size of the design.
 fn unit_of(m: &Manipulator) -> i32 {
     m.size().log2().floor().clamp(-1000.0, 1000.0) as i32
 }
@@ -142,8 +141,8 @@ pub(super) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
     })
 }
 
-/// Poses with small numbers around the middle of the design, first those whose lines are the furthest from having a
-/// rank below `leg_rank`, by singular values: those beyond that rank are rounding errors.
+/// Poses with small numbers around the middle of the design. The first are those whose lines are farthest from a rank
+/// below `leg_rank`, by singular values; singular values beyond that rank are rounding errors.
 fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> {
     let mut rng = Rng::new(0);
     let mut digit = |reach: i64| (rng.next_u64() % (2 * reach.cast_unsigned() + 1)).cast_signed() - reach;
@@ -156,7 +155,7 @@ fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> 
         let mut pose = RationalPose { quaternion, steps: offset, unit };
         let middle = (base - pose.pose().rotation * platform) / step;
         for (s, c) in pose.steps.iter_mut().zip(middle.iter()) {
-            // frames with a far origin: more steps than an integer holds are left out
+            // frames with a distant origin: skip step counts beyond the range of integers
             if c.abs() < 2f64.powi(50) {
                 *s += c.round() as i64;
             }
@@ -170,17 +169,17 @@ fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> 
     list.into_iter().map(|(_, pose)| pose).collect()
 }
 
-/// Primes whose product exceeds the norm of every minor of so many legs at every pose of the lattice, with a common
-/// denominator taken out of the coordinates.
+/// Number of primes whose product exceeds the norm of every minor of `legs` legs at every pose of the lattice. The
+/// common denominator of the coordinates is taken out.
 ///
-/// With `X` a bound of `|a| + |b| + |p|` (scaled, at least 1) and `N = q.q` a row `(N (p - a) + M b, a x (N p + M b))`
-/// is shorter than `N X (1 + X) <= 2 N X^2`, and a minor is less than the product of its rows (Hadamard). So are its
-/// conjugates.
+/// Let `X` bound `|a| + |b| + |p|` (scaled, at least 1), and `N = q.q`. A row `(N (p - a) + M b, a x (N p + M b))` is
+/// then shorter than `N X (1 + X) <= 2 N X^2`. A minor is less than the product of its rows (Hadamard). The same holds
+/// for its conjugates.
 fn primes_needed([denominator, magnitude]: [i64; 2], degree: usize, legs: usize, unit: i32) -> usize {
     // lattice positions are shorter than 2^2 units, and multiples of one unit
     let (unit, denominator) = (i64::from(unit), denominator.max(-i64::from(unit)));
     let largest = magnitude.max(unit + 2);
-    // three vectors, each at most sqrt 3 times its largest coordinate: below 2^3 times the largest of all
+    // three vectors, each at most sqrt 3 times its largest coordinate: below 2^3 times the overall largest coordinate
     let sum = (largest + denominator + 3).max(0).cast_unsigned();
     // N <= 1 + 6^2 < 2^6
     let row = 6 + 1 + 2 * sum;
@@ -330,7 +329,7 @@ mod tests {
             let n = pose.quaternion.iter().map(|x| (x * x) as f64).sum::<f64>();
             let j = plucker_matrix(&m, &pose.pose(), 1.0);
             let rows = j.row_iter().map(|r| (r.norm() * n).log2()).sum::<f64>();
-            // three columns carry one factor of the scale, three two
+            // three columns have one factor of the scale, three have two
             rows + 12.0 * scale.log2()
         });
         let largest = largest.fold(0.0, f64::max);

@@ -12,10 +12,10 @@ use num::poly::{FieldPoly, RootCount, without_common_factor};
 use num::surd::Surd;
 use platform::manipulator::{JointKnowledge, Manipulator};
 
-/// `det J` is of this degree in the position at most.
+/// Greatest degree of `det J` in the position.
 const POSITION_DEGREE: usize = 3;
 
-/// An exact pose: its position, and a quaternion of any norm but zero, scalar first.
+/// An exact pose: its position, and a nonzero quaternion of any norm, scalar first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactPose {
     /// The position.
@@ -24,7 +24,7 @@ pub struct ExactPose {
     pub quaternion: [Surd; 4],
 }
 
-/// Poses around one.
+/// A family of poses around a given one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PoseFamily {
     /// Every position at the orientation of the pose.
@@ -38,28 +38,28 @@ pub enum PoseFamily {
 /// The coefficients of a polynomial, each with its exponents.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LocusCoefficients {
-    /// Exact ones: integers without a common factor where the ratios are fractions, else with a leading 1.
+    /// Exact coefficients: integers without a common factor if the ratios are fractions, otherwise with a leading 1.
     Exact(Vec<(Vec<usize>, Algebraic)>),
-    /// Enclosures, where joints are known between bounds only.
+    /// Enclosures, if joints are known only between bounds.
     Enclosed(Vec<(Vec<usize>, Interval)>),
 }
 
 /// `det J` on a family of poses, up to a constant factor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocusPolynomial {
-    /// The terms: one unknown is `u`, three are the coordinates of the position.
+    /// The terms: one unknown is `u`; three unknowns are the coordinates of the position.
     pub coefficients: LocusCoefficients,
-    /// The degree with the powers of the norm of the quaternion; `None` for zero.
+    /// The degree including the powers of the norm of the quaternion; `None` for zero.
     pub degree_before: Option<usize>,
     /// The degree; `None` for zero: every pose of the family is singular.
     pub degree: Option<usize>,
-    /// The square of the length of the axis, and the power of `1 + n^2 u^2` that was taken out.
+    /// The square of the length of the axis, and the removed power of `1 + n^2 u^2`.
     pub removed: Option<(Algebraic, usize)>,
-    /// The roots of exact polynomials in one unknown that are not zero.
+    /// The roots of nonzero exact polynomials in one unknown.
     pub roots: Option<RootCount>,
 }
 
-/// Numbers that sums of products are made of.
+/// Number types for sums of products.
 trait Term: Clone {
     fn integer(n: i64) -> Self;
     fn plus(&self, other: &Self) -> Self;
@@ -231,9 +231,9 @@ fn laplace<N: Term>(rows: &[[TermVector<N>; 2]]) -> Terms<N> {
     sum
 }
 
-/// `det J` on a family of poses. `None` where numbers of the pose have too many square roots beside those of the joints.
+/// `det J` on a family of poses. `None` if numbers of the pose have too many square roots besides those of the joints.
 ///
-/// Exact where the joints are known exactly; enclosed by intervals where they are not.
+/// The result is exact if the joints are known exactly; otherwise intervals enclose it.
 #[must_use]
 pub fn locus_polynomial(m: &Manipulator, pose: &ExactPose, family: &PoseFamily) -> Option<LocusPolynomial> {
     let zero = [Surd::zero(), Surd::zero(), Surd::zero()];
@@ -280,7 +280,7 @@ fn enclosure(x: &Surd) -> Interval {
     bounds.unwrap_or(Interval::WHOLE)
 }
 
-/// What cancels in exact numbers is left out: powers of the position above the third.
+/// Drops terms that cancel in exact numbers: powers of the position above the third.
 fn enclosed(found: Terms<Interval>, family: &PoseFamily) -> LocusPolynomial {
     let (width, most) = match family {
         PoseFamily::Positions => (3, POSITION_DEGREE),
@@ -366,7 +366,7 @@ mod tests {
         }
     }
 
-    /// Values of the polynomial over those of det J are one number at all poses of the family.
+    /// The ratio of the polynomial to det J is constant over all poses of the family.
     #[test]
     fn the_polynomials_are_det_j() {
         let mut rng = Rng::new(3);

@@ -1,6 +1,6 @@
-//! A lower bound of the distance to the nearest singular design, from one well conditioned pose.
+//! A lower bound of the distance to the nearest singular design, from one well-conditioned pose.
 //!
-//! An architecturally singular design has dependent lines at every pose, also at the one looked at. With `e = R b + p`
+//! An architecturally singular design has dependent lines at every pose, including the chosen one. With `e = R b + p`
 //! and moments about a point `o` in units of `L` the row of a leg is `(e - a, (a - o) x (e - o) / L)`. When its ends
 //! move by `da` and `db`, `|da|^2 + |db|^2 = d^2`, it changes by at most
 //!
@@ -9,9 +9,9 @@
 //! ```
 //!
 //! and the matrix, in Frobenius norm, by at most `sqrt(k) D sqrt(2 + (G + D / 2)^2 / L^2)` for a change `D` of all
-//! joints, `k` the most legs at one joint and `G` the largest `g`. As long as this is below the smallest singular value
-//! the lines stay independent (Weyl). Doubles choose the pose; the bound there is computed with intervals, the joints
-//! and the quaternion being taken as the numbers they are.
+//! joints. Here `k` is the greatest number of legs at one joint and `G` the largest `g`. As long as this is below the
+//! smallest singular value the lines stay independent (Weyl). Doubles choose the pose; intervals compute the bound
+//! there, with the joints and the quaternion as exact numbers.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -22,13 +22,13 @@ use platform::geom::enclosed::{IntervalMatrix, IntervalVector, apply, cross, exa
 use platform::geom::{CentredPoses, Pose};
 use platform::manipulator::Manipulator;
 
-/// Random poses that are looked at.
+/// Number of random poses.
 const POSES: usize = 300;
-/// Random steps from the best of them.
+/// Number of random steps from the best of them.
 const CLIMB: usize = 300;
 
-/// No design within this distance of `m` (norm of the change of all joints, design units) is architecturally singular:
-/// proved, rounding included; 0 where nothing was proved.
+/// Proved distance, rounding included, within which no design is architecturally singular: norm of the change of all
+/// joints, design units. It is 0 without a proof.
 #[must_use]
 pub fn singular_distance_at_least(m: &Manipulator, seed: u64) -> f64 {
     let mut rng = Rng::new(seed);
@@ -55,7 +55,7 @@ pub fn singular_distance_at_least(m: &Manipulator, seed: u64) -> f64 {
     proved_at_pose(m, &best.1)
 }
 
-/// The bound from one pose, in doubles: it chooses the pose, and proves nothing.
+/// The bound from one pose in doubles, which chooses the pose and proves nothing.
 fn at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     let ends = m.legs().map(|l| (l.base.coords, pose.transform(&l.platform).coords));
     let middle = middle(&ends);
@@ -66,7 +66,7 @@ fn at_pose(m: &Manipulator, pose: &Pose) -> f64 {
         let (n, moment) = (e - a, a.cross(&e) / unit);
         Vector6::new(n.x, n.y, n.z, moment.x, moment.y, moment.z).transpose()
     });
-    // change(d) is close to linear up to the distances that matter
+    // change(d) is nearly linear over the relevant distances
     singular_values(&Matrix6::from_rows(&rows)).map_or(0.0, |s| s.min())
         / (2.0 * most_legs_at_a_joint(m)).sqrt()
 }
@@ -82,12 +82,12 @@ fn most_legs_at_a_joint(m: &Manipulator) -> f64 {
     (0..6).map(most).max().unwrap_or(6) as f64
 }
 
-/// The bound from one pose, proved: every step encloses what it computes. 0 where nothing is proved.
+/// The proved bound from one pose: every step encloses its result. It is 0 without a proof.
 pub(super) fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     let rotation = exact_rotation(pose);
     let point = |v: &Vector3<f64>| -> IntervalVector { std::array::from_fn(|k| Interval::from(v[k])) };
     let place = point(&pose.position);
-    // any double will do as the origin of moments, and as their unit
+    // any double is valid as the origin of moments, and as their unit
     let origin = middle(&m.legs().map(|l| (l.base.coords, pose.transform(&l.platform).coords)));
     let origin = point(&origin);
     let from_origin = |v: IntervalVector| -> IntervalVector { std::array::from_fn(|k| v[k] - origin[k]) };
@@ -120,7 +120,7 @@ pub(super) fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
         let lever = (reach + d * Interval::from(0.5)).checked_div(unit)?;
         Some((most.sqrt()? * d * (Interval::from(2.0) + lever.square()).sqrt()?).hi())
     };
-    // increasing in d: the largest d that was seen to satisfy change(d) <= allowed
+    // increasing in d: the largest d known to satisfy change(d) <= allowed
     let (mut low, mut high) = (0.0, allowed);
     for _ in 0..80 {
         let d = f64::midpoint(low, high);
@@ -129,8 +129,8 @@ pub(super) fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     low
 }
 
-/// A number that the smallest singular value of every matrix in `j` exceeds: with `B` near the inverse and
-/// `|I - B j| <= e < 1`, `|1 / j| <= |B| / (1 - e)`, and `|B|^2 < x` when `x I - B^T B` is positive definite.
+/// A lower bound of the smallest singular value of every matrix in `j`. With `B` near the inverse and
+/// `|I - B j| <= e < 1`, `|1 / j| <= |B| / (1 - e)`. `|B|^2 < x` holds if `x I - B^T B` is positive definite.
 fn smallest_singular_value(j: &IntervalMatrix) -> Option<f64> {
     let inverse = Matrix6::from_fn(|r, c| j[r][c].centre_and_radius().0).try_inverse()?;
     let one = Interval::from(1.0);
@@ -154,7 +154,7 @@ fn smallest_singular_value(j: &IntervalMatrix) -> Option<f64> {
     Some(shrink.checked_div(Interval::from(bound))?.lo())
 }
 
-/// Whether all pivots of elimination are proved to be positive.
+/// Whether all pivots of the elimination are proved to be positive.
 fn is_positive_definite(mut m: IntervalMatrix) -> bool {
     for k in 0..6 {
         if m[k][k].lo() <= 0.0 {

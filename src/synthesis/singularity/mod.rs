@@ -1,13 +1,13 @@
-//! Finds out where, and whether at all, the legs hold the platform.
+//! Decides at which poses, if at all, the legs hold the platform.
 //!
-//! *Architectural singularity*: platforms that no pose can hold, decided exactly and explained. *Parallel
-//! singularities*: single poses at which the legs do not hold the platform, and boxes of poses without any.
-//! *Self-motions*: curves of poses with constant leg lengths.
+//! *Architectural singularity*: platforms that are singular at every pose, decided exactly and explained. *Parallel
+//! singularities*: singular poses, and boxes of poses without any. *Self-motions*: curves of poses with constant leg
+//! lengths.
 //!
-//! A design is *architecturally singular* when its six leg lines are dependent at every pose. [`Architecture::of`]
-//! decides it about the joints as written: the exact joints of a design with constructions, the binary numbers of plain
-//! ones. [`SingularityVerdict`] is what every command says of it: plain numbers may be rounded values of a singular
-//! design. Theory: `docs/theory/architectural-singularity.md`.
+//! A design is *architecturally singular* if its six leg lines are dependent at every pose. [`Architecture::of`]
+//! decides it for the joints as written: the exact joints of a design with constructions, or the binary numbers of
+//! plain ones. [`SingularityVerdict`] is the common verdict of all commands: plain numbers may be rounded values of a
+//! singular design. Theory: `docs/theory/architectural-singularity.md`.
 
 mod case;
 mod conditioning;
@@ -53,30 +53,30 @@ use self::dependency::subsets_by_size;
 use self::lattice::{candidate_poses, generic_rank, rank_at_least};
 use platform::manipulator::{ExactJoints, ExactLegs, Level, Manipulator};
 
-/// The answer for a design as it is written, with what proves it.
+/// The answer for a design as written, with its proof.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Architecture {
-    /// The joints that the answer is proved about; `None` where nothing is proved, because joints are known between
-    /// bounds only: then the ranks are those of the middles.
+    /// The joints of the proof. `None` without a proof, if joints are known only between bounds: then the ranks are
+    /// those of the middles.
     pub level: Option<Level>,
     /// Rank of the six leg vectors, exact.
     pub leg_rank: usize,
     /// Rank of the six leg lines at almost all poses, exact.
     pub jacobian: GenericRank,
-    /// All smallest sets of legs with dependent vectors.
+    /// All minimal sets of legs with dependent vectors.
     pub dependencies: Vec<Dependency>,
-    /// The cases it falls under, most telling first; empty for a regular design.
+    /// Its cases, the most specific first; empty for a regular design.
     pub findings: Vec<Finding>,
-    /// The offsets on the sides of two triangles, where the design is of that type.
+    /// The offsets on the sides of two triangles, if the design is of that type.
     pub griffis_duffy: Option<GriffisDuffy>,
 }
 
 impl Architecture {
-    /// Decides the design as it is written: no tolerance takes part.
+    /// Decides the design as written, without any tolerance.
     ///
-    /// Joints that are numbers of a field of square roots are decided in that field, doubles as the rational numbers
-    /// they are. Joints between bounds are decided where one pose is proved to hold the platform whatever they are;
-    /// otherwise nothing is ([`level`](Self::level)).
+    /// Joints in a field of square roots are decided in that field, doubles as rational numbers. Joints between bounds
+    /// are decided if one pose is proved to be regular for all of them; otherwise nothing is decided
+    /// ([`level`](Self::level)).
     #[must_use]
     pub fn of(m: &Manipulator) -> Self {
         let level = m.level();
@@ -111,7 +111,7 @@ impl Architecture {
             findings = case::positional(legs);
             for d in &dependencies {
                 let finding = case::of_dependency(legs, d, griffis_duffy.as_ref());
-                // four legs of five from one point depend as well: the point says it once
+                // four legs of five from one point are dependent too; the point is reported once
                 if !findings
                     .iter()
                     .any(|f| f.case == finding.case && d.legs.iter().all(|i| f.legs.contains(i)))
@@ -126,26 +126,25 @@ impl Architecture {
         Some(Self { level: Some(level), leg_rank, jacobian, dependencies, findings, griffis_duffy })
     }
 
-    /// Whether the leg lines are dependent at every pose; `None` where that is not decided.
+    /// Whether the leg lines are dependent at every pose; `None` if undecided.
     #[must_use]
     pub fn is_singular(&self) -> Option<bool> {
         self.level.map(|_| self.jacobian.rank < 6)
     }
 }
 
-/// Whether a regular design has doubles that are singular: what follows its legs in doubles follows those of another
-/// design.
+/// Whether a regular design is singular in doubles: computations in doubles then use the legs of another design.
 pub fn rounds_to_singular(m: &Manipulator) -> bool {
     m.level() == Level::ExactJoints
         && Architecture::of(m).is_singular() == Some(false)
         && Architecture::of(&m.without_values()).is_singular() == Some(true)
 }
 
-/// A smallest set of legs whose lines are dependent at every pose, for a design with independent leg vectors.
+/// A minimal set of legs with dependent lines at every pose, for a design with independent leg vectors.
 fn guilty_lines(m: &Manipulator, joints: &ExactJoints, jacobian: &GenericRank) -> Vec<usize> {
     let modulo = joints.residues().next();
     let suspect = |s: &Vec<usize>| {
-        // one pose sorts most sets out before the proof is asked
+        // one pose excludes most sets before the proof is needed
         modulo.as_ref().is_some_and(|legs| rank_at_least(legs, s, &jacobian.witness) < s.len())
             && generic_rank(m, joints, s, s.len()).is_some_and(|found| found.rank < s.len())
     };

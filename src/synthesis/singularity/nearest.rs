@@ -1,15 +1,14 @@
-//! How far a design is from being architecturally singular.
+//! The distance of a design from architectural singularity.
 //!
-//! Distance is the Euclidean norm of the change of all joints together, design units; a shared joint moves as one. What
-//! is found is an explicit singular design, hence an upper bound of the distance; nothing is claimed about the best
-//! one.
+//! Distance is the Euclidean norm of the change of all joints together, design units; a shared joint moves as one. The
+//! result is an explicit singular design, hence an upper bound of the distance; the optimum may be smaller.
 //!
 //! The nearest design with a relation between its leg vectors is found by Gauss-Newton steps on joints and relation
-//! together. Minimise `|y|^2` over changes `y` of the joints and unit vectors `c` with `F = sum c_i v_i(x_0 + y) = 0`
-//! (sixteen equations). Each step solves the linearised problem: the part of the equations that a change of `c` cannot
-//! reach is met by the least `y`, the rest by `c`.
+//! together. They minimise `|y|^2` over changes `y` of the joints and unit vectors `c` with
+//! `F = sum c_i v_i(x_0 + y) = 0` (sixteen equations). Each step solves the linearised problem. The least `y` meets the
+//! part of the equations that a change of `c` cannot reach; `c` meets the rest.
 //!
-//! The nearest designs in which joints meet or line up so that no pose is held are known in closed form.
+//! Closed forms give the nearest designs that are singular since joints coincide or are collinear.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 
@@ -26,24 +25,24 @@ use platform::manipulator::{Body, InvalidManipulator, Level, Manipulator};
 pub struct NearestSingular {
     /// Norm of the change of all joints, design units.
     pub distance: f64,
-    /// What makes it singular: a name as in [`Case::name`](super::Case::name).
+    /// The kind of singularity: a name as in [`Case::name`](super::Case::name).
     pub kind: &'static str,
-    /// The legs (0-based) that depend on each other there.
+    /// The dependent legs (0-based).
     pub legs: Vec<usize>,
-    /// The relation between leg vectors, where that is what makes it singular; of norm 1.
+    /// The relation between leg vectors, if it causes the singularity; of norm 1.
     pub coefficients: Option<[f64; 6]>,
-    /// Base joints of the singular design, in the order of the manipulator; joints no leg uses stay.
+    /// Base joints of the singular design, in the order of the manipulator; unused joints stay.
     pub base: Vec<Point3<f64>>,
     /// Its platform joints.
     pub platform: Vec<Point3<f64>>,
-    /// What rounding of these joints leaves: smallest over largest singular value of the normalised leg vectors for a
-    /// relation between them, otherwise 0.
+    /// The rounding residual of these joints. It is the ratio of smallest to largest singular value of the normalised
+    /// leg vectors for a relation between them, otherwise 0.
     pub residual: f64,
-    /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body: rounding of the file
-    /// may hide it.
+    /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body, so that rounding of
+    /// the file may hide the change.
     pub within_rounding: bool,
-    /// Half a unit of the last decimal that is given, design units, where no coordinate changes by more: the design is
-    /// singular to the digits given.
+    /// Half a unit of the last given decimal, design units, if no coordinate changes by more. The design is then
+    /// singular to the given digits.
     pub within_digits: Option<f64>,
 }
 
@@ -54,7 +53,7 @@ impl NearestSingular {
         self.within_rounding || self.within_digits.is_some()
     }
 
-    /// What a design near this one is called where this one may be meant; lengths in `units`.
+    /// The relation to this design in words, if it may be the intended one; lengths in `units`.
     #[must_use]
     pub fn words(&self, units: &str) -> String {
         match self.within_digits.filter(|_| !self.within_rounding) {
@@ -64,13 +63,13 @@ impl NearestSingular {
     }
 }
 
-/// The singular design that plain doubles may be rounded values of, if any; asked of designs that are regular as
-/// written.
+/// The singular design whose rounded values the plain doubles may be, if any; only called for designs that are regular
+/// as written.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
 pub(super) fn rounded_singular(m: &Manipulator) -> Result<Option<NearestSingular>, LinalgError> {
-    // a design that one pose proves farther from every singular one than rounding reaches needs no search
+    // if one pose proves a distance from singular designs beyond rounding, no search is needed
     let reach = ROUNDING * largest(m.base_joints()).max(largest(m.platform_joints()));
     let reach = 6.0 * half_unit_given(m).map_or(reach, |half| reach.max(half));
     if candidate_poses(m).take(4).any(|pose| proved_at_pose(m, &pose.pose()) > reach) {
@@ -83,8 +82,8 @@ fn largest(points: &[Point3<f64>]) -> f64 {
     points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
 }
 
-/// Half a unit of the last decimal of the coordinates as they are written, design units; `None` where it is a large
-/// share of the design, so that the numbers are not meant to be rounded.
+/// Half a unit of the last decimal of the coordinates as written, design units. `None` if it is a large share of the
+/// design, so that the numbers are not rounded values.
 fn half_unit_given(m: &Manipulator) -> Option<f64> {
     let decimals = |x: f64| format!("{x}").split_once('.').map_or(0, |(_, digits)| digits.len());
     let used = m.legs().into_iter().flat_map(|leg| [leg.base, leg.platform]);
@@ -109,20 +108,20 @@ impl Change {
     }
 }
 
-/// Seed of the search for a singular design that may have been meant: the verdict on a design is one, whatever seed a
-/// command is given.
+/// Fixed seed of the search for an intended singular design: the verdict on a design must not depend on the seed of a
+/// command.
 const SEED: u64 = 1;
 /// Share of the largest coordinate that counts as rounding: eight half units in its last place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
-/// Digits that are a greater share of the size than this are the design, not a rounding of it.
+/// Digits of a greater share of the size than this belong to the design and are no rounding.
 const COARSE: f64 = 1.0 / 512.0;
-/// Two distances that differ by less than this are one.
+/// Two distances that differ by less than this count as equal.
 const SAME: f64 = 1e-6;
 /// Random starts besides the six singular vectors.
 const STARTS: u64 = 12;
 
-/// The nearest singular design found: closed forms for joints that have to meet or to line up, local optimisation from
-/// several starts (with `seed`) for relations between leg vectors.
+/// The nearest singular design found. Closed forms serve joints that must coincide or be collinear; local optimisation
+/// from several starts (with `seed`) serves relations between leg vectors.
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
@@ -134,7 +133,7 @@ pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSing
     let searched =
         least(UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
     let best = match (closed, searched) {
-        // a design found both ways is the exact one, whatever rounding says
+        // if both ways find the same design, take the exact one regardless of rounding
         (Some(x), Some(y)) => Some(if x.norm() <= y.norm() * (1.0 + SAME) { x } else { y }),
         (x, y) => x.or(y),
     };
@@ -173,7 +172,7 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
     })
 }
 
-/// Where the search begins: a unit vector of coefficients.
+/// The start of the search: a unit vector of coefficients.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct UnitCoefficients([f64; 6]);
 
@@ -199,13 +198,13 @@ const STEPS: usize = 60;
 const STRIDE: f64 = 0.3;
 /// Largest `|F|` at the end, in the normalised coordinates.
 const SOLVED: f64 = 1e-13;
-/// Smaller steps than this end the search: what they leave in `F` is their square.
+/// Smaller steps than this end the search: they leave their square in `F`.
 const SETTLED: f64 = 1e-10;
-/// Legs with a smaller share in the relation count as not taking part.
+/// Legs with a smaller share in the relation count as outside it.
 const SHARE: f64 = 1e-7;
 
-/// Coordinates below this, relative to the size, are left out of the search; what it finds is measured from the joints
-/// as they are.
+/// Coordinates below this, relative to the size, are ignored in the search; results are measured from the original
+/// joints.
 const LEAST: f64 = 1e-100;
 
 /// Joints in use, centred and scaled to the size.
@@ -229,8 +228,8 @@ impl NearestProblem {
             let first = at[list[0]];
             let mean = list.iter().map(|j| at[*j] - first).sum::<Vector3<f64>>() / list.len() as f64;
             let scaled = |j: &usize| (at[*j] - first - mean) / m.size();
-            // parts that no sum with a part of order one can hold: products of them are below the range of doubles,
-            // where iterations do not settle
+            // parts too small for any sum with a part of order one: their products underflow, so iterations would not
+            // converge
             let held = |x: f64| if x.abs() < LEAST { 0.0 } else { x };
             x.extend(list.iter().flat_map(|j| scaled(j).iter().map(|x| held(*x)).collect::<Vec<_>>()));
         }
@@ -268,7 +267,7 @@ impl NearestProblem {
     }
 }
 
-/// Follows one start; `None` when it does not settle on a design with a relation.
+/// Follows one start; `None` if it does not converge to a design with a relation.
 fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
     let problem = NearestProblem::of(m);
     let mut x = problem.start.clone();
@@ -278,7 +277,7 @@ fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
         let f = &v * &c;
         let by_x = problem.by_joints(&x, &c);
         let reached = bounded_svd(&tangent(&v, &c))?;
-        // columns of U with a singular value: what a change of c reaches
+        // columns of U with a singular value: the range of changes of c
         let u = reached.u.as_ref()?;
         let limit = 1e-10 * reached.singular_values.max();
         let kept: Vec<usize> = (0..5).filter(|k| reached.singular_values[*k] > limit).collect();
@@ -305,9 +304,9 @@ fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
     (residual < SOLVED).then(|| change(m, &problem, &x, &c))
 }
 
-/// An orthonormal basis of the vectors at right angles to `c`, as 6 x 5.
+/// An orthonormal basis of the vectors perpendicular to `c`, as 6 x 5.
 fn basis_across(c: &DVector<f64>) -> DMatrix<f64> {
-    // Householder: the reflection that takes the first axis to c takes the others to a basis
+    // Householder: the reflection that maps the first axis to c maps the others to a basis
     let mut h = c.clone();
     let sign = if h[0] < 0.0 { -1.0 } else { 1.0 };
     h[0] += sign;
@@ -343,11 +342,11 @@ fn change(m: &Manipulator, problem: &NearestProblem, x: &DVector<f64>, c: &DVect
     Change { kind: "leg_vectors_dependent", legs, coefficients: Some(coefficients), base, platform }
 }
 
-/// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a
-/// collinear body, three legs of a pencil, a bundle and a pencil with a common line.
+/// The nearest member of each simple family. The families are coincident legs, four legs at one point, all legs through
+/// two points, a collinear body, three legs of a pencil, and a bundle and a pencil with a common line.
 ///
-/// Each is the least change within its family: points that have to meet meet in their centroid, points that have to
-/// line up go to the line through their centroid along the principal axis.
+/// Each is the least change within its family. Points that must coincide move to their centroid; points that must be
+/// collinear move to the line through their centroid along the principal axis.
 pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
     let mut found = Vec::new();
     let bodies = Body::BOTH;
@@ -421,7 +420,7 @@ fn meet(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
     }
 }
 
-/// As [`meet`], where joints of `body` may have been moved already: a joint in both sets makes the two points one.
+/// [`meet`] for joints of `body` that may have moved already: a joint in both sets makes the two points one.
 fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
     let list = joints(m, body, legs);
     let moved = |j: &usize, change: &mut Change| displacements(change, body)[*j].norm_squared() > 0.0;
@@ -433,8 +432,8 @@ fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) 
     }
 }
 
-/// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along
-/// the principal axis leaves the least change.
+/// Moves the ends of each group to one point, and these points to a line. The line through the weighted centroid along
+/// the principal axis needs the least change.
 fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
     let at = m.joints(body);
     let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();
@@ -454,7 +453,7 @@ fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize
     }
 }
 
-/// One group a joint of `body` at which `legs` end.
+/// One group for each joint of `body` at the ends of `legs`.
 fn each(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<Vec<usize>> {
     let mut seen = Vec::new();
     legs.iter()
@@ -467,7 +466,7 @@ fn each(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Three legs from one point of `body`, two of the others from one point of the other body to a line through it.
+/// Three legs share one point of `body`; two others go from one point of the other body to a line through it.
 fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize], found: &mut Vec<Change>) {
     for skipped in rest {
         let pair: Vec<usize> = rest.iter().copied().filter(|i| i != skipped).collect();

@@ -1,4 +1,4 @@
-//! The one verdict on a platform, which every command, page and table copies.
+//! The single verdict on a platform, used by every command, page and table.
 
 use super::nearest::rounded_singular;
 use super::{Architecture, NearestSingular};
@@ -17,8 +17,8 @@ use platform::manipulator::{Level, Manipulator};
 pub struct SingularityVerdict {
     /// The decision on the joints as written, in exact arithmetic, with its proof.
     pub architecture: Architecture,
-    /// The singular design that may have been meant: within rounding, or to the digits given. Only for plain numbers
-    /// that are regular as written.
+    /// The singular design that may be intended: within rounding, or to the given digits. It exists only for plain
+    /// numbers that are regular as written.
     pub meant: Option<NearestSingular>,
 }
 
@@ -42,8 +42,7 @@ impl SingularityVerdict {
         if self.meant.is_some() { None } else { self.architecture.is_singular() }
     }
 
-    /// The joints that the verdict is proved about; `None` where they are known between bounds only and nothing is
-    /// decided.
+    /// The joints of the proof; `None` if they are known only between bounds and nothing is decided.
     #[must_use]
     pub fn level(&self) -> Option<Level> {
         if self.meant.is_some() { Some(Level::WithinRounding) } else { self.architecture.level }
@@ -60,7 +59,7 @@ impl SingularityVerdict {
         }
     }
 
-    /// What the design is called where nothing is decided; lengths in `units`.
+    /// The undecided verdict in words; lengths in `units`.
     #[must_use]
     pub fn undecided_in_words(&self, units: &str) -> Option<String> {
         match (&self.meant, self.is_singular()) {

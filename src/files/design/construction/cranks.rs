@@ -1,4 +1,4 @@
-//! `[cranks]`: what is said of the cranks and rods of a design, and the numbers that follow.
+//! `[cranks]`: the stated data of cranks and rods, and the resulting numbers.
 
 use nalgebra::{Unit, Vector3};
 
@@ -22,7 +22,7 @@ const TURN: usize = 10;
 /// The crank that another one is a copy of.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum CrankCopy {
-    /// `turn = "A1"`, `deg = 120`: axis and direction of the angle zero are turned about the z axis of the base frame.
+    /// `turn = "A1"`, `deg = 120`: axis and zero direction are rotated about the z axis of the base frame.
     Turned { crank: usize, deg: WrittenNumber },
     /// `mirror = "A1"`, `plane = "xz"`: at equal angles the cranks are mirror images.
     Mirrored { crank: usize, plane: CoordinatePlane },
@@ -37,7 +37,7 @@ impl CrankCopy {
     }
 }
 
-/// What is said of one crank, or of all of them.
+/// The stated data of one crank, or of all of them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct WrittenCrank {
     pub(in crate::design) length: Option<WrittenNumber>,
@@ -65,7 +65,7 @@ impl WrittenCrank {
     }
 }
 
-/// The numbers of a crank as far as they are stated, doubles nearest to what is written.
+/// The stated numbers of a crank, as the nearest doubles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Stated {
     length: Option<f64>,
@@ -77,7 +77,7 @@ struct Stated {
 }
 
 impl Stated {
-    /// What is stated here, else there.
+    /// The values stated here, completed by those of `other`.
     fn or(self, other: Self) -> Self {
         Self {
             length: self.length.or(other.length),
@@ -101,7 +101,7 @@ pub(crate) struct CrankValues {
     pub(in crate::design) elbow: Elbow,
 }
 
-/// What the drives of the cranks and the joints of the rods can do.
+/// Limits of the drives of the cranks and the joints of the rods.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrankLimits {
     /// Greatest torque about the axis of a crank, force units times design units.
@@ -110,26 +110,26 @@ pub struct CrankLimits {
     pub max_speed_deg: Option<f64>,
     /// Least transmission angle, degrees.
     pub least_transmission_deg: Option<f64>,
-    /// How far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees.
+    /// Cone angle of the joint at the tip, out of the plane in which the crank turns, degrees.
     pub tip_swing_deg: Option<f64>,
-    /// How far the joint at the platform lets a rod swing from its direction at home, degrees.
+    /// Cone angle of the joint at the platform, from the direction of the rod at home, degrees.
     pub platform_swing_deg: Option<f64>,
 }
 
-/// `[cranks]`, as it is written, with the numbers that follow.
+/// `[cranks]`, as written, with the resulting numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct WrittenCranks {
-    /// What holds for all cranks that say nothing else.
+    /// The data of all cranks, used where single ones state nothing.
     pub(in crate::design) shared: WrittenCrank,
-    /// What is said of single cranks, by base joint.
+    /// The data of single cranks, by base joint.
     pub(in crate::design) own: Vec<Option<WrittenCrank>>,
     pub(in crate::design) drives: CrankLimits,
-    /// The keys that no crank of a base joint states, and what follows for the others.
+    /// The numbers of each crank by base joint, or the name of a missing key.
     pub(in crate::design) values: Vec<Result<CrankValues, &'static str>>,
 }
 
 impl WrittenCranks {
-    /// What is said, with the owner to blame: all cranks, then single ones.
+    /// All stated data, each with its owner for error messages: all cranks, then single ones.
     pub(super) fn all(&self) -> impl Iterator<Item = (Option<usize>, &WrittenCrank)> {
         let own = self.own.iter().enumerate().filter_map(|(j, own)| Some((Some(j), own.as_ref()?)));
         std::iter::once((None, &self.shared)).chain(own)
@@ -181,7 +181,7 @@ impl Constructions {
             };
         }
         cranks.values = stated.iter().map(|s| complete(s)).collect();
-        // what is copied or shared is blamed once, where it is written
+        // faults of copied or shared data are reported once, at the table that states them
         let states =
             |j: usize| cranks.own[j].as_ref().is_some_and(|own| own.axis.is_some() || own.zero.is_some());
         let mut shared_blamed = false;
@@ -206,7 +206,7 @@ impl Constructions {
         (faults.len() == before).then_some(())
     }
 
-    /// The numbers of what is said of a crank, checked each for itself; and cosine and sine of its turn.
+    /// The stated numbers of a crank, each checked alone, with cosine and sine of its rotation.
     fn stated(
         &self,
         joint: Option<usize>,
@@ -279,7 +279,7 @@ fn fault(joint: Option<usize>, part: Option<usize>, code: Code, message: String,
     Fault { owner: Owner::Crank(joint), part, within: None, code, message, help: help.to_string() }
 }
 
-/// What a copy takes over.
+/// The data that a copy takes over.
 fn copied(from: Stated, copy: &CrankCopy, turn: Option<[f64; 2]>) -> Stated {
     match copy {
         CrankCopy::Turned { .. } => {

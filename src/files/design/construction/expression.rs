@@ -15,7 +15,7 @@ use num::real::{NoReal, RealNumber};
 
 /// Most bytes of an expression.
 const MAX_LENGTH: usize = 2000;
-/// Most signs and parentheses inside one another.
+/// Greatest nesting depth of signs and parentheses.
 const MAX_DEPTH: usize = 24;
 /// Greatest exponent of a decimal, and of a power.
 const MAX_EXPONENT: u32 = 100;
@@ -56,13 +56,13 @@ enum SumPart {
     Decimal(Rational),
     Name(String),
     Negative(Box<Expression>),
-    /// From left to right: long sums are not deep.
+    /// From left to right, so that long sums are not deep.
     Chain(Box<Expression>, Vec<(Operator, Expression)>),
     Power(Box<Expression>, i32),
     Of(NamedFunction, Box<Expression>),
 }
 
-/// What is wrong with a text that is no expression, and where in it.
+/// The fault of a text that is no expression, and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::design) struct Slip {
     pub(in crate::design) place: Range<usize>,
@@ -71,7 +71,7 @@ pub(in crate::design) struct Slip {
     pub(in crate::design) too_complex: bool,
 }
 
-/// An operation without a result, and where in the text it stands.
+/// An operation without a result, and its place in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::design) struct Stuck {
     pub(in crate::design) place: Range<usize>,
@@ -81,9 +81,9 @@ pub(in crate::design) struct Stuck {
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::design) enum Unsolved {
     NoReal(NoReal),
-    /// No value belongs to this name.
+    /// The name has no value.
     Name(String),
-    /// The value of the name is not known because of another fault, which is reported in its place.
+    /// The value of the name is unknown because of another fault, which is reported instead.
     Poisoned,
 }
 
@@ -172,7 +172,7 @@ impl Expression {
                 let mut x = first.value(named)?;
                 for (operator, other) in rest {
                     let y = other.value(named)?;
-                    // the divisor is what is wrong with a division
+                    // a failing division blames its divisor
                     let from = if *operator == Operator::Over { other } else { &**first };
                     let stuck = |why| stuck(&(from.place.start..other.place.end), Unsolved::NoReal(why));
                     x = match operator {

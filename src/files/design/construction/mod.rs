@@ -1,5 +1,5 @@
-//! How a design says where a joint is: coordinates as expressions, points on lines, polar coordinates, copies turned
-//! and mirrored.
+//! Definitions of joints in a design: coordinates as expressions, points on lines, polar coordinates, rotated and
+//! mirrored copies.
 
 mod cranks;
 pub(super) mod expression;
@@ -22,14 +22,14 @@ use num::surd::{Surd, generators};
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
-/// How well the coordinates of a joint are known.
+/// The exactness of the coordinates of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exactness {
-    /// They are fractions.
+    /// All coordinates are fractions.
     Rational,
-    /// They are sums of rational multiples of square roots of integers and of cosines.
+    /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
     Field,
-    /// At least one is known between two close bounds only.
+    /// At least one coordinate is known only between two close bounds.
     Interval,
 }
 
@@ -60,10 +60,10 @@ impl fmt::Display for Exactness {
     }
 }
 
-/// Coordinates of a joint, as exact as they are known.
+/// Coordinates of a joint, as exact as possible.
 pub(crate) type RealPoint = [RealNumber; 3];
 
-/// A number of a design file: a decimal or an expression, as it is written.
+/// A number of a design file as written: a decimal or an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WrittenNumber {
     written: Spelling,
@@ -72,7 +72,7 @@ pub(crate) struct WrittenNumber {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Spelling {
-    /// A number without quotes, of which the double is written with the same digits.
+    /// A number without quotes whose double prints with the same digits.
     Number(f64),
     /// A text.
     Text(String),
@@ -84,19 +84,19 @@ impl WrittenNumber {
         Ok(Self { written: Spelling::Text(text.to_string()), tree: Expression::parse(text)? })
     }
 
-    /// A number as it stands in a file, which is the decimal that is written.
+    /// A number as it stands in a file, with the decimal as written.
     pub(super) fn decimal(digits: &str, double: f64) -> Result<Self, Slip> {
         let tree = Expression::parse(digits)?;
         Ok(match Expression::parse(&format!("{double:?}")) {
             Ok(short) if short.decimal() == tree.decimal() => {
                 Self { written: Spelling::Number(double), tree: short }
             }
-            // more digits than the double keeps are kept as a text
+            // numbers with more digits than the double keeps stay text
             _ => Self { written: Spelling::Text(digits.to_string()), tree },
         })
     }
 
-    /// The decimal with the fewest digits that is read to a finite double.
+    /// The shortest decimal that reads back to a finite double.
     pub(crate) fn shortest(x: f64) -> Option<Self> {
         Some(Self { written: Spelling::Number(x), tree: Expression::parse(&format!("{x:?}")).ok()? })
     }
@@ -110,7 +110,7 @@ impl WrittenNumber {
     }
 }
 
-/// Where on a line.
+/// A place on a line.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum LinePlace {
     /// As a share of the way from the first joint to the second.
@@ -148,7 +148,7 @@ impl CoordinatePlane {
     }
 }
 
-/// How a joint is given, in other ways than by three numbers. Joints are named by their index in the same body.
+/// The definition of a joint by other means than three numbers. Joints are named by their index in the same body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Construction {
     /// `["1/3", "6*sqrt(3)", 0]`.
@@ -173,7 +173,7 @@ impl Construction {
         }
     }
 
-    /// The numbers in it, with their parts: the place among what is written.
+    /// The numbers in it, each with its index among the written parts of the construction.
     pub(super) fn quantities(&self) -> Vec<(usize, &WrittenNumber)> {
         match self {
             Self::Coordinates(list) => list.iter().enumerate().collect(),
@@ -190,13 +190,13 @@ impl Construction {
     }
 }
 
-/// The home pose where an expression gives a number of it.
+/// The home pose if an expression gives one of its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WrittenHome {
     pub position: [WrittenNumber; 3],
-    /// Roll, pitch and yaw in degrees; `None` where the rotation is given in another way, without expressions.
+    /// Roll, pitch and yaw in degrees; `None` if the rotation is given in another form, without expressions.
     pub rpy_deg: Option<[WrittenNumber; 3]>,
-    /// The pose that follows.
+    /// The resulting pose.
     pub pose: Pose,
     /// The values of the numbers.
     pub values: Vec<RealNumber>,
@@ -209,29 +209,29 @@ impl WrittenHome {
     }
 }
 
-/// What a design says about its joints beside three numbers each, with the exact coordinates that follow; and about its
-/// home pose beside plain numbers.
+/// The constructions of joints and home in a design, with the resulting exact coordinates. Plain numbers are not
+/// constructions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Constructions {
     /// Names and values of `[parameters]`, in the order of the file.
     pub(super) parameters: Vec<(String, WrittenNumber)>,
-    /// For each body one entry a joint, or none at all: `None` for joints given by three numbers.
+    /// For each body one entry per joint, or none at all: `None` for joints given by three numbers.
     pub(super) joints: [Vec<Option<Construction>>; 2],
     /// Exact coordinates of all joints of a body that has constructions.
     exact: [Vec<RealPoint>; 2],
-    /// The home pose, where an expression gives a number of it.
+    /// The home pose, if an expression gives one of its numbers.
     pub(super) home: Option<WrittenHome>,
-    /// The cranks of a design that has some.
+    /// The cranks of a design, if it has any.
     pub(super) cranks: Option<WrittenCranks>,
 }
 
 impl Constructions {
-    /// How a joint is given, when not by three numbers.
+    /// The construction of a joint that is not given by three numbers.
     pub(crate) fn of(&self, body: Body, joint: usize) -> Option<&Construction> {
         self.joints[body.index()].get(joint)?.as_ref()
     }
 
-    /// The joint is given by three numbers from now on.
+    /// Replaces the construction of a joint by its three numbers.
     pub(super) fn forget(&mut self, body: Body, joint: usize) {
         if let Some(own) = self.joints[body.index()].get_mut(joint) {
             *own = None;
@@ -239,24 +239,24 @@ impl Constructions {
         self.tidy();
     }
 
-    /// No list where no joint is constructed.
+    /// Drops lists without constructed joints.
     fn tidy(&mut self) {
         for list in self.joints.iter_mut().filter(|list| list.iter().all(Option::is_none)) {
             list.clear();
         }
     }
 
-    /// Whether a joint is given by other than three numbers.
+    /// Whether any joint has a construction.
     pub(super) fn any_joint(&self) -> bool {
         self.joints.iter().flatten().any(Option::is_some)
     }
 
-    /// Whether nothing is said beside three numbers a joint, and plain numbers of home.
+    /// Whether all joints and home are given by plain numbers.
     pub(super) fn is_empty(&self) -> bool {
         self.parameters.is_empty() && !self.any_joint() && self.home.is_none() && self.cranks.is_none()
     }
 
-    /// The exact coordinates, those of the doubles where the body has no constructions.
+    /// The exact coordinates; those of the doubles if the body has no constructions.
     pub(super) fn exact(&self, body: Body, joints: &[Point3<f64>]) -> Vec<RealPoint> {
         let exact = &self.exact[body.index()];
         if exact.len() == joints.len() { exact.clone() } else { joints.iter().map(exact_double).collect() }
@@ -271,12 +271,12 @@ pub(super) fn exact_double(p: &Point3<f64>) -> RealPoint {
     [one(p.x), one(p.y), one(p.z)]
 }
 
-/// A joint of a design as exactly as it is known.
+/// A joint of a design with its exact coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactJoint {
-    /// Whether its coordinates are fractions, sums of square roots and cosines, or known between bounds.
+    /// The exactness of its coordinates: fractions, sums of square roots and cosines, or values between bounds.
     pub exactness: Exactness,
-    /// The three coordinates in the frame of the body, as expressions such as `"6*sqrt(3)"`; one that is known between
+    /// The three coordinates in the frame of the body, as expressions such as `"6*sqrt(3)"`. A value known between
     /// bounds is `"[low, high]"`, rounded outward to doubles.
     pub coordinates: [String; 3],
 }
@@ -295,24 +295,24 @@ impl ExactJoint {
     }
 }
 
-/// How exactly the joints of a design are known, all together.
+/// The exactness of all joints of a design together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DesignExactness {
-    /// The least exact of its joints; `None` where every joint is given by three plain numbers and so is the three
-    /// doubles that are read.
+    /// The least exact kind over its joints; `None` if every joint is given by three plain numbers, which are then
+    /// exact doubles.
     pub exactness: Option<Exactness>,
-    /// The integers whose square roots generate the field of all exact coordinates, with the fractions and the
-    /// cosines of `divisions`.
+    /// The integers whose square roots generate the field of all exact coordinates, together with the cosines of
+    /// `divisions`.
     pub radicands: Vec<u64>,
     /// Numbers `n` whose cosines `cos(360 / n)` degrees generate the field, beside the square roots: some of 9, 16,
     /// 20 and 32.
     pub divisions: Vec<u32>,
-    /// The joints that are known between bounds only, with their bodies: `"base.A2"`.
+    /// The joints that are known only between bounds, with their bodies: `"base.A2"`.
     pub enclosed: Vec<String>,
 }
 
 impl DesignExactness {
-    /// `constructed`: whether any joint is given by other than three plain numbers.
+    /// `constructed`: whether any joint has a construction.
     pub(super) fn of(constructed: bool, bodies: [(Body, &[String], Vec<RealPoint>); 2]) -> Self {
         let (mut all, mut divisions) = (Vec::new(), Vec::new());
         let (mut exactness, mut enclosed) = (Exactness::Rational, Vec::new());

@@ -1,4 +1,4 @@
-//! Constructions of a design whose joints come from those of another.
+//! Constructions of a design whose joints derive from those of another.
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,15 +13,15 @@ use num::real::RealNumber;
 use num::surd::Surd;
 use platform::manipulator::Body;
 
-/// A share of the way from one joint to another: a decimal, or an expression such as `1/5` or `2 - sqrt(3)`, as it is
-/// written.
+/// A share of the way from one joint to another, as written: a decimal, or an expression such as `1/5` or
+/// `2 - sqrt(3)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Share {
     written: WrittenNumber,
     value: RealNumber,
 }
 
-/// A text that is no share.
+/// A text that is not a share.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{text}`: {why}")]
 pub struct InvalidShare {
@@ -30,7 +30,7 @@ pub struct InvalidShare {
 }
 
 impl Share {
-    /// The decimal with the fewest digits that is read to this double; `None` unless it is finite.
+    /// The shortest decimal that reads back to this double; `None` unless it is finite.
     #[must_use]
     pub fn shortest(x: f64) -> Option<Self> {
         let written = WrittenNumber::shortest(x)?;
@@ -38,7 +38,7 @@ impl Share {
         Some(Self { written, value })
     }
 
-    /// The exact number; `None` where it is known between bounds only.
+    /// The exact number; `None` if it is known only between bounds.
     #[must_use]
     pub fn exact(&self) -> Option<&Surd> {
         self.value.exact()
@@ -83,7 +83,7 @@ impl fmt::Display for Share {
     }
 }
 
-/// Where a joint comes from, in the joints of the same body of the design before.
+/// The origin of a joint, in terms of the joints of the same body of the previous design.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
     /// It is this joint.
@@ -95,7 +95,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// On the line of two joints at this share; given by its coordinates where it is not finite.
+    /// A joint on the line of two joints at this share; given by its coordinates if the share is not finite.
     #[must_use]
     pub fn between(ends: [usize; 2], t: f64) -> Self {
         Share::shortest(t).map_or(Self::New, |share| Self::Between(ends, Box::new(share)))
@@ -103,11 +103,11 @@ impl Origin {
 }
 
 impl DesignModel {
-    /// The same with the constructions of the joints it has from another design, and with those of joints on the lines
-    /// of its joints.
+    /// The design with the constructions of the joints it takes from another design, and with those of joints on the
+    /// lines of its joints.
     ///
-    /// What a construction starts from may be missing here; the joint is then given by its exact coordinates, and by
-    /// three doubles where those are not known as a short expression. So is a joint that is elsewhere now.
+    /// A construction may refer to joints that no longer exist. The joint is then given by its exact coordinates, or by
+    /// three doubles if these have no short expression. The same applies to a joint at another place.
     pub fn constructed_from(self, old: &Self, origins: [&[Origin]; 2]) -> Self {
         let mut made = Constructions::default();
         for body in Body::BOTH {
@@ -123,11 +123,11 @@ impl DesignModel {
         if made.is_empty() {
             return self;
         }
-        // what cannot be built any more stays with its three numbers
+        // constructions that fail leave the joint with its three numbers
         self.clone().with_constructions(made).unwrap_or(self)
     }
 
-    /// The same with the joints of a body at these decimals, in their order; a body without a list stays as it is.
+    /// The design with the joints of a body at these decimals, in their order; a body without a list stays unchanged.
     pub fn at_decimals(self, decimals: [Option<&[[String; 3]]>; 2]) -> Self {
         let mut made = self.current_constructions();
         for (own, list) in made.joints.iter_mut().zip(decimals) {
@@ -142,7 +142,7 @@ impl DesignModel {
         self.clone().with_constructions(made).unwrap_or(self)
     }
 
-    /// The design with base and platform exchanged, as which this one has been built: joints keep their constructions.
+    /// The design with base and platform exchanged; joints keep their constructions from `old`.
     pub fn exchanged_from(self, old: &Self) -> Self {
         let mut made = old.constructions.clone();
         made.joints.swap(0, 1);
@@ -155,7 +155,7 @@ impl DesignModel {
         let points = body.of((m.base_joints(), m.platform_joints()));
         let old_points = body.of((before.base_joints(), before.platform_joints()));
         let exact = old.exact_points(body);
-        // a joint of before, where it was
+        // a joint of the previous design that kept its place
         let stayed = |new: usize, joint: usize| points[new] == old_points[joint];
         let place = |joint: usize| {
             origins.iter().enumerate().position(|(new, o)| *o == Origin::Kept(joint) && stayed(new, joint))
@@ -184,7 +184,7 @@ impl DesignModel {
 }
 
 impl Construction {
-    /// The same with other indices of joints; `None` when one of them has none.
+    /// The construction with other indices of joints; `None` if one of them has none.
     fn moved(&self, place: &dyn Fn(usize) -> Option<usize>) -> Option<Self> {
         let mut moved = self.clone();
         match &mut moved {
@@ -200,7 +200,7 @@ impl Construction {
     }
 }
 
-/// Exact coordinates as expressions; `None` when they are not known or long.
+/// Exact coordinates as expressions; `None` if they are unknown or long.
 fn coordinates(point: &RealPoint) -> Option<Construction> {
     let one = |x: &RealNumber| WrittenNumber::text(&x.exact()?.to_string()).ok();
     let [x, y, z] = point;

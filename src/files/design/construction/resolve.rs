@@ -1,4 +1,4 @@
-//! Coordinates from constructions: values in the order in which they follow from one another.
+//! Coordinates from constructions, evaluated in the order of their dependencies.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ use platform::manipulator::Body;
 /// Most operations of all constructions of a design, square roots counted as twenty.
 const MAX_WORK: usize = 12_000;
 
-/// What a fault belongs to.
+/// The owner of a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::design) enum Owner {
     Parameter(usize),
@@ -28,12 +28,12 @@ pub(in crate::design) enum Owner {
     Crank(Option<usize>),
 }
 
-/// Why a construction gives no point.
+/// The reason why a construction gives no point.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}; {help}")]
 pub(crate) struct Fault {
     pub(in crate::design) owner: Owner,
-    /// Which of the things that are written for it: a coordinate, a key.
+    /// The part at fault: a coordinate, a key.
     pub(in crate::design) part: Option<usize>,
     /// The place in the expression.
     pub(in crate::design) within: Option<Range<usize>>,
@@ -52,10 +52,9 @@ pub(in crate::design) struct Joints<'a> {
 }
 
 impl Constructions {
-    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them; and the home pose, which
-    /// is kept.
+    /// The exact coordinates of all joints, which are kept, and the nearest doubles; also the home pose, which is kept.
     ///
-    /// Every fault is reported once: what depends on a faulty value is silent.
+    /// Every fault is reported once; values that depend on a faulty one stay silent.
     pub(in crate::design) fn resolve(
         &mut self,
         given: Joints<'_>,
@@ -79,7 +78,7 @@ impl Constructions {
             points[k] =
                 found.iter().flatten().map(|p| p.each_ref().map(RealNumber::nearest).into()).collect();
             for (j, p) in given.points[k].iter().enumerate() {
-                // what is given by three doubles stays what it is, the sign of zero too
+                // joints of three doubles keep their bits, including the sign of zero
                 if let (None, Some(own)) = (&self.joints[k][j], points[k].get_mut(j)) {
                     *own = *p;
                 }
@@ -160,7 +159,7 @@ impl Constructions {
         parameters: (&[Option<RealNumber>], &[String]),
         faults: &mut Vec<Fault>,
     ) -> Option<()> {
-        // all of them, so that each fault is reported
+        // evaluate all of them, so that each fault is reported
         let of = |(part, q)| self.quantity((Owner::Home, Some(part)), q, parameters, faults);
         let values: Vec<Option<RealNumber>> = home.quantities().map(of).collect();
         home.values = values.into_iter().collect::<Option<_>>()?;
@@ -252,7 +251,7 @@ impl Constructions {
     ) -> Option<RealPoint> {
         let owner = Owner::Joint(body, joint);
         let quantities = construction.quantities();
-        // all of them, so that each fault is reported
+        // evaluate all of them, so that each fault is reported
         let values: Vec<Option<RealNumber>> = quantities
             .iter()
             .map(|(part, q)| self.quantity((owner, Some(*part)), q, parameters, faults))
@@ -294,7 +293,7 @@ impl Constructions {
     }
 }
 
-/// `None` when the points are the same, or cannot be told apart.
+/// `None` if the points are equal or indistinguishable.
 pub(super) fn on_line(
     a: &RealPoint,
     b: &RealPoint,
@@ -375,8 +374,8 @@ fn circle<'a>(owner: Owner, what: &str, names: impl Iterator<Item = &'a str>) ->
     }
 }
 
-/// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep
-/// the rest from having one.
+/// An order in which everything comes after its dependencies. Also the circular dependencies that prevent one for the
+/// rest, each from its first member on.
 pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     #[derive(Clone, Copy, PartialEq)]
     enum ResolvingState {
@@ -386,7 +385,7 @@ pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     }
     let mut state = vec![ResolvingState::New; needs.len()];
     let (mut order, mut cycles) = (Vec::new(), Vec::new());
-    // members of a circle and what needs them: without a place in the order
+    // members of circles and their dependents have no place in the order
     let mut lost = vec![false; needs.len()];
     for start in 0..needs.len() {
         if state[start] != ResolvingState::New {

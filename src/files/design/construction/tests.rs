@@ -185,7 +185,7 @@ fn home_follows_from_parameters() {
     assert_eq!(bits(home.position.into()), bits([0.0, 0.1, 400.0]));
     let plain = text.replace("\"2*h/3\"", "400").replace("\"tilt\"", "30");
     assert_eq!(parse(&plain, Format::Toml).unwrap().0.home, Some(home));
-    // it is saved as it was written, in both notations, and a pose given since as numbers
+    // it is saved as written, in both notations; a later pose is saved as numbers
     for saved in [parse(&design.to_toml(), Format::Toml), parse(&design.to_json(), Format::Json)] {
         assert_eq!(saved.unwrap().0, design);
     }
@@ -195,7 +195,7 @@ fn home_follows_from_parameters() {
     let saved = parse(&raised.to_toml(), Format::Toml).unwrap().0;
     assert_eq!(saved.home, raised.home);
     assert!(!raised.to_toml().contains("2*h/3"));
-    // another unit, and a joint that is moved, leave it where it is
+    // another unit, or a moved joint, leaves home unchanged
     let metres = design.in_units("m").unwrap();
     assert!((metres.home.unwrap().position.z - 0.4).abs() < 1e-15);
     assert_eq!(metres.in_units("mm").unwrap().home, Some(home));

@@ -10,7 +10,7 @@ use crate::design::violation::Findings;
 use machine::requirements::{JointAxes, plate_normal};
 use platform::manipulator::Body;
 
-/// Puts the normals in where the file names them, and checks the axes of universal joints once more.
+/// Replaces named normals by vectors, and checks the axes of universal joints again.
 pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: &mut DesignModel) {
     let Some(Value::Table(hardware)) = find(top, "hardware").map(|e| &e.node.value) else { return };
     for body in Body::BOTH {
@@ -37,7 +37,7 @@ pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: 
     }
 }
 
-/// Which of the six axes are named so.
+/// Flags of the axes given by this name.
 pub(super) fn named(node: &Node) -> [bool; 6] {
     match &node.value {
         Value::Array(list) => std::array::from_fn(|i| list.get(i).is_some_and(is_normal)),
@@ -45,8 +45,8 @@ pub(super) fn named(node: &Node) -> [bool; 6] {
     }
 }
 
-/// The normal of the greatest triangle of the joints, towards the other body at home on the base, away from it on the
-/// platform.
+/// The normal of the greatest triangle of the joints: on the base towards the platform at home, on the platform away
+/// from the base.
 fn normal(design: &DesignModel, body: Body) -> Unit<Vector3<f64>> {
     let (m, home) = (design.manipulator(), design.home_or_default());
     let lines: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();

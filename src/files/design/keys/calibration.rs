@@ -21,13 +21,13 @@ const ROUNDED: f64 = 0.5e-6;
 
 static OFFSETS: Numbers =
     Numbers { code: Code::LengthCount, ..Numbers::coordinates(6, "offsets, one for each leg") };
-/// The range is checked in lists that are not whole too.
+/// The range is also checked in incomplete lists.
 static DEVIATIONS: Numbers =
     Numbers { code: Code::LengthCount, ..Numbers::coordinates(6, "standard deviations, one for each leg") };
 static OF_JOINT: KeyKind = numbers_of(&HALF_WIDTHS, unit::LENGTH);
 static OF_JOINTS: KeyTable<()> = KeyTable { named: Some(&OF_JOINT), ..KeyTable::EMPTY };
 
-/// The table, with the names of the joints of both bodies; `None` where they could not be read.
+/// The table, with the names of the joints of both bodies; `None` if they could not be read.
 pub(super) struct CalibrationKeys {
     table: CalibrationTable,
     joints: [Option<Vec<String>>; 2],
@@ -105,8 +105,8 @@ impl CalibrationKeys {
     }
 }
 
-/// `[calibration.correlations]` with a row of the triangle a line, which the writer of TOML would put on one line of
-/// ten thousand characters.
+/// `[calibration.correlations]` with one row of the triangle per line; the TOML writer would use one line of ten
+/// thousand characters.
 pub(super) fn correlations_toml(table: &Json) -> String {
     let items = |list: &Json| list.as_array().cloned().unwrap_or_default();
     let lines =
@@ -133,7 +133,7 @@ pub(super) fn calibration(
     Some(keys.table)
 }
 
-/// What is correlated, and the lower triangle of a matrix that is one of correlations up to rounding.
+/// The correlated numbers, and the lower triangle of their matrix, checked up to rounding.
 fn correlations(
     found: &mut FoundKey<'_, '_>,
     joints: [&Vec<String>; 2],
@@ -156,7 +156,8 @@ fn correlations(
     let triangle: Vec<Option<Vec<f64>>> =
         rows.iter().enumerate().map(|(i, row)| triangle_row(report, row, i)).collect();
     let out = Correlations { unknowns, triangle: triangle.into_iter().collect::<Option<_>>()? };
-    // an error of half a unit of the last decimal in each entry moves no eigenvalue by more than that times the rows
+    // an error of half a unit of the last decimal in each entry moves no eigenvalue by more than that times the number
+    // of rows
     let least = if rows.is_empty() { 0.0 } else { out.matrix().symmetric_eigenvalues().min() };
     if least < -ROUNDED * rows.len() as f64 {
         let message = format!("no quantities have these correlations: the least eigenvalue is {least:.3e}");
@@ -265,7 +266,7 @@ fn refuse_negative(report: &mut Findings<'_>, node: &Node) {
     }
 }
 
-/// Three numbers for each joint that is named.
+/// Three numbers for each named joint.
 fn deviations(found: &mut FoundKey<'_, '_>, names: Option<&[String]>) -> Vec<Option<Vector3<f64>>> {
     let (report, place) = (&mut *found.report, format!("`{}` of [calibration]", found.entry.key));
     let Some(names) = names else { return Vec::new() };
@@ -283,6 +284,6 @@ fn deviations(found: &mut FoundKey<'_, '_>, names: Option<&[String]>) -> Vec<Opt
         refuse_negative(report, &joint.node);
         out[index] = three.map(Vector3::from);
     }
-    // a table without joints says nothing, as no table does
+    // a table without joints means the same as a missing table
     if out.iter().all(Option::is_none) { Vec::new() } else { out }
 }

@@ -1,4 +1,4 @@
-//! `[parameters]`, and joints that are given in other ways than by three numbers.
+//! `[parameters]`, and joints that are not given by three numbers.
 
 use std::collections::BTreeMap;
 
@@ -64,7 +64,7 @@ static MIRRORED: KeyTable<()> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-/// Tables of joints; the first key of each decides what the others are.
+/// Tables of joints; the first key of each determines the others.
 static FORMS: [&KeyTable<()>; 4] = [&ON_LINE, &POLAR, &TURNED, &MIRRORED];
 
 static JOINT: KeyKind = either(&[
@@ -111,7 +111,7 @@ pub(super) fn written(made: &Construction, names: &[String]) -> Json {
     }
 }
 
-/// Where something that may be at fault stands.
+/// Places of a value in the text, for reports of faults.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Places {
     pub(super) whole: Span,
@@ -143,7 +143,7 @@ pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters
     list
 }
 
-/// A number, which is the decimal that is written, or an expression in quotes.
+/// A number: a decimal as written, or an expression in quotes.
 pub(super) fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<WrittenNumber> {
     let read = match &node.value {
         Value::Text(text) => WrittenNumber::text(text),
@@ -175,7 +175,7 @@ pub(super) fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Op
 /// The place in the text of a file of a place in an expression.
 fn inner(report: &Findings<'_>, span: &Span, place: Option<&Span>) -> Span {
     let source = report.source(span);
-    // escapes and quotes of three make it unclear which character is which
+    // escapes and triple quotes hide the positions of characters
     let quoted = source.starts_with(['"', '\'']);
     let plain = !source.contains('\\') && !source.starts_with("\"\"\"") && !source.starts_with("'''");
     match place {
@@ -187,7 +187,7 @@ fn inner(report: &Findings<'_>, span: &Span, place: Option<&Span>) -> Span {
     }
 }
 
-/// Whether a joint is given by other than three numbers: by a table, or by an array with texts.
+/// Whether a joint has a construction: a table, or an array with texts.
 pub(super) fn is_constructed(node: &Node) -> bool {
     match &node.value {
         Value::Table(_) => true,
@@ -232,7 +232,7 @@ pub(super) fn three_quantities(
         return None;
     };
     let mut place = 0;
-    // all of them, so that each fault is reported
+    // evaluate all of them, so that each fault is reported
     let [a, b, c] = [x, y, z].map(|e| {
         place += 1;
         quantity(report, e, &format!("{number} {place} of {what}"))
@@ -370,13 +370,13 @@ fn reference(
     found
 }
 
-/// What besides joints has numbers that follow from parameters, with its places.
+/// Numbers outside the joints that depend on parameters, with their places.
 pub(super) struct BesideJoints<'a> {
     pub(super) home: Option<(WrittenHome, Places)>,
     pub(super) cranks: (Option<WrittenCranks>, &'a CrankPlaces),
 }
 
-/// Gives every joint its coordinates; the constructions when all of them have some.
+/// Gives every joint its coordinates; returns the constructions if all of them resolve.
 pub(super) fn resolve(
     report: &mut Findings<'_>,
     parameters: Parameters,
@@ -415,7 +415,7 @@ pub(super) fn resolve(
                 for (joint, point) in body.joints.iter_mut().zip(points) {
                     joint.point = point.into();
                     if joint.constructed && joint.point.iter().any(|x| x.is_nan()) {
-                        // of a fault that is reported where it is
+                        // the fault was reported at its own place
                         (joint.intact, sound) = (false, false);
                     } else if joint.constructed && joint.point.iter().any(|x| x.abs() > LARGEST) {
                         let message = format!("{} is too far out to compute with", shown(&joint.name));

@@ -1,4 +1,4 @@
-//! `drive` and `[cranks]`: rods on cranks in place of legs that change their lengths.
+//! `drive` and `[cranks]`: rods on cranks in place of legs of variable length.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -105,7 +105,7 @@ static LIMITS: KeyTable<CrankLimits> = KeyTable {
 
 static ONE_CRANK: Joined = Joined { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
 static ONE_CRANK_KIND: KeyKind = table_of(&ONE_CRANK);
-/// `[cranks]`: what holds for all cranks, and single ones by the names of their base joints.
+/// `[cranks]`: the data of all cranks, and of single ones by the names of their base joints.
 pub(super) static CRANKS: Joined =
     Joined { definition: "", shapes: &[&CRANK, &LIMITS], named: Some(&ONE_CRANK_KIND) };
 
@@ -125,28 +125,28 @@ pub(super) fn written(cranks: &WrittenCranks, names: &[String]) -> Json {
     Json::Object(out)
 }
 
-/// What is about legs that change their lengths.
+/// Keys about legs of variable length.
 const OF_LENGTHS: [&str; 7] =
     ["lengths", "hardware", "envelope", "plates", "keep_out", "optimize", "calibration"];
 
-/// Where all cranks and single ones are written.
+/// The places of all cranks and of single ones in the text.
 #[derive(Debug, Default)]
 pub(super) struct CrankPlaces {
     key: Span,
     shared: Places,
     own: Vec<Option<Places>>,
-    /// Something in [cranks] could not be read, so that what is missing may be that.
+    /// Something in [cranks] could not be read, so a missing key may be there.
     unread: bool,
 }
 
 impl CrankPlaces {
-    /// The place of what is said of all cranks, or of the one at a base joint.
+    /// The place of the data of all cranks, or of the one at a base joint.
     pub(super) fn of(&self, joint: Option<usize>) -> &Places {
         joint.and_then(|j| self.own.get(j)?.as_ref()).unwrap_or(&self.shared)
     }
 }
 
-/// `drive`, and `[cranks]` where it is `"rotary"`.
+/// `drive`, and `[cranks]` if the drive is `"rotary"`.
 pub(super) fn cranks(
     report: &mut Findings<'_>,
     top: &[Entry],
@@ -234,7 +234,7 @@ fn single(report: &mut Findings<'_>, entry: &Entry, names: &[&str]) -> Option<(W
     Some((written, places))
 }
 
-/// Numbers and the side of one crank or of all.
+/// Numbers and the side of one crank, or of all cranks.
 fn numbers(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> (WrittenCrank, Places) {
     let places = Places { whole: node.span.clone(), parts: vec![node.span.clone(); PARTS] };
     let mut keys = CrankKeys { places, ..CrankKeys::default() };
@@ -350,7 +350,7 @@ fn copy(
     Some(CrankCopy::Mirrored { crank, plane: plane? })
 }
 
-/// Each leg has a crank of its own, about which everything needed is said.
+/// Each leg needs its own crank with complete data.
 pub(super) fn check_legs(
     report: &mut Findings<'_>,
     constructions: &Constructions,
@@ -381,7 +381,7 @@ pub(super) fn check_legs(
     }
 }
 
-/// Tips and joints make a platform at the angles zero.
+/// Tips and joints must form a platform at the angles zero.
 pub(super) fn check_platform(report: &mut Findings<'_>, design: &DesignModel, places: &CrankPlaces) {
     if let Err(why) = design.rotary() {
         report.refuse(

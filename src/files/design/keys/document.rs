@@ -31,7 +31,7 @@ use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Smallest size of a design: its square and fourth power still fit a double.
 const SMALLEST: f64 = 1e-60;
 
-/// The keys of a design. Those of tables are read and written in an order of their own, since some need others.
+/// The keys of a design. Tables are read and written in a separate order, since some depend on others.
 pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
     keys: &[
         key!("name" { required = "add `name = \"...\"` at the top" }: TEXT, name; "of the design, not blank"),
@@ -91,7 +91,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
     ],
     ..KeyTable::EMPTY
 };
-/// The tables behind [hardware] in the order in which they are written.
+/// The tables after [hardware], in the order of writing.
 const WRITTEN_LAST: [&str; 10] = [
     "limits",
     "envelope",
@@ -105,15 +105,14 @@ const WRITTEN_LAST: [&str; 10] = [
     "calibration",
 ];
 
-/// Two triangles in place of the joints that are not read yet.
+/// Two triangles as a placeholder until the joints are read.
 fn placeholder() -> Option<Manipulator> {
     let corners = || [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from).to_vec();
     Manipulator::try_new(corners(), corners(), [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]).ok()
 }
 
-/// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
-/// intact, so that one run shows all violations. Rods on cranks, and joints that are not ideal, are refused unless
-/// `takes_cranks`.
+/// The design, or `None` with the reasons in the report. Later checks use everything that earlier ones accepted, so one
+/// run shows all violations. Rods on cranks and joint offsets are refused unless `takes_cranks`.
 pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<DesignModel> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
@@ -202,8 +201,8 @@ pub(super) fn required<'a>(
     found
 }
 
-/// `legs` belongs at the top level. Written below a table header TOML counts it to that table; there it
-/// cannot be a joint (it holds pairs of names), so that the meaning is clear: it is taken with a warning.
+/// `legs` belongs at the top level. TOML assigns `legs` below a table header to that table. It cannot be a joint there,
+/// since it holds pairs of names, so it is accepted with a warning.
 pub(super) fn legs_entry<'a>(
     report: &mut Findings<'_>,
     root: &Node,
@@ -229,7 +228,7 @@ fn lengths(found: &mut FoundKey<'_, '_>) -> Option<LegLengths> {
     LegLengths::try_new(numbers_of_legs::<6>(found)?).ok()
 }
 
-/// A length for each leg, those that are negative with a violation each.
+/// A length for each leg, with a violation for each negative one.
 pub(super) fn numbers_of_legs<const N: usize>(found: &mut FoundKey<'_, '_>) -> Option<[f64; N]> {
     let (report, node) = (&mut *found.report, &found.entry.node);
     let l = numbers::<N>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
@@ -271,7 +270,7 @@ fn manipulator(
             report.refuse(Code::OutOfRange, root, InvalidManipulator::TooSmall.to_string(), advice);
             None
         }
-        // names were looked up, coordinates and pairs checked: nothing else is left to go wrong
+        // names, coordinates and pairs were checked before, so no other fault is possible
         Err(other) => {
             report.refuse(Code::MissingJoint, root, other.to_string(), "check joints and legs");
             None
@@ -283,7 +282,7 @@ fn manipulator(
 pub(super) fn toml_value(value: &Json) -> String {
     let joined = |list: Vec<String>| list.join(", ");
     match value {
-        // what JSON writes is a basic string of TOML, but for one character
+        // JSON strings are basic strings of TOML, except for one character
         Json::String(text) => json!(text).to_string().replace('\u{7f}', "\\u007f"),
         Json::Number(x) => x
             .as_f64()
@@ -298,7 +297,7 @@ pub(super) fn toml_value(value: &Json) -> String {
     }
 }
 
-/// `key = value`, the key in quotes where it has to be.
+/// `key = value`, with the key in quotes if necessary.
 fn toml_line(key: &str, value: &Json) -> String {
     let pair = toml::to_string(&std::collections::BTreeMap::from([(key, 0)])).unwrap_or_default();
     format!("{}= {}\n", pair.trim_end().trim_end_matches('0').trim_end_matches("= "), toml_value(value))
@@ -311,7 +310,7 @@ impl DesignModel {
         let mut keys = self.document();
         let calibration = keys.get_mut("calibration").and_then(Json::as_object_mut);
         let correlations = calibration.and_then(|table| table.shift_remove("correlations"));
-        // strings, arrays and maps with string keys: nothing TOML could refuse
+        // strings, arrays and maps with string keys, which TOML always accepts
         let text = |keys: &Map<String, Json>| toml::to_string(keys).unwrap_or_default();
         let mut parts = Vec::new();
         let (mut plain, mut tables) = (Map::new(), Map::new());
@@ -343,7 +342,7 @@ impl DesignModel {
         format!("{:#}\n", Json::Object(self.document()))
     }
 
-    /// All keys in the order in which they are written.
+    /// All keys in the order of writing.
     pub(in crate::design) fn document(&self) -> Map<String, Json> {
         let rank = |key: &String| WRITTEN_LAST.iter().position(|last| last == key);
         let mut keys: Vec<_> = TOP.write(self).into_iter().collect();
@@ -367,7 +366,7 @@ fn joints_of(of: &DesignModel, body: Body) -> Json {
     Json::Object(joints.collect())
 }
 
-/// A list of tables; nothing where it is empty.
+/// A list of tables; nothing for an empty list.
 fn all<T>(list: &[T], write: impl Fn(&T) -> Map<String, Json>) -> Option<Json> {
     (!list.is_empty()).then(|| list.iter().map(|item| Json::Object(write(item))).collect())
 }

@@ -1,4 +1,4 @@
-//! `[envelope]`: the room that plates and machine may take up.
+//! `[envelope]`: the space that plates and machine may occupy.
 
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value as Json, json};

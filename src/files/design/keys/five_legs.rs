@@ -1,4 +1,4 @@
-//! Designs of five legs: the keys that they have, and how they are read.
+//! Designs of five legs: their keys and their reader.
 
 use super::constructions::{self, BODY, BesideJoints, PARAMETERS};
 use super::cranks::CrankPlaces;

@@ -1,4 +1,4 @@
-//! Reading of keys, texts and numbers, with the refusals of what is none.
+//! Reading of keys, texts and numbers, with the violations for invalid ones.
 
 use super::kind::{KeyForm, KeyKind, Range};
 use super::stored::{Stored, Word};
@@ -7,7 +7,7 @@ use crate::design::nearest_word;
 use crate::design::tree::{Entry, Node, Span, Value};
 use crate::design::violation::Findings;
 
-/// Words less similar than this are no help.
+/// Least similarity for a suggestion.
 const NEAR: f64 = 0.7;
 
 /// Greatest magnitude of a number: its square and fourth power still fit a double.
@@ -23,7 +23,7 @@ pub fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], 
     }
 }
 
-/// "did you mean ..." when something is near, else the list, `what` said before.
+/// "did you mean ..." for a similar name, otherwise the list of names after `what`.
 pub fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
     let near = nearest(given, known).map(|near| format!("did you mean `{}`?", shown(near)));
     near.unwrap_or_else(|| {
@@ -33,7 +33,7 @@ pub fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
     })
 }
 
-/// The word that was meant, where one is near.
+/// The similar known word, if there is one.
 pub(super) fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
     nearest_word(given, known, NEAR)
 }
@@ -170,7 +170,7 @@ impl<'a> FoundKey<'a, '_> {
         self.report.refuse(code, &self.entry.node.span, message, help);
     }
 
-    /// A number in the range of the key. One that is out of it is returned too, so that later checks have a number.
+    /// A number in the range of the key. Numbers out of range are returned too, for later checks.
     pub(super) fn number(&mut self) -> Option<f64> {
         let (what, key) = (self.what(), &self.entry.key);
         let x = number(self.report, &self.entry.node, &what)?;

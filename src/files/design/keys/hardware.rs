@@ -136,7 +136,7 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-/// `[hardware]`, and the name of the table of drives, which is read where a drive is chosen from it.
+/// `[hardware]`, and the name of the table of drives, which is read when a drive is chosen.
 pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> (Hardware, Option<String>) {
     let mut keys = HardwareKeys::default();
     let entries = find(top, "hardware").and_then(|e| HARDWARE.read(report, &e.node, "[hardware]", &mut keys));
@@ -176,7 +176,7 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> (Hardware, O
 }
 
 impl HardwareKeys {
-    /// The table as it is written; nothing of what the file does not say.
+    /// The table as written, without entries that the file leaves out.
     pub(super) fn of(h: &Hardware, drives: Option<&String>) -> Self {
         let (mut leg_length, mut dead_length, mut stroke_length) = (None, None, None);
         match h.leg_length {
@@ -257,7 +257,7 @@ fn leg_length(found: &mut FoundKey<'_, '_>) -> Option<[f64; 2]> {
 
 /// The word for the normal of the plane of the joints.
 const NORMAL: &str = "normal";
-/// Stands for a normal until the joints are known.
+/// Placeholder for a normal until the joints are known.
 const NOT_YET: Unit<Vector3<f64>> = Unit::new_unchecked(Vector3::new(0.0, 0.0, 1.0));
 
 /// Whether an axis is the normal of the plane of the joints.
@@ -265,7 +265,7 @@ pub(super) fn is_normal(node: &Node) -> bool {
     matches!(&node.value, Value::Text(t) if t == NORMAL)
 }
 
-/// The axes that a key says. Normals are put in where the joints are known ([`super::axes::turn_to_normals`]).
+/// The axes of a key. Normals are filled in once the joints are known ([`super::axes::turn_to_normals`]).
 fn joint_axes(found: &mut FoundKey<'_, '_>) -> Option<JointAxes> {
     let (report, entry) = (&mut *found.report, found.entry);
     match &entry.node.value {
@@ -290,7 +290,7 @@ fn joint_axes(found: &mut FoundKey<'_, '_>) -> Option<JointAxes> {
     }
 }
 
-/// The default is left out.
+/// The default is omitted.
 fn axes_json(axes: JointAxes) -> Option<Json> {
     match axes {
         JointAxes::Home => None,
@@ -303,7 +303,7 @@ fn axes_json(axes: JointAxes) -> Option<Json> {
 pub(super) fn axis(report: &mut Findings<'_>, node: &Node, key: &str) -> Option<Unit<Vector3<f64>>> {
     let what = format!("an axis of `{key}`");
     let v = numbers::<3>(report, node, &what, Code::CoordinateCount, "components").map(Vector3::from)?;
-    // a vector that is a unit vector already is kept to the bit, so that a saved design reads back equal
+    // unit vectors keep their bits, so that a saved design reads back equal
     let unit = if (v.norm_squared() - 1.0).abs() < 1e-15 {
         Some(Unit::new_unchecked(v))
     } else {

@@ -1,4 +1,4 @@
-//! `[holes]`: grids on which the joints of the plates can be put.
+//! `[holes]`: grids for the joints of the plates.
 
 use serde::Serialize;
 use serde_json::{Map, Value as Json, json};
@@ -12,9 +12,9 @@ use crate::design::violation::Findings;
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
 use platform::manipulator::Body;
 
-/// Most holes on a circle.
+/// Greatest number of holes on a circle.
 const MOST_HOLES: f64 = 1e6;
-/// Share by which a step may miss a whole number of holes.
+/// Greatest relative deviation of a step from a whole number of holes.
 const WHOLE: f64 = 1e-9;
 
 static ORIGIN: Numbers = Numbers::coordinates(2, "coordinates x, y of a hole");
@@ -133,7 +133,7 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Option<
         report.refuse(Code::MissingKey, &entry.key_span, format!("{place} has no grid"), help);
         return None;
     }
-    // what both plates share is read once, so that its faults are told once
+    // keys of both plates are read once, so their faults are reported once
     let shared = if plates.iter().any(Option::is_none) && !common.is_empty() {
         Some(grid(report, &common, &entry.key_span, place)?)
     } else {
@@ -147,7 +147,7 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Option<
             check_keys(report, own, &GRID.names(), &place);
             let own: Vec<&Entry> = own.iter().filter(is_common).collect();
             let stated = |key: &str| own.iter().any(|e| e.key == key);
-            // another pattern has other keys: none of the common ones is meant for it
+            // another pattern has other keys, so it takes none of the common ones
             let kept = common.iter().copied().filter(|e| !stated("pattern") && !is_stated(&stated, &e.key));
             let all: Vec<&Entry> = own.iter().copied().chain(kept).collect();
             grid(report, &all, &plate.key_span, &place).map(Some)
@@ -156,7 +156,7 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Option<
     Some([base?, platform?])
 }
 
-/// Whether a table has the key, or the other one that says the same thing.
+/// Whether a table has the key, or its alternative.
 fn is_stated(stated: &impl Fn(&str) -> bool, key: &str) -> bool {
     stated(key) || (key == "count" && stated("step_deg")) || (key == "step_deg" && stated("count"))
 }
@@ -253,7 +253,7 @@ fn radii(report: &mut Findings<'_>, entry: &Entry) -> Option<Vec<f64>> {
     Some(all.into_iter().map(|(radius, _)| radius).collect())
 }
 
-/// The numbers of holes of so many circles, from `count` or `step_deg`: one number for all, or one for each.
+/// The numbers of holes of `circles`, from `count` or `step_deg`: one number for all, or one for each.
 fn counts(
     report: &mut Findings<'_>,
     entries: &[Entry],

@@ -1,4 +1,4 @@
-//! `base_joint`, `platform_joint` and `screw_lead` of `[hardware]`: what kind of joints a body has.
+//! `base_joint`, `platform_joint` and `screw_lead` of `[hardware]`: the kinds of joints of a body.
 
 use nalgebra::{Unit, Vector3};
 use serde_json::Value as Json;
@@ -17,24 +17,24 @@ use crate::design::violation::Findings;
 use machine::requirements::{Hardware, Housing, JointAxes, JointType, UniversalJoint};
 use platform::manipulator::Body;
 
-/// What the joints of a body are, leg by leg.
+/// The kinds of the joints of a body, leg by leg.
 #[derive(Clone, Copy, Default)]
 pub(super) struct JointModel {
     pub(super) universal: Option<UniversalJoint>,
     pub(super) bending: [Option<f64>; 6],
-    /// Greatest angles of the joints whose tables have one.
+    /// Greatest angles of the joints whose tables state one.
     pub(super) swing_deg: [Option<f64>; 6],
-    /// Housings of the joints whose tables have one.
+    /// Housings of the joints whose tables state one.
     pub(super) housing: [Option<Housing>; 6],
 }
 
-/// What a table says of the joint of one leg, or of those of all.
+/// The table of the joint of one leg, or of all legs.
 #[derive(Default, Clone, Copy)]
 struct JointKeys {
     model: Option<JointType>,
-    /// The table is about all legs.
+    /// Whether the table is about all legs.
     is_of_all: bool,
-    /// Of universal joints.
+    /// First axes of universal joints.
     first_axes: Option<[Unit<Vector3<f64>>; 6]>,
     limits_deg: Option<[f64; 2]>,
     offset: f64,
@@ -97,7 +97,7 @@ fn has_key(model: JointType, key: &str) -> bool {
     }
 }
 
-/// The joints of a body with their axes, which need joints that are measured from them.
+/// The joints of a body with their axes; universal joints need them.
 pub(super) fn with_axes(
     report: &mut Findings<'_>,
     entries: &[Entry],
@@ -125,7 +125,7 @@ pub(super) fn with_axes(
         report.refuse(Code::MissingKey, &e.key_span, message, help);
     }
     let Some(universal) = found.universal else { return found };
-    // normals are known later
+    // normals are filled in later
     if let (Some(e), Some(given)) = (axes.filter(|e| !named(&e.node).contains(&true)), given) {
         check_axes(report, e, given, &universal);
     }
@@ -186,8 +186,8 @@ pub(super) fn models(found: &mut FoundKey<'_, '_>) -> Option<JointModel> {
     })
 }
 
-/// Axes that do not meet are those of all six joints of a body: the lengths of its drives are computed for all legs
-/// in one way.
+/// An offset between axes applies to all six joints of a body, since the drive lengths of all legs are computed in one
+/// way.
 fn one_offset(report: &mut Findings<'_>, list: &[Node], all: &[JointKeys; 6]) {
     let Some(offset) = all.iter().map(|joint| joint.offset).find(|x| *x != 0.0) else { return };
     if let Some(i) = all.iter().position(|joint| joint.offset.to_bits() != offset.to_bits()) {
@@ -197,7 +197,7 @@ fn one_offset(report: &mut Findings<'_>, list: &[Node], all: &[JointKeys; 6]) {
     }
 }
 
-/// Universal joints have axes that are known and that are not their first axes.
+/// The axes of universal joints must be known and differ from their first axes.
 pub(super) fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAxes, joint: &UniversalJoint) {
     match axes {
         JointAxes::Home => {}
@@ -302,7 +302,7 @@ fn limits(report: &mut Findings<'_>, entry: &Entry) -> Option<[f64; 2]> {
     Some(limits)
 }
 
-/// `screw_lead` couples the turn of one universal joint against the other to the length.
+/// `screw_lead` couples the relative rotation of two universal joints to the length.
 pub(super) fn check_screw_lead(report: &mut Findings<'_>, entries: &[Entry], joints: [&JointModel; 2]) {
     let Some(entry) = find(entries, "screw_lead") else { return };
     if joints.iter().any(|joint| !joint.universal.is_some_and(|j| j.is_of_all())) {
@@ -312,8 +312,7 @@ pub(super) fn check_screw_lead(report: &mut Findings<'_>, entries: &[Entry], joi
     }
 }
 
-/// Refuses joints that are not ideal where what is asked for takes the length of a drive for the distance of its
-/// joints.
+/// Refuses joint offsets if the command takes the length of a drive for the distance of its joints.
 pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware: &Hardware, takes: bool) {
     if takes || !hardware.is_coupled() {
         return;
@@ -324,7 +323,7 @@ pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware:
     report.refuse(Code::NotIdeal, &entry.key_span, message, help);
 }
 
-/// The joints of a body; nothing where all are balls with one limit and the housing of the body.
+/// The joints of a body; nothing if all are balls with one limit and the housing of the body.
 pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
     let universal = h.universal(body);
     let swing = body.of((h.base_swing, h.platform_swing));
@@ -340,7 +339,7 @@ pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
             limits_deg: own.and_then(|joint| joint.limits_deg[leg]),
             offset: own.map_or(0.0, |joint| joint.offset),
             bending: bending[leg],
-            // the limit of all legs stands beside the table
+            // the limit of all legs is a separate key
             swing_deg: swing
                 .filter(|s| s.common_deg().is_none())
                 .map(|s| s.limits_deg[leg])
@@ -365,7 +364,7 @@ pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
     JOINT.put(&joint(0, all.and_then(|all| all.try_into().ok())))
 }
 
-/// One direction where all are the same.
+/// A single direction if all are equal.
 fn first_axes_json(axes: &[Unit<Vector3<f64>>; 6]) -> Json {
     let list = axes.map(|axis| axis.into_inner().json());
     if list.iter().all(|axis| *axis == list[0]) { list[0].clone() } else { list.to_vec().into() }

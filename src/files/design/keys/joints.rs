@@ -12,14 +12,14 @@ use crate::design::violation::Findings;
 use crate::design::{Code, Warning};
 use platform::manipulator::{Body, is_collinear};
 
-/// A joint of the file. One with bad coordinates is kept so that legs still find its name.
+/// A joint of the file. A joint with bad coordinates is kept, so that legs still find its name.
 #[derive(Debug)]
 pub(super) struct FileJoint {
     pub(super) name: String,
     pub(super) point: [f64; 3],
     pub(super) intact: bool,
     span: Span,
-    /// It is given by other than three numbers, rightly or wrongly.
+    /// Whether it is given by other means than three numbers, valid or not.
     pub(super) constructed: bool,
     construction: Option<Construction>,
     pub(super) places: Places,
@@ -47,14 +47,13 @@ impl NamedJoints {
         self.joints.iter().map(|j| j.name.clone()).collect()
     }
 
-    /// Not finite where they could not be read.
+    /// The coordinates; not finite if unreadable.
     pub(super) fn points(&self) -> Vec<Point3<f64>> {
         let point = |j: &FileJoint| if j.intact { j.point } else { [f64::NAN; 3] };
         self.joints.iter().map(|j| Point3::from(point(j))).collect()
     }
 
-    /// Notes which joints are at one place: by their exact coordinates where some are constructed, else by their
-    /// doubles.
+    /// Finds coincident joints: by exact coordinates if some are constructed, otherwise by doubles.
     pub(super) fn find_coincident(&mut self, constructions: Option<&Constructions>) {
         let exact = constructions
             .filter(|_| self.joints.iter().any(|j| j.constructed))
@@ -65,7 +64,7 @@ impl NamedJoints {
         };
         let mut near: BTreeMap<[u64; 3], Vec<usize>> = BTreeMap::new();
         for (i, joint) in self.joints.iter().enumerate().filter(|(_, j)| j.intact) {
-            // equal numbers have equal nearest doubles; -0 + 0 = 0: one place, one key
+            // equal numbers have equal nearest doubles; -0 + 0 = 0 gives one key for both zeros
             let there = near.entry(joint.point.map(|x| (x + 0.0).to_bits())).or_default();
             match there.iter().find(|j| same(**j, i)) {
                 Some(first) => self.first_there[i] = *first,
@@ -74,7 +73,7 @@ impl NamedJoints {
         }
     }
 
-    /// One entry a joint, or none when no joint is constructed.
+    /// One entry per joint, or none if no joint is constructed.
     pub(super) fn constructions(&self) -> Vec<Option<Construction>> {
         let list: Vec<_> = self.joints.iter().map(|j| j.construction.clone()).collect();
         if list.iter().all(Option::is_none) { Vec::new() } else { list }
@@ -148,7 +147,7 @@ pub(super) fn warn_coincident(report: &mut Findings<'_>, body: &NamedJoints) {
     }
 }
 
-/// Reads `legs`, checks the pairs and what they make of the joints.
+/// Reads `legs` and checks the pairs and the joints that they use.
 pub(super) fn legs(
     report: &mut Findings<'_>,
     entry: &Entry,
@@ -162,7 +161,7 @@ pub(super) fn legs(
     Some(Legs { pairs })
 }
 
-/// The joints that so many legs name.
+/// The pairs of joints of `N` legs.
 pub(super) fn pairs<const N: usize>(
     report: &mut Findings<'_>,
     entry: &Entry,
@@ -190,7 +189,7 @@ pub(super) fn pairs<const N: usize>(
     pairs.try_into().ok()
 }
 
-/// How many legs a list has; `None` where it is no list.
+/// The number of legs in a list; `None` if it is no list.
 pub(super) fn number_of_legs(entry: &Entry) -> Option<usize> {
     if let Value::Array(list) = &entry.node.value { Some(list.len()) } else { None }
 }
@@ -245,7 +244,7 @@ fn lookup(
     None
 }
 
-/// Two legs between the same two points: an architecturally singular platform, which can be asked about all the same.
+/// Two legs between the same two points: architecturally singular, but still a valid question.
 fn warn_coincident_legs(
     report: &mut Findings<'_>,
     list: &[Node],
@@ -264,7 +263,7 @@ fn warn_coincident_legs(
     }
 }
 
-/// Unused joints, and triangles that are none.
+/// Unused joints, and degenerate triangles.
 fn check_use(report: &mut Findings<'_>, body: &NamedJoints, used: [usize; 6]) {
     for (i, joint) in body.joints.iter().enumerate() {
         if !used.contains(&i) {

@@ -1,10 +1,10 @@
-//! Kinds of values: their types, ranges and units, and what the schema says of them.
+//! Kinds of values: their types, ranges and units, and their schema.
 
 use serde_json::{Map, Value as Json, json};
 
 use super::{Code, KeyTable};
 
-/// The power of the unit of length in the unit of a value, by which it changes with that unit.
+/// The power of the length unit in the unit of a value; it determines the change with that unit.
 pub(super) mod unit {
     /// A number, an angle, a share.
     pub(in crate::design::keys) const NONE: i8 = 0;
@@ -14,7 +14,7 @@ pub(super) mod unit {
     pub(in crate::design::keys) const LENGTH: i8 = 1;
     /// Length over time.
     pub(in crate::design::keys) const SPEED: i8 = 1;
-    /// Force times length; the stiffness of what bends too.
+    /// Force times length; also the bending stiffness.
     pub(in crate::design::keys) const TORQUE: i8 = 1;
     /// Force over length.
     pub(in crate::design::keys) const STIFFNESS: i8 = -1;
@@ -33,22 +33,22 @@ pub(crate) enum Range {
     NotNegative,
     /// An angle above 0 and at most 180 degrees.
     HalfTurn,
-    /// An angle above 0 and below so many degrees.
+    /// An angle above 0 and below this number of degrees.
     Below(u8),
 }
 
-/// A list of so many numbers.
+/// A list of `count` numbers.
 #[derive(Debug)]
 pub(crate) struct Numbers {
     pub(super) count: usize,
     pub(super) range: Range,
-    /// The code of a list of another length.
+    /// The violation for a list of another length.
     pub(super) code: Code,
     /// All of them, for messages.
     pub(super) noun: &'static str,
     /// One of them, and the rule for it.
     pub(super) one: [&'static str; 2],
-    /// Its name among the definitions of the schema; empty where it has none.
+    /// The name of its definition in the schema; empty without one.
     pub(super) definition: &'static str,
 }
 
@@ -80,9 +80,9 @@ pub(crate) enum KeyForm {
     Number(Range),
     /// A whole number between bounds.
     Whole(u32, u32),
-    /// A list of numbers.
+    /// A list of numbers of fixed length.
     Numbers(&'static Numbers),
-    /// A number or an expression in quotes, or a list of so many.
+    /// A number or an expression in quotes, or a list of them.
     Quantity(Option<usize>),
     /// A text that is not blank.
     Text,
@@ -90,20 +90,20 @@ pub(crate) enum KeyForm {
     Word(fn() -> Vec<&'static str>),
     /// A table.
     Table(&'static dyn KeyShape),
-    /// A list of so many values; 0: of any number.
+    /// A list of values of fixed length; 0: of any length.
     List(&'static KeyKind, usize),
     /// One of these.
     Either(&'static [KeyKind]),
-    /// A value with a schema of its own, as JSON: all numbers in it have the unit.
+    /// A value with its own schema, as JSON: all numbers in it have the unit.
     Own(&'static str),
 }
 
-/// What stands behind a key.
+/// The kind of the value of a key.
 #[derive(Clone, Copy)]
 pub(crate) struct KeyKind {
     pub(in crate::design) form: KeyForm,
     pub(in crate::design) unit: i8,
-    /// Messages name the table with the key.
+    /// Whether messages name the table with the key.
     pub(super) is_placed: bool,
 }
 
@@ -179,15 +179,15 @@ pub(super) const fn either(kinds: &'static [KeyKind]) -> KeyKind {
     KeyKind::new(KeyForm::Either(kinds), unit::NONE)
 }
 
-/// The keys of a table, whatever they are read into.
+/// The keys of a table, independent of the type they are read into.
 pub(crate) trait KeyShape: Sync {
     /// The kind of a key.
     fn kind(&self, key: &str) -> Option<KeyKind>;
-    /// What the schema says of the table; named definitions go to `definitions`.
+    /// The schema of the table; named definitions go to `definitions`.
     fn schema(&self, definitions: &mut Map<String, Json>) -> Json;
 }
 
-/// The definition of this name, made where there is none yet.
+/// The definition of this name, added if it is new.
 fn defined(definitions: &mut Map<String, Json>, name: &str, made: Json) -> Json {
     if name.is_empty() {
         return made;
@@ -213,7 +213,7 @@ impl Range {
 }
 
 impl KeyKind {
-    /// What the schema says of a value.
+    /// The schema of a value.
     pub(super) fn schema(&self, definitions: &mut Map<String, Json>) -> Json {
         match self.form {
             KeyForm::Number(range) => range.schema(),
@@ -279,7 +279,7 @@ impl<M> KeyShape for KeyTable<M> {
     }
 }
 
-/// Tables whose keys stand in one table of the file, with names as further keys.
+/// Several key tables combined in one table of the file, with names as further keys.
 pub(super) struct Joined {
     pub(super) definition: &'static str,
     pub(super) shapes: &'static [&'static dyn KeyShape],

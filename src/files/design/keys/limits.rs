@@ -1,4 +1,4 @@
-//! `[limits]`: what has to remain of each limit.
+//! `[limits]`: the reserves of the limits.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -10,7 +10,7 @@ use crate::design::tree::{Entry, Value, find};
 use crate::design::violation::Findings;
 use machine::requirements::{Quantity, Reserve, Reserves, TermKind};
 
-/// The reserve of every limit that has none of its own.
+/// The reserve of every limit without its own.
 const ALL: &str = "all";
 
 const PERCENT: KeyKind = own(r##"{"$ref": "#/$defs/percent"}"##, unit::NONE);
@@ -109,7 +109,7 @@ fn percent(found: &mut FoundKey<'_, '_>) -> Option<f64> {
     value
 }
 
-/// One percentage where it is all that is said, else a table in the order of the names.
+/// A single percentage if nothing else is stated, otherwise a table in the order of the names.
 fn written(reserves: &Reserves) -> Option<Json> {
     let percent = |x: f64| json!(format!("{x}%"));
     if reserves.kinds.is_empty() {

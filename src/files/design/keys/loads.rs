@@ -1,5 +1,5 @@
-//! `[speed]`, `[stiffness]`, `[[loads]]` and `[[keep_out]]`: how fast and stiff the platform has to be, what it has
-//! to hold, and what is in the way of its legs.
+//! `[speed]`, `[stiffness]`, `[[loads]]` and `[[keep_out]]`: required speed and stiffness of the platform, its loads,
+//! and obstacles to the legs.
 
 use nalgebra::{Point3, Vector3};
 
@@ -41,8 +41,7 @@ pub(super) static STIFFNESS: KeyTable<PlatformStiffness> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-/// `[stiffness]`, which is about legs whose stiffness is known, and about known masses in known units where it asks
-/// for a natural frequency.
+/// `[stiffness]`, which needs the stiffness of the legs, and for a natural frequency also masses and units.
 pub(super) fn stiffness(
     report: &mut Findings<'_>,
     top: &[Entry],
@@ -89,7 +88,7 @@ pub(super) static LOAD: KeyTable<Load> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-/// Reads each table of a list of tables, which begins with a value for the tables of its place.
+/// Reads each table of a list of tables; `begin` gives the initial value for each place.
 fn read_all<'e, M>(
     report: &mut Findings<'_>,
     top: &'e [Entry],

@@ -1,6 +1,6 @@
-//! The keys of design files. One entry of a table is one key: its name, its kind (type, range and unit), its sentence
-//! of the documentation, and how it gets into the design and out of it. Reading, checks, suggestions, saving, changes
-//! of units, the schema and the documentation follow from the entry.
+//! The keys of design files. One entry of a table is one key. It holds the name, the kind (type, range and unit), the
+//! sentence of the documentation, and the access to the design. Reading, checks, suggestions, saving, changes of units,
+//! the schema and the documentation all use it.
 
 mod axes;
 mod calibration;
@@ -49,11 +49,11 @@ struct Key<M: 'static> {
     kind: KeyKind,
     /// The sentence of schema and documentation.
     says: &'static str,
-    /// The value of an absent key, as JSON; empty where there is none.
+    /// The value of an absent key, as JSON; empty without a default.
     default: &'static str,
-    /// How to add the key where the table has to have it; empty where it may be absent.
+    /// The instruction to add a required key; empty for an optional key.
     required: &'static str,
-    /// Keys of the same table without which this one means nothing.
+    /// Keys of the same table that this one requires.
     needs: &'static [&'static str],
     read: fn(&mut FoundKey<'_, '_>, &mut M),
     write: fn(&M) -> Option<Json>,
@@ -71,9 +71,9 @@ impl<M> Key<M> {
     }
 }
 
-/// A key: `key!(name { default = JSON, required = help, needs = keys }: kind, field; sentence)`, where all in braces
-/// may be absent. Functions `read, write` stand in place of the field where the value is no field; neither stands
-/// where functions of the table read and write it.
+/// A key: `key!(name { default = JSON, required = help, needs = keys }: kind, field; sentence)`, with optional entries
+/// in braces. Functions `read, write` replace the field if the value is not a field. Both are missing if functions of
+/// the table read and write it.
 macro_rules! key {
     ($name:literal $({ $($option:ident = $value:expr),+ })?: $kind:expr; $says:expr) => {
         key!($name $({ $($option = $value),+ })?: $kind, |_, _| (), |_| None; $says)
@@ -95,9 +95,9 @@ macro_rules! key {
 }
 use key;
 
-/// The keys of a table of the file, in the order in which they are listed and written.
+/// The keys of a table of the file, in the order of listing and writing.
 struct KeyTable<M: 'static> {
-    /// Its name among the definitions of the schema; empty where it stands in one place.
+    /// The name of its definition in the schema; empty for a table used once.
     definition: &'static str,
     keys: &'static [Key<M>],
     /// The kind of the keys that are names.
@@ -106,7 +106,7 @@ struct KeyTable<M: 'static> {
     rules: &'static str,
 }
 
-/// A key that is a table or a list of tables is written behind the numbers and texts of its table, as TOML has it.
+/// A table or a list of tables is written after the numbers and texts of its table, as TOML requires.
 fn is_table(value: &Json) -> bool {
     match value {
         Json::Object(_) => true,
@@ -122,7 +122,7 @@ impl<M> KeyTable<M> {
         self.keys.iter().map(|key| key.name).collect()
     }
 
-    /// Reads a table that has no other keys.
+    /// Reads a table and refuses all other keys.
     fn read<'e>(
         &self,
         report: &mut Findings<'_>,
@@ -156,7 +156,7 @@ impl<M> KeyTable<M> {
         }
     }
 
-    /// Refuses a table without a key that is wanted and that it has to have.
+    /// Refuses a table that lacks a selected required key.
     fn require(
         &self,
         report: &mut Findings<'_>,
@@ -170,7 +170,7 @@ impl<M> KeyTable<M> {
         }
     }
 
-    /// The keys that have something to say.
+    /// The keys with a value to write.
     fn write(&self, of: &M) -> Map<String, Json> {
         let written = |key: &Key<M>| Some((key.name.to_owned(), (key.write)(of)?));
         let (tables, values): (Vec<_>, Vec<_>) =
@@ -178,7 +178,7 @@ impl<M> KeyTable<M> {
         values.into_iter().chain(tables).collect()
     }
 
-    /// The same as a value of the table around it, which leaves an empty one out.
+    /// The table as a value of its parent, which omits an empty one.
     fn put(&self, of: &M) -> Option<Json> {
         Some(self.write(of)).filter(|keys| !keys.is_empty()).map(Json::Object)
     }

@@ -1,4 +1,4 @@
-//! `[optimize]`: what the optimiser chooses, and by what.
+//! `[optimize]`: variables, objectives and mode of the optimiser.
 
 use serde_json::{Value as Json, json};
 
@@ -13,9 +13,9 @@ use crate::design::{Combination, DesignModel, OptimizeTable, SearchTable};
 use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 use platform::manipulator::Body;
 
-/// Share of the earlier levels that later ones may take.
+/// Default share of the gains of earlier levels that later ones may give up.
 const SLACK: f64 = 0.01;
-/// Steps of a Pareto front, and the most.
+/// Default and greatest number of steps of a Pareto front.
 const POINTS: (usize, usize) = (10, 100);
 
 /// The table, as it is written.
@@ -27,11 +27,11 @@ pub(super) struct OptimizeKeys {
     mode: Option<WeighingMode>,
     slack: Option<f64>,
     points: Option<usize>,
-    /// The names of the joints of both bodies; `None` where they could not be read.
+    /// The names of the joints of both bodies; `None` if they could not be read.
     joints: [Option<Vec<String>>; 2],
 }
 
-/// How several objectives are weighed.
+/// The combination of several objectives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum WeighingMode {
     Weighted,
@@ -127,7 +127,7 @@ static WEIGHTED: KeyTable<WeightedKeys> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-/// `[optimize]`, for bodies whose joints are named.
+/// `[optimize]`, for bodies with named joints.
 pub(super) fn optimize(
     report: &mut Findings<'_>,
     top: &[Entry],
@@ -157,7 +157,7 @@ pub(super) fn optimize(
 }
 
 impl OptimizeKeys {
-    /// The table as it is written, with the fixed joints that there are.
+    /// The table as written, with the fixed joints that exist.
     pub(super) fn of(design: &DesignModel) -> Self {
         let mut search = design.search.clone();
         let (mode, slack, points) = match search.mode {
@@ -180,7 +180,7 @@ fn list<T>(list: &[T], of: impl Fn(&T) -> Json) -> Option<Json> {
     (!list.is_empty()).then(|| list.iter().map(of).collect())
 }
 
-/// The names of joints, or of a body for all its joints; a name that both bodies have means both joints.
+/// Names of joints, or of a body for all its joints; a name in both bodies means both joints.
 fn fixed(found: &mut FoundKey<'_, '_>, joints: &[Option<Vec<String>>; 2]) -> [Vec<String>; 2] {
     let mut out = [Vec::new(), Vec::new()];
     let names = joints.each_ref().map(|names| names.as_deref().unwrap_or_default());

@@ -1,4 +1,4 @@
-//! `[payload]`: what the platform carries.
+//! `[payload]`: the load that the platform carries.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -88,7 +88,7 @@ fn inertia(found: &mut FoundKey<'_, '_>) -> Option<Matrix3<f64>> {
     };
     let size = m.amax();
     let symmetric = (m - m.transpose()).amax() <= 1e-9 * size;
-    // of a body: positive, and no principal moment greater than the sum of the others
+    // physical inertia: positive, and no principal moment greater than the sum of the others
     let spread = Matrix3::identity() * (0.5 * m.trace()) - m;
     let possible =
         m.symmetric_eigenvalues().min() > 0.0 && spread.symmetric_eigenvalues().min() >= -1e-9 * size;

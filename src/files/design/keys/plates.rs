@@ -116,7 +116,7 @@ fn plate(
         let help = "a hole has to end inside the outline: give a margin of more than half of it";
         refuse("margin", format!("a `margin` of {margin} with holes of {hole}"), help);
     }
-    // the narrowest joint sits on its hole too
+    // the narrowest joint must sit on its hole too
     let housing = hardware.joint_widths(body).map(|[least, _]| least);
     match (find(entries, "height"), housing) {
         (None, None) => {
@@ -135,7 +135,7 @@ fn plate(
     is_whole.then_some(plate)
 }
 
-/// The density of the material is known or given. A density makes a mass in known units of length alone.
+/// The density of the material must be known or given. A mass follows from it only in known units of length.
 fn check_material(report: &mut Findings<'_>, entries: &[Entry], material: Option<&str>, units: Option<&str>) {
     let (named, density) = (find(entries, "material"), find(entries, "density"));
     let names = MATERIALS.map(|m| m.0);
@@ -184,7 +184,7 @@ fn bolt_count(found: &mut FoundKey<'_, '_>) -> u32 {
     whole.unwrap_or_default()
 }
 
-/// A payload that has the plate in its mass weighs no less than the plate, and one that has it added knows its mass.
+/// A payload that includes the plate must weigh at least as much; for an added plate the mass must be known.
 pub(super) fn check_masses(report: &mut Findings<'_>, top: &[Entry], design: &DesignModel) {
     let (Some(payload), Some(entry)) = (design.payload, find(top, "payload")) else { return };
     let plate = design.plate_mass(Body::Platform);

@@ -72,7 +72,7 @@ pub(super) static HOME: KeyTable<DesignModel> = KeyTable {
 const ROTATION_HELP: &str =
     "give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]";
 
-/// `[home]`, and how its numbers are written where one of them is an expression. Its pose then follows later.
+/// `[home]`, with its numbers as written if one of them is an expression. Its pose is then computed later.
 pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<(Pose, Option<(WrittenHome, Places)>)> {
     let constructed =
         |entries: &[Entry], key: &str| find(entries, key).is_some_and(|e| is_constructed(&e.node));
@@ -185,7 +185,7 @@ fn rotation(report: &mut Findings<'_>, entry: &Entry, place: &str) -> Option<Rot
     }
 }
 
-/// Three rows. Taken as they are, without orthonormalisation, so that a saved pose reads back exactly.
+/// Three rows. They are not orthonormalised, so that a saved pose reads back exactly.
 fn rotation_matrix(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<Rotation3<f64>> {
     let rows = match &node.value {
         Value::Array(rows) if rows.len() == 3 => rows,

@@ -11,9 +11,9 @@ use machine::requirements::Objective;
 
 /// JSON Schema (draft 2020-12) of a design as JSON; a TOML file has the same structure.
 ///
-/// What no schema can say is left to [`parse`](crate::design::parse): that the joints of the legs exist, that bodies
-/// have a size, that rotations are rotations. It takes a TOML file with `legs` below `[base]` with a warning, which
-/// the schema refuses.
+/// Checks beyond a schema are left to [`parse`](crate::design::parse): the joints of the legs exist, bodies have a
+/// size, rotations are rotations. It accepts a TOML file with `legs` below `[base]` with a warning; the schema refuses
+/// it.
 pub static SCHEMA: LazyLock<String> = LazyLock::new(|| format!("{:#}\n", Json::Object(schema())));
 
 /// Values that several keys have.

@@ -74,7 +74,7 @@ pub(super) fn shape(found: &mut FoundKey<'_, '_>) -> Option<KeepOutShape> {
     })
 }
 
-/// The value of the key, where it is the one of the shape.
+/// The value of the key, if it is the key of the shape.
 pub(super) fn written(shape: Option<&KeepOutShape>, key: &str) -> Option<Json> {
     let none = ShapeKeys::default();
     let (name, table, keys) = match *shape? {

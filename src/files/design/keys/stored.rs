@@ -1,4 +1,4 @@
-//! Values of the design as they stand behind keys: how they are read and written.
+//! Reading and writing of design values behind keys.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde_json::{Value as Json, json};
@@ -16,13 +16,13 @@ use platform::manipulator::Body;
 
 /// A value behind a key.
 pub(super) trait StoredValue: Sized {
-    /// Reads it; `None` where there is none, with the reason in the report.
+    /// Reads it; `None` if it is invalid, with the reason in the report.
     fn take(found: &mut FoundKey<'_, '_>) -> Option<Self>;
     /// Writes it.
     fn json(&self) -> Json;
 }
 
-/// A field of the design: an item, or one that may be absent.
+/// A field of the design: a required or an optional value.
 pub(super) trait Stored {
     /// Puts the value of a key into it.
     fn fill(&mut self, found: &mut FoundKey<'_, '_>);

@@ -1,4 +1,4 @@
-//! Tables of linear drives that a user owns: a drive a line, with what it costs and what it can do.
+//! The user's tables of linear drives: one drive per line, with its price and its limits.
 
 use thiserror::Error;
 
@@ -9,9 +9,9 @@ use machine::requirements::{ForceUnit, LengthLimits, MassUnit};
 /// A linear drive, in the units of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drive {
-    /// Line of the table, from 1.
+    /// Line in the table, from 1.
     pub line: usize,
-    /// Its name; its number in the table where there is no column of names.
+    /// Its name; its number in the table if there is no column of names.
     pub name: String,
     /// Travel.
     pub stroke: f64,
@@ -23,11 +23,11 @@ pub struct Drive {
     pub speed: Option<f64>,
     /// Mass of the whole drive.
     pub mass: Option<f64>,
-    /// Along its line.
+    /// Stiffness along its line.
     pub stiffness: Option<f64>,
-    /// In the currency of the table.
+    /// Price in the currency of the table.
     pub price: Option<f64>,
-    /// Where the numbers are from.
+    /// The source of the numbers.
     pub source: Option<String>,
 }
 
@@ -36,9 +36,9 @@ pub struct Drive {
 pub struct DriveTable {
     /// The drives, in the order of the table.
     pub drives: Vec<Drive>,
-    /// What the header writes behind `price`.
+    /// The currency, from the header after `price`.
     pub currency: Option<String>,
-    /// What was guessed and what is not used, a sentence each.
+    /// Guesses about the table and unused columns, one sentence each.
     pub guesses: Vec<String>,
 }
 
@@ -53,46 +53,46 @@ pub struct DesignUnits<'a> {
     pub mass: MassUnit,
 }
 
-/// Why a table holds no drives.
+/// Reasons why a table holds no drives.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum InvalidDriveTable {
-    /// It is no table.
+    /// It is not a table.
     #[error(transparent)]
     Sheet(#[from] InvalidSheet),
-    /// Nothing says what its columns are.
+    /// No header names its columns.
     #[error("the first line does not name the columns")]
     NoHeader,
-    /// A column that is needed.
+    /// A required column is missing.
     #[error("no column is named `{0}`")]
     NoColumn(&'static str),
-    /// Two columns say the same thing.
+    /// Two columns have the same meaning.
     #[error("two columns are named `{0}`")]
     TwoColumns(&'static str),
-    /// A drive has one least length.
+    /// Two columns give the least length.
     #[error("`dead_length` and `retracted_length` say the same thing in two ways")]
     TwoLengths,
-    /// A unit that is not known, or not of this kind.
+    /// A unit that is unknown, or of another kind.
     #[error("`{unit}` of the column `{column}` is no unit of {quantity}")]
     Unit {
-        /// As the header has it.
+        /// The column as named in the header.
         column: String,
-        /// What follows the name.
+        /// The text after the name.
         unit: String,
-        /// What the column is.
+        /// The quantity of the column.
         quantity: &'static str,
     },
-    /// Units of the table cannot become those of the design.
+    /// Units of the table cannot be converted to those of the design.
     #[error("the column `{column}` has a unit, and the unit `{units}` of the design is not a known one")]
     DesignUnit {
-        /// As the header has it.
+        /// The column as named in the header.
         column: String,
         /// The label of the design.
         units: String,
     },
-    /// Cells that cannot be used, a sentence each.
+    /// Invalid cells, one sentence each.
     #[error("{}", .0.join("; "))]
     Cells(Vec<String>),
-    /// Where drives are chosen by their names.
+    /// Two drives have the same name, but the drive is chosen by name.
     #[error("two drives are named `{0}`")]
     TwoDrives(String),
     /// There is no row.
@@ -100,7 +100,7 @@ pub enum InvalidDriveTable {
     Empty,
 }
 
-/// What a column can be.
+/// The meaning of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum DriveColumn {
     Name,
@@ -168,8 +168,7 @@ impl DriveColumn {
         Some((column, unit))
     }
 
-    /// How much one of the unit of the table is in that of the design; 1 without a unit. `None` where it is not of this
-    /// kind.
+    /// Size of the table's unit in the unit of the design; 1 without a unit. `None` for a unit of another kind.
     fn factor(self, unit: &str, of: &DesignUnits<'_>) -> Option<UnitRatio> {
         if unit.is_empty() {
             return Some(UnitRatio::Known(1.0));
@@ -197,21 +196,21 @@ impl DriveColumn {
     }
 }
 
-/// From the unit of a column to that of the design.
+/// Conversion from the unit of a column to that of the design.
 enum UnitRatio {
     Known(f64),
-    /// The design's own unit has no size.
+    /// The size of the design's unit is unknown.
     Unknown,
 }
 
-/// Words less similar than this are no other name of a column.
+/// Least similarity of a misspelt column name.
 const NEAR: f64 = 0.7;
 
 impl DriveTable {
     /// Reads a table whose first line names the columns, with their units: `stroke_mm`, `force_N`, `speed_mm/s`,
-    /// `mass_kg`, `stiffness_N/mm`; a column without one is in the units of the design. `stroke` and one of
-    /// `dead_length` (least length less the stroke) and `retracted_length` (least length) are needed; empty cells of
-    /// the others say nothing.
+    /// `mass_kg`, `stiffness_N/mm`. A column without a unit is in the units of the design. `stroke` is required, with
+    /// either `dead_length` (least length minus the stroke) or `retracted_length` (least length). Empty cells of other
+    /// columns are unknown values.
     ///
     /// # Errors
     /// [`InvalidDriveTable`].
@@ -289,7 +288,7 @@ impl RowReader<'_> {
         (!cell.is_empty()).then_some((cell, *factor))
     }
 
-    /// A number of at least 0, above it unless `zero` may be.
+    /// A number of at least 0, or above 0 unless `zero` is allowed.
     fn number(&self, column: DriveColumn, zero: bool, faults: &mut Vec<String>) -> Option<f64> {
         let (cell, factor) = self.cell(column)?;
         let x = self.sheet.number(cell);

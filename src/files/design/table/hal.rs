@@ -1,5 +1,5 @@
-//! The pins of `LinuxCNC`'s hexapod kinematics: lines `setp genhexkins.base.0.x 300`, as `export --to hal` writes them
-//! and machines have them.
+//! The pins of `LinuxCNC`'s hexapod kinematics: lines `setp genhexkins.base.0.x 300`, as in machine files and in the
+//! output of `export --to hal`.
 
 use nalgebra::Point3;
 
@@ -7,12 +7,12 @@ use super::points::InvalidPointTable;
 use platform::geom::{Angles, Pose};
 use platform::manipulator::Leg;
 
-/// What the settings say.
+/// The contents of the settings.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct HexapodPins {
-    /// Pins with the number N are of leg N + 1.
+    /// Legs in order: pins with the number N belong to leg N + 1.
     pub(super) legs: [Leg; 6],
-    /// From the comment that this program writes.
+    /// The home pose, from the comment that this program writes.
     pub(super) home: Option<Pose>,
     pub(super) guesses: Vec<String>,
 }
@@ -30,7 +30,7 @@ fn joint_pin(name: &str) -> Option<JointPin> {
     Some([body, number, axis])
 }
 
-/// What says of a home pose that it was read.
+/// The note that a home pose was read.
 pub(super) const HOME_OF_COMMENT: &str = "Home is the pose of the comment `Home pose X Y Z A B C`.";
 
 /// The six numbers of the comment on home.
@@ -42,10 +42,10 @@ pub(super) fn home_of(line: &str) -> Option<Pose> {
 }
 
 impl HexapodPins {
-    /// Reads settings; `None` where the text sets no joint of a hexapod.
+    /// Reads settings; `None` if the text sets no joint of a hexapod.
     ///
     /// # Errors
-    /// Numbers that are none, pins that are set twice or are missing: all are named.
+    /// All invalid numbers, and all duplicate or missing pins.
     pub(super) fn read(text: &str) -> Option<Result<Self, InvalidPointTable>> {
         let mut values = [[[None::<f64>; 3]; 6]; 2];
         let (mut found, mut faults, mut guesses) = (0, Vec::new(), Vec::new());

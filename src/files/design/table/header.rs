@@ -1,6 +1,6 @@
-//! What the names of columns mean.
+//! The meaning of column names.
 
-/// Letters and digits of a name, in lower case, without what stands in brackets.
+/// Letters and digits of a name, in lower case, without parts in brackets.
 pub(super) fn plain(name: &str) -> String {
     let mut depth = 0_usize;
     let kept = name.chars().filter(|c| match c {
@@ -15,7 +15,7 @@ pub(super) fn plain(name: &str) -> String {
         c => depth == 0 && c.is_alphanumeric(),
     });
     let plain = kept.collect::<String>().to_lowercase();
-    // `x_mm`: the unit is no part of the name, unless it is all of it
+    // `x_mm`: the unit is not part of the name, unless it is the whole name
     let less = UNITS.iter().find_map(|(suffix, _)| {
         let separated = name.trim().to_lowercase();
         let head = separated.strip_suffix(suffix)?;
@@ -25,7 +25,7 @@ pub(super) fn plain(name: &str) -> String {
     less.unwrap_or(plain)
 }
 
-/// How the length units are spelled in headers, and their labels.
+/// Spellings of length units in headers, and their labels.
 pub(super) const UNITS: [(&str, &str); 12] = [
     ("mm", "mm"),
     ("millimeter", "mm"),

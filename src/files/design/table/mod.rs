@@ -1,8 +1,7 @@
-//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models
-//! of simulators.
+//! Tables of numbers from spreadsheets, CAD programs and scripts, and legs in models of simulators.
 //!
-//! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence
-//! that the reader of the answer sees. What cannot be read is refused; no cell is passed over without a word.
+//! Such tables do not declare their form. It is guessed from the text, and the answer shows every guess as a sentence.
+//! Unreadable cells are refused; none is skipped silently.
 
 mod drives;
 mod hal;

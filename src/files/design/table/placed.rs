@@ -1,4 +1,4 @@
-//! Six legs as a model of a machine has them: both ends in one frame, with what its arithmetic has rounded.
+//! Six legs from a model of a machine, with both ends in one frame and rounded coordinates.
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
@@ -6,17 +6,17 @@ use super::points::PointTable;
 use platform::geom::Pose;
 use platform::manipulator::Leg;
 
-/// A length unit for a design that comes out of a file.
+/// A length unit for a design read from a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FileUnit {
     /// Its label.
     pub(super) label: &'static str,
-    /// How much it is in the unit of the file.
+    /// Its length in the unit of the file.
     pub(super) per: f64,
 }
 
-/// The number between `before` and `after` in a line that this program's exports have, such as `Lengths in mm; one unit
-/// of the design is 25.4 mm`.
+/// The number between `before` and `after` in a line of this program's exports, such as
+/// `Lengths in mm; one unit of the design is 25.4 mm`.
 pub(super) fn number_between(line: &str, before: &str, after: &str) -> Option<f64> {
     let number = line.trim().strip_prefix(before)?.strip_suffix(after)?;
     number.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0)
@@ -28,7 +28,7 @@ pub(super) fn trailing_number(name: &str) -> Option<u64> {
     name[head.len()..].parse().ok()
 }
 
-/// The order by these numbers, where all are there and different.
+/// The order by these numbers, if all are present and different.
 pub(super) fn order_of(numbers: &[Option<u64>]) -> Option<Vec<usize>> {
     let numbers: Vec<u64> = numbers.iter().copied().collect::<Option<_>>()?;
     let mut order: Vec<usize> = (0..numbers.len()).collect();
@@ -36,18 +36,18 @@ pub(super) fn order_of(numbers: &[Option<u64>]) -> Option<Vec<usize>> {
     order.windows(2).all(|pair| numbers[pair[0]] < numbers[pair[1]]).then_some(order)
 }
 
-/// No turn and no shift.
+/// The identity motion.
 pub(super) fn identity() -> Pose {
     Pose { rotation: Rotation3::identity(), position: Vector3::zeros() }
 }
 
-/// `inner` seen from outside `outer`.
+/// The pose `inner`, given in the frame `outer`, in the frame outside `outer`.
 pub(super) fn within(outer: &Pose, inner: &Pose) -> Pose {
     let position = outer.transform(&Point3::from(inner.position)).coords;
     Pose { rotation: outer.rotation * inner.rotation, position }
 }
 
-/// The outer frame seen from `inner`.
+/// The inverse motion.
 pub(super) fn inverse(inner: &Pose) -> Pose {
     let rotation = inner.rotation.inverse();
     Pose { rotation, position: -(rotation * inner.position) }
@@ -60,13 +60,13 @@ pub(super) struct PlacedLegs {
     pub(super) ends: [[Point3<f64>; 2]; 6],
     /// The platform frame, base frame, unit of the file.
     pub(super) home: Pose,
-    /// Ends of a body that are nearer than this to each other are one, over the size.
+    /// Ends of a body within this distance, over the size, are one joint.
     pub(super) tolerance: f64,
 }
 
-/// A rotation matrix that differs by less from that of no turn is this one: quaternions of a model have sixteen digits.
+/// A rotation matrix within this of the identity counts as the identity: quaternions of a model have sixteen digits.
 const NO_TURN: f64 = 1e-12;
-/// What is kept of a coordinate, over the size: the products of frames lose what is below.
+/// Precision of kept coordinates, over the size; products of frames lose smaller parts.
 const KEPT: f64 = 1e-13;
 
 /// The greatest distance between the first of these points and another.
@@ -81,11 +81,11 @@ struct Decimals(Option<usize>);
 
 impl Decimals {
     fn of(size: f64) -> Self {
-        // more than whole numbers is lost: nothing is rounded
+        // less than whole numbers remain: nothing is rounded
         if KEPT * size > 1.0 {
             return Self(None);
         }
-        // digits behind the point: the least number whose unit is below what is kept times ten
+        // decimals: the smallest number whose unit is below ten times the kept precision
         Self(
             (0..300)
                 .find(|digits| 10.0_f64.powi(-digits) < 10.0 * KEPT * size)
@@ -95,8 +95,7 @@ impl Decimals {
 
     fn round(&self, x: f64) -> f64 {
         let Some(digits) = self.0 else { return x };
-        // by way of the decimal, so that the double is the one that the shortest decimal names; without the sign of
-        // zero
+        // conversion by the decimal gives the double of the shortest decimal; adding zero removes the sign of zero
         format!("{x:.digits$}").parse().map_or(x, |rounded: f64| rounded + 0.0)
     }
 
@@ -106,7 +105,7 @@ impl Decimals {
 }
 
 impl PlacedLegs {
-    /// The table in another unit; `None` where a coordinate is not finite.
+    /// The table in another unit; `None` if a coordinate is not finite.
     pub(super) fn table(&self, unit: &FileUnit, mut guesses: Vec<String>) -> Option<PointTable> {
         let mut ends = self.ends.map(|leg| leg.map(|p| p / unit.per));
         let mut home = Pose { position: self.home.position / unit.per, ..self.home };

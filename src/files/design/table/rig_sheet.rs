@@ -1,16 +1,15 @@
-//! The parameters by which motion-simulator programs know a hexapod: four lengths of sides, and crank and rod or a
-//! middle length.
+//! Hexapod parameters in motion-simulator programs: four side lengths, with crank and rod or a middle length.
 //!
-//! The joints of each body stand in three pairs on a circle. The hexagon of the joints has the sides `short` (inside a
-//! pair) and `long` (from pair to pair) by turns; neighbouring sides make 120 degrees, so that every second corner is
-//! at the distance `sqrt(3) R` from the next one, and
+//! The joints of each body stand in three pairs on a circle. The sides of the hexagon of the joints alternate between
+//! `short` (inside a pair) and `long` (from pair to pair). Neighbouring sides enclose 120 degrees, so every second
+//! corner is at the distance `sqrt(3) R` from the next one, and
 //!
 //! ```text
 //! R^2 = (long^2 + short^2 + long short) / 3,      spread = 2 asin(short / (2 R)).
 //! ```
 //!
-//! `L1` and `L2` are the sides of the platform, the long one first, in every program known. `L3` and `L4` are those of
-//! the base, and programs disagree on which is the long one ([`SheetDialect`]).
+//! `L1` and `L2` are the sides of the platform, the long one first, in every known program. `L3` and `L4` are those of
+//! the base; programs disagree on which is the long one ([`SheetDialect`]).
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -23,7 +22,7 @@ use crate::design::{DesignModel, HexapodSizes};
 use machine::rotary::{Elbow, RotaryPlatform};
 use num::names::{UnknownName, named};
 
-/// Whose sheet it is: it says which of `L3` and `L4` is the long side of the base.
+/// The program of a sheet; it determines which of `L3` and `L4` is the long side of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SheetDialect {
     /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long
@@ -52,7 +51,7 @@ impl SheetDialect {
         }
     }
 
-    /// `[L3, L4]` from the long and the short side of the base, and back.
+    /// `[L3, L4]` from the long and the short side of the base, and the reverse.
     fn ordered(self, [first, second]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Motion4Sim => [second, first],
@@ -60,7 +59,7 @@ impl SheetDialect {
         }
     }
 
-    /// Which of them is the long side.
+    /// The name of the long side.
     fn long_side(self) -> &'static str {
         match self {
             Self::Motion4Sim => "L4",
@@ -77,10 +76,10 @@ impl std::str::FromStr for SheetDialect {
     }
 }
 
-/// What moves the platform.
+/// The drives of the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SheetLegs {
-    /// Legs that change their lengths: the length in the middle, and how far it goes to either side.
+    /// Legs of variable length: the middle length, and the travel to either side.
     Linear {
         /// `middle`.
         middle: f64,
@@ -95,8 +94,8 @@ pub enum SheetLegs {
         rod: f64,
         /// `middle_angle`: of the cranks above the plane of the base at home, degrees.
         middle_deg: f64,
-        /// `crank_angle_1` to `crank_angle_6`: directions of the axes in the plane of the base from x, counterclockwise
-        /// seen from above, degrees. At the angle 0 a crank points to the left of its axis.
+        /// `crank_angle_1` to `crank_angle_6`: directions of the axes in the plane of the base, degrees. They count
+        /// from x, counterclockwise seen from above. At the angle 0 a crank points to the left of its axis.
         axes_deg: [f64; 6],
     },
 }
@@ -112,10 +111,10 @@ pub struct RigSheet {
     pub legs: SheetLegs,
 }
 
-/// Why parameters and designs do not belong together.
+/// Reasons why a sheet or a design cannot be converted.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InvalidRigSheet {
-    /// It cannot be read as text.
+    /// It is not readable as text.
     #[error("{0}")]
     Text(String),
     /// A line without a name and a number.
@@ -126,7 +125,7 @@ pub enum InvalidRigSheet {
         /// The line.
         text: String,
     },
-    /// A name nothing is known of.
+    /// An unknown name.
     #[error("line {line}: `{name}` is no parameter of a sheet")]
     Unknown {
         /// From 1.
@@ -145,7 +144,7 @@ pub enum InvalidRigSheet {
     /// A parameter that is missing.
     #[error("`{0}` is missing")]
     Missing(String),
-    /// A parameter that is no positive number.
+    /// A parameter that is not a positive number.
     #[error("`{name}` is {value}, not a positive number")]
     NotPositive {
         /// The name.
@@ -168,7 +167,7 @@ pub enum InvalidRigSheet {
         l3: f64,
         /// `L4`.
         l4: f64,
-        /// The dialect that was named.
+        /// The named dialect.
         dialect: SheetDialect,
     },
     /// Legs or rods too short to reach from the base to the platform.
@@ -176,12 +175,12 @@ pub enum InvalidRigSheet {
     OutOfReach {
         /// From 1.
         leg: usize,
-        /// What is too short.
+        /// The part that is too short.
         what: &'static str,
-        /// By how much.
+        /// The missing length.
         by: f64,
     },
-    /// Cranks that hold the platform at different heights.
+    /// Cranks that lift the platform joints to different heights.
     #[error(
         "with these angles of the axes the cranks hold the joints of the platform at heights from {0} to {1}: no platform is level on them at the middle angle"
     )]
@@ -192,7 +191,7 @@ pub enum InvalidRigSheet {
 }
 
 impl InvalidRigSheet {
-    /// What to do about it.
+    /// The remedy.
     pub fn help(&self) -> String {
         match self {
             Self::Dialect { dialect, .. } => format!(
@@ -206,7 +205,7 @@ impl InvalidRigSheet {
     }
 }
 
-/// Names in the order in which they are written.
+/// Names in the order of writing.
 const SIDES: [&str; 4] = ["L1", "L2", "L3", "L4"];
 const LINEAR: [&str; 2] = ["middle", "range"];
 const CRANKS: [&str; 9] = [
@@ -221,7 +220,7 @@ const CRANKS: [&str; 9] = [
     "crank_angle_6",
 ];
 
-/// How far heights and joints may be from each other over the size of the hexapod: numbers of sheets are rounded.
+/// Greatest deviation of heights and joints over the size of the hexapod: sheets have rounded numbers.
 const ROUNDED: f64 = 1e-3;
 
 /// Radius and spread in radians of the circle of joints with these sides.
@@ -230,7 +229,7 @@ fn circle([long, short]: [f64; 2]) -> (f64, f64) {
     (radius, 2.0 * (0.5 * short / radius).clamp(-1.0, 1.0).asin())
 }
 
-/// Joints in leg order, as [`HexapodSizes`] has them: the pairs of the base around 0, 120 and 240 degrees, those of the
+/// Joints in leg order as in [`HexapodSizes`]: the pairs of the base around 0, 120 and 240 degrees, those of the
 /// platform between them.
 fn joints((radius, spread): (f64, f64), is_platform: bool) -> [Point3<f64>; 6] {
     std::array::from_fn(|i| {
@@ -314,7 +313,7 @@ impl RigSheet {
         Ok(Self { platform: [l1, l2], base, legs })
     }
 
-    /// The sheet as a program of a dialect wants it.
+    /// The sheet in the form of a dialect.
     pub fn text(&self, dialect: SheetDialect, design: &DesignModel) -> String {
         let mut out = format!(
             "# {}: parameters for {}, lengths in {}, angles in degrees\n# L1, L2: long and short side of the platform; {} is the long side of the base\n",
@@ -345,7 +344,7 @@ impl RigSheet {
         out
     }
 
-    /// Height of the platform at home: legs in the middle of their strokes, or cranks at their middle angle.
+    /// Height of the platform at home: legs at mid-stroke, or cranks at their middle angle.
     fn height(&self) -> Result<f64, InvalidRigSheet> {
         let [base, platform] = [joints(circle(self.base), false), joints(circle(self.platform), true)];
         let size = circle(self.base).0 + circle(self.platform).0;
@@ -395,7 +394,7 @@ impl RigSheet {
                 let [base, platform] = [joints((rb, sb), false), joints((rp, sp), true)];
                 for (i, degrees) in axes_deg.into_iter().enumerate() {
                     let (sin, cos) = degrees.to_radians().sin_cos();
-                    // where the tip is nearest to the platform joint: cranks above it are on the side of the greater
+                    // angle of the tip nearest to the platform joint: cranks above it are on the side of the greater
                     // angle
                     let d = platform[i] - base[i] + Vector3::z() * height;
                     let nearest = d.z.atan2(d.y * cos - d.x * sin);
@@ -430,7 +429,7 @@ impl RigSheet {
             [legs.map(|l| l.base), legs.map(|l| home.transform(&l.platform))].into_iter().enumerate()
         {
             let body = ["base", "platform"][k];
-            // legs in order around the axis: sides inside a pair and from pair to pair by turns
+            // legs in order around the axis: alternately sides inside a pair and from pair to pair
             let side = |i: usize| (at[(i + 1) % 6] - at[i]).norm();
             let flat = (0..6).all(|i| near(at[i].z, at[0].z));
             let turned = (0..6).all(|i| {
@@ -531,7 +530,7 @@ mod tests {
             {
                 assert!((a - b).abs() < 1e-9, "{text}");
             }
-            // the other dialect refuses it, and says which one it is
+            // the other dialect refuses it and names the right one
             let why = RigSheet::read(text.as_bytes(), dialect.other()).unwrap_err();
             assert!(
                 matches!(why, InvalidRigSheet::Dialect { .. }) && why.help().contains(dialect.name()),
@@ -542,7 +541,7 @@ mod tests {
 
     #[test]
     fn a_sheet_of_cranks_holds_the_platform_at_the_middle_angle() {
-        // axes radial, the two of a pair reversed: cranks point away from each other
+        // radial axes, the two of a pair reversed: cranks point away from each other
         let mut text = String::from(
             "L1 = 700\nL2 = 120\nL3 = 900\nL4 = 250\ncrank = 90\nrod = 600\nmiddle_angle = 10\n",
         );
@@ -567,7 +566,7 @@ mod tests {
         for (x, y) in a.iter().zip(b) {
             assert!(((x - y).to_radians().cos() - 1.0).abs() < 1e-12, "{x} {y}");
         }
-        // axes that all turn the same way hold no level platform
+        // axes with equal sense of rotation cannot hold a level platform
         let uneven = text.replace("crank_angle_2 = 360", "crank_angle_2 = 180");
         let why = RigSheet::read(uneven.as_bytes(), SheetDialect::DrSimManager)
             .unwrap()

@@ -1,4 +1,4 @@
-//! Leg lengths or poses row by row, with their times.
+//! Leg lengths or poses in rows, with times.
 
 use nalgebra::{UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -7,15 +7,15 @@ use super::header::plain;
 use super::sheet::{CellTable, InvalidSheet, SheetRow};
 use platform::geom::Pose;
 
-/// A row with fewer numbers is none.
+/// Least count of numbers in a row.
 const LEAST_NUMBERS: usize = 2;
-/// At most so many bad lines are quoted.
+/// Greatest number of quoted bad lines.
 const QUOTED: usize = 20;
 
-/// Lengths in a row.
+/// Number of lengths in a row.
 const LEGS: usize = 6;
 
-/// What the rows of a table hold.
+/// The contents of the rows of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SeriesKind {
     /// Six leg lengths.
@@ -33,9 +33,9 @@ pub enum SeriesKind {
 pub struct SeriesRow<T> {
     /// Its line in the text, from 1.
     pub line: usize,
-    /// Its time, where the table has a column for it; the unit is that of the table.
+    /// Its time in the unit of the table, if there is a column for it.
     pub time: Option<f64>,
-    /// What it holds.
+    /// Its value.
     pub value: T,
 }
 
@@ -46,14 +46,14 @@ pub struct TimeSeries<T> {
     pub time_name: Option<String>,
     /// In the order of the text; at least one.
     pub rows: Vec<SeriesRow<T>>,
-    /// Poses count from home: the header names surge, sway and heave.
+    /// Whether poses count from home: the header has surge, sway and heave.
     pub from_home: bool,
-    /// What was guessed, a sentence each.
+    /// The guesses, one sentence each.
     pub guesses: Vec<String>,
 }
 
 impl TimeSeries<Pose> {
-    /// The poses in the base frame, those that [count from home](Self::from_home) too.
+    /// The poses in the base frame, including those that [count from home](Self::from_home).
     #[must_use]
     pub fn with_home(mut self, home: &Pose) -> Self {
         if std::mem::take(&mut self.from_home) {
@@ -66,16 +66,16 @@ impl TimeSeries<Pose> {
     }
 }
 
-/// Why a text is no such table.
+/// Reasons why a text is no such table.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum InvalidSeries {
-    /// It is no table.
+    /// It is not a table.
     #[error("{0}")]
     Sheet(InvalidSheet),
     /// It has no row of numbers.
     #[error("there is no line of numbers")]
     Empty,
-    /// Its angles have no order that their names tell.
+    /// The names of its angles do not determine their order.
     #[error("`{0}` may be angles in several orders, or a rotation vector")]
     Order(String),
     /// Rows that cannot be read, each with its line.
@@ -89,7 +89,7 @@ fn quoted(rows: &[String]) -> String {
 }
 
 impl InvalidSeries {
-    /// What is wrong, a sentence for each line that is.
+    /// The faults, one sentence per faulty line.
     pub fn sentences(&self) -> Vec<String> {
         match self {
             Self::Rows(rows) => rows.clone(),
@@ -98,34 +98,34 @@ impl InvalidSeries {
     }
 }
 
-/// Where the values of a row stand.
+/// The columns of the values in a row.
 struct SeriesColumns {
     time: Option<usize>,
-    /// The columns of the values in their order; `None`: all that are not the time.
+    /// The columns of the values in their order; `None`: all except the time.
     values: Option<Vec<usize>>,
     /// Columns of angles in radians.
     radians: Vec<usize>,
-    /// How the columns of a pose are meant.
+    /// The convention of the pose columns.
     meant: PoseNames,
-    /// How many columns have names; 0 where none has.
+    /// The number of named columns; 0 without names.
     named: usize,
 }
 
-/// Which names the columns of poses have.
+/// The naming convention of pose columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct PoseNames {
-    /// Angles U, V, W of makers of hexapods: `R = Rx(U) Ry(V) Rz(W)`.
+    /// Whether the angles are the U, V, W of hexapod makers: `R = Rx(U) Ry(V) Rz(W)`.
     uvw: bool,
-    /// Surge, sway and heave of motion simulators, which count from home.
+    /// Whether the positions are the surge, sway and heave of motion simulators, which count from home.
     from_home: bool,
 }
 
 impl SeriesKind {
-    /// Reads a table in any usual notation; `record` reads the values of a row, written with decimal points and
-    /// separated by commas.
+    /// Reads a table in any common notation; `record` reads the values of a row as decimals with points, separated by
+    /// commas.
     ///
-    /// A header may name a column of times and, in any order, those of the values; without names the values are all
-    /// columns but the time, in their order. Lines without numbers before the first row are titles.
+    /// A header may name a column of times and, in any order, those of the values. Without names the values are all
+    /// columns except the time, in their order. Lines without numbers before the first row are titles.
     ///
     /// # Errors
     /// [`InvalidSeries`].
@@ -239,7 +239,7 @@ impl SeriesColumns {
             Some(c) => Some(sheet.number(cell(c)).ok_or_else(|| format!("`{}` is not a time", cell(c)))?),
         };
         let columns: Vec<usize> = match &self.values {
-            // what is missing at the end of a line is not there, rather than blank
+            // missing cells at the end of a line are absent, not blank
             Some(list) => list.iter().copied().filter(|c| *c < row.cells.len()).collect(),
             None => (0..row.cells.len()).filter(|c| Some(*c) != self.time).collect(),
         };
@@ -259,20 +259,20 @@ fn is_time(name: &str) -> bool {
     name.starts_with("time") || ["t", "ts", "tms", "sec", "seconds", "zeit", "zeits"].contains(&name)
 }
 
-/// What lengths are called in headers.
+/// Column names of leg lengths.
 const LENGTH_WORDS: [&str; 3] = ["leg", "len", "l"];
-/// What angles of cranks are called in headers.
+/// Column names of crank angles.
 const ANGLE_WORDS: [&str; 7] = ["crank", "angle", "motor", "servo", "theta", "alpha", "q"];
 
-/// The names without units of angles at their ends.
+/// The names without angle units at their ends.
 fn without_angle_units(names: &[String]) -> Vec<String> {
     let ends = ["degrees", "degree", "deg", "radians", "rad"];
     let less = |name: &String| ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name).to_string();
     names.iter().map(less).collect()
 }
 
-/// The six columns that have the same word and the numbers 1 to 6 after it, in the order of the numbers; of several
-/// lists those with one of the words.
+/// The six columns with one word and the numbers 1 to 6, in the order of the numbers. A wanted word selects one of
+/// several such lists.
 fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
     let parted: Vec<(&str, &str)> =
         names.iter().map(|n| n.split_at(n.trim_end_matches(|c: char| c.is_ascii_digit()).len())).collect();
@@ -285,7 +285,7 @@ fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
         };
         (1..=6).map(column).collect()
     };
-    // of several lists, such as lengths beside speeds, the one that is called so
+    // of several lists, such as lengths beside speeds, choose the one with a wanted word
     let words = parted.iter().map(|(word, _)| *word).filter(|word| !word.is_empty());
     let called = |word: &str| {
         wanted.iter().any(|name| word == *name || (name.len() > 1 && *name != "leg" && word.contains(name)))
@@ -295,8 +295,7 @@ fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
     words.into_iter().find_map(of)
 }
 
-/// The columns of x, y and z with those of the angles, or of the quaternion; names of other conventions where these are
-/// taken.
+/// The columns of x, y and z with those of the angles or of the quaternion; `others` allows names of other conventions.
 fn pose_columns(names: &[String], others: bool) -> Option<(Vec<usize>, PoseNames)> {
     let names = without_angle_units(names);
     let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
@@ -381,7 +380,8 @@ mod tests {
         let found = read(SeriesKind::Poses, "X,Y,Z,U,V,W\n0,0,650,5,3,10\n");
         assert!(found.guesses.iter().any(|g| g.contains("Rx(U) Ry(V) Rz(W)")) && !found.from_home);
         let [_, _, z, w, i, j, k] = found.rows[0].value[..] else { panic!("{:?}", found.rows) };
-        // first the turn about the platform's own z, last that about x: the column of Rx(U) Ry(V) is its z axis
+        // the rotation about the platform's own z comes first, that about x last: the column of Rx(U) Ry(V) is its z
+        // axis
         let turned = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, i, j, k)) * Vector3::z();
         let (u, v) = (5.0_f64.to_radians(), 3.0_f64.to_radians());
         let meant = Vector3::new(v.sin(), -u.sin() * v.cos(), u.cos() * v.cos());
@@ -397,7 +397,7 @@ mod tests {
         let meant = [1.5, 2.0, 3.0, 4.0, 5.0, 6.0];
         for text in [
             "1.5,2,3,4,5,6\n",
-            // what `ik` writes of a design with cranks
+            // the output of `ik` for a design with cranks
             "crank_1_deg,crank_2_deg,crank_3_deg,crank_4_deg,crank_5_deg,crank_6_deg,other_1_deg,other_2_deg,other_3_deg,other_4_deg,other_5_deg,other_6_deg\n1.5,2,3,4,5,6,9,9,9,9,9,9\n",
             "other1,other2,other3,other4,other5,other6,servo1,servo2,servo3,servo4,servo5,servo6\n9,9,9,9,9,9,1.5,2,3,4,5,6\n",
         ] {

@@ -1,4 +1,4 @@
-//! Rows and columns of a table: what separates the cells, which mark the decimals have, what is a header.
+//! Rows and columns of a table: detection of separators, decimal marks and the header.
 
 use thiserror::Error;
 
@@ -7,28 +7,28 @@ use super::text::decode;
 /// A row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SheetRow {
-    /// Line of the text it begins on, from 1.
+    /// Line of the text where it begins, from 1.
     pub line: usize,
-    /// The cells, without the blanks and quotes around them.
+    /// The cells, without surrounding blanks and quotes.
     pub cells: Vec<String>,
 }
 
 /// A table of cells, some of which are numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CellTable {
-    /// The names of the columns, where the table has them.
+    /// The names of the columns, if the table has any.
     pub header: Option<Vec<String>>,
     /// All rows below the header, those without numbers included.
     pub rows: Vec<SheetRow>,
-    /// What was guessed, a sentence each.
+    /// The guesses, one sentence each.
     pub guesses: Vec<String>,
     decimal: char,
 }
 
-/// Why a text is no table.
+/// Reasons why a text is no table.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum InvalidSheet {
-    /// It cannot be read as text.
+    /// It is not readable as text.
     #[error("{0}")]
     Encoding(String),
     /// A quoted cell has no end.
@@ -37,16 +37,16 @@ pub enum InvalidSheet {
         /// The line, from 1.
         line: usize,
     },
-    /// No row has as many numbers as are needed.
+    /// No row has enough numbers.
     #[error("no line has {0} numbers or more")]
     NoNumbers(usize),
 }
 
-/// What may separate cells, the surest first: a comma or a blank may also belong to a number or to a name.
+/// Separators of cells, the surest first: a comma or a blank may also be part of a number or of a name.
 const SEPARATORS: [(char, &str); 5] =
     [('\t', "tabs"), (';', "semicolons"), ('|', "vertical bars"), (',', "commas"), (' ', "blanks")];
 
-/// A line that begins so is a comment.
+/// Marks at the start of a comment line.
 const COMMENTS: [&str; 3] = ["#", "%", "//"];
 
 impl CellTable {
@@ -78,7 +78,7 @@ impl CellTable {
                 let numbers =
                     |row: &SheetRow| row.cells.iter().filter(|c| number(c, decimal).is_some()).count();
                 let rows = records.iter().filter(|row| !is_comment(row));
-                // every number counts, so that `1,5 2,5` is two numbers with decimal commas and not two beside a cell
+                // count every number, so that `1,5 2,5` is two numbers with decimal commas and not two beside a cell
                 // `5 2`
                 let found: usize = rows.map(numbers).filter(|n| *n >= least).sum();
                 if found > best.as_ref().map_or(0, |(n, ..)| *n) {
@@ -103,7 +103,7 @@ impl CellTable {
         Ok(Self::with_header(records, decimal, least, guesses))
     }
 
-    /// Parts the names of the columns from the rows.
+    /// Separates the names of the columns from the rows.
     fn with_header(records: Vec<SheetRow>, decimal: char, least: usize, guesses: Vec<String>) -> Self {
         let is_data = |row: &SheetRow| {
             !is_comment(row) && row.cells.iter().filter(|c| number(c, decimal).is_some()).count() >= least
@@ -112,7 +112,7 @@ impl CellTable {
         let first = records.iter().position(is_data).unwrap_or(records.len());
         let columns = records.get(first).map_or(0, |row| row.cells.len());
         for (i, row) in records.into_iter().enumerate() {
-            // scripts write the names of the columns behind the mark of a comment
+            // scripts write the names of the columns after a comment mark
             let named =
                 i < first && sheet.header.is_none().then(|| uncommented(&row).len() >= columns) == Some(true);
             if named && uncommented(&row).iter().all(|c| number(c, decimal).is_none()) && columns > 1 {
@@ -124,17 +124,17 @@ impl CellTable {
         sheet
     }
 
-    /// The number in a cell; `None` where it is none, or not finite.
+    /// The number in a cell; `None` if it is invalid or not finite.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
         number(cell, self.decimal)
     }
 
-    /// A number as a cell of this table has it.
+    /// A number in the notation of this table.
     pub(super) fn shown(&self, x: f64) -> String {
         format!("{x:?}").replace('.', &self.decimal.to_string())
     }
 
-    /// The cell with a point for the decimals, where it is a number.
+    /// The cell with a decimal point, if it is a number.
     pub(super) fn with_point(&self, cell: &str) -> String {
         match number(cell, self.decimal) {
             Some(_) => cell.replace(',', ".").replace('\u{2212}', "-"),
@@ -143,7 +143,7 @@ impl CellTable {
     }
 }
 
-/// Digits with at most one mark for the decimals, in whatever way they are signed.
+/// Digits with at most one decimal mark and an optional sign.
 fn number(cell: &str, decimal: char) -> Option<f64> {
     let cell = cell.trim().replace('\u{2212}', "-");
     let body = cell.trim_start_matches(['+', '-']);
@@ -162,7 +162,7 @@ fn is_comment(row: &SheetRow) -> bool {
     row.cells.first().is_some_and(|c| COMMENTS.iter().any(|mark| c.starts_with(mark)))
 }
 
-/// The cells without the mark of a comment before the first.
+/// The cells without the comment mark before the first.
 fn uncommented(row: &SheetRow) -> Vec<String> {
     let mut cells = row.cells.clone();
     if is_comment(row)
@@ -176,14 +176,14 @@ fn uncommented(row: &SheetRow) -> Vec<String> {
     cells
 }
 
-/// The rows of a list in brackets, a line each, with what is written before a bracket on a line of its own:
-/// `base = [[1, 2, 3], ..` for example. `None`: the text has no such rows.
+/// The rows of a list in brackets, one per line, for example `base = [[1, 2, 3], ..`. Text before a bracket is a
+/// separate line. `None`: the text has no such rows.
 fn bracketed(text: &str) -> Option<String> {
     let opens = |c: char| matches!(c, '[' | '(' | '{');
     let content = text
         .lines()
         .find(|l| !l.trim().is_empty() && !COMMENTS.iter().any(|m| l.trim_start().starts_with(m)))?;
-    // units in a header are in brackets too: a list begins with a bracket, or with a name that gets a value
+    // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
     let lists = content.trim_start().starts_with(opens)
         || content.split_once(['=', ':']).is_some_and(|(_, value)| value.trim_start().starts_with(opens));
     if !lists {
@@ -219,14 +219,14 @@ fn bracketed(text: &str) -> Option<String> {
     Some(out)
 }
 
-/// Cells of all lines that are not blank. A cell in quotation marks may hold separators and ends of lines; two marks in
+/// Cells of all lines that are not blank. A cell in quotation marks may contain separators and line ends; two marks in
 /// it are one.
-// The crate `csv` reads a quotation mark without an end in silence, and it counts each blank of a run as a separator.
+// The crate `csv` silently accepts an unclosed quotation mark, and it counts each blank of a run as a separator.
 fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
     let mut rows = Vec::new();
     let mut row = SheetRow { line: 1, cells: Vec::new() };
     let (mut cell, mut line) = (String::new(), 1);
-    // in quotes: the line on which they were opened
+    // in quotes: the line of the opening mark
     let mut quoted: Option<usize> = None;
     let mut was_quoted = false;
     let mut chars = text.chars().peekable();
@@ -278,7 +278,7 @@ fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
     }
     rows.push(row);
     if separator == '|' {
-        // a table may have bars on its sides as well
+        // a table may have bars at its sides too
         for row in &mut rows {
             if row.cells.first().is_some_and(String::is_empty)
                 && row.cells.last().is_some_and(String::is_empty)

@@ -1,15 +1,15 @@
 //! The bytes of a table as text: UTF-8, UTF-16, one byte a character, or a spreadsheet.
 
-/// The text of a table and, where it is not UTF-8, what it was taken for.
+/// The text of a table and, if it is not UTF-8, its detected encoding.
 pub(super) struct Decoded {
     pub(super) text: String,
     pub(super) guess: Option<String>,
 }
 
-/// A spreadsheet program packs its own files with ZIP, whose first four bytes are these.
+/// Spreadsheet files are ZIP archives, which begin with these four bytes.
 const ZIP: &[u8] = b"PK\x03\x04";
 
-/// Text of `bytes`; the sentence is why there is none.
+/// The text of `bytes`, or the reason why there is none.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
     if bytes.starts_with(ZIP) {
         #[cfg(feature = "workbook")]

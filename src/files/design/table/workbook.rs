@@ -1,4 +1,4 @@
-//! Spreadsheets of Excel and `LibreOffice` as text: the cells of one sheet, with tabs between them.
+//! Spreadsheets of Excel and `LibreOffice` as text: the cells of one sheet, separated by tabs.
 
 use std::io::Cursor;
 
@@ -6,13 +6,13 @@ use calamine::{Data, Range, Reader, open_workbook_auto_from_rs};
 
 use super::text::Decoded;
 
-/// Sheets with more cells are refused: a design has some hundreds.
+/// Greatest number of cells of an accepted sheet: a design has some hundreds.
 const MOST_CELLS: usize = 5_000_000;
 
 /// The first sheet that has numbers.
 ///
 /// # Errors
-/// A sentence: a broken file, another kind of packed file, no sheet with numbers, too many cells.
+/// A sentence: an invalid file, another kind of archive, no sheet with numbers, too many cells.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes))
         .map_err(|why| format!("this is a packed file, and no spreadsheet that can be read: {why}"))?;
@@ -41,7 +41,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
             others.join(", ")
         ));
     }
-    // empty rows above the first cell keep their place, so that lines are numbered as in the spreadsheet
+    // empty rows above the first cell keep their place, so that line numbers are those of the spreadsheet
     let above = sheet.start().map_or(0, |(row, _)| row);
     let mut text = "\n".repeat(above.try_into().unwrap_or(0));
     for row in sheet.rows() {

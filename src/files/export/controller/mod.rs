@@ -1,9 +1,8 @@
 //! C99 for controllers: the kinematics of one design without dependencies, allocation or recursion.
 //!
-//! `equipod.c` and `equipod.h` are the same for every design and stand beside this file. They compute what
-//! [`NearSolver`] computes, operation by operation, so that in double the poses are those of the library bit for bit;
-//! `equipod_vectors.h` holds numbers of the library that `equipod_selftest.c` compares. What is written here are the
-//! numbers of the design.
+//! `equipod.c` and `equipod.h` next to this file are the same for every design. They repeat the operations of
+//! [`NearSolver`], so that in double the poses equal those of the library bit for bit. `equipod_vectors.h` holds
+//! numbers of the library for the comparison in `equipod_selftest.c`. This module writes the numbers of the design.
 
 mod cranks;
 mod drives;
@@ -67,8 +66,8 @@ impl Writer for C {
     }
 }
 
-/// Kinematics for `LinuxCNC`, which include the other files. They have a folder of their own, so that a C compiler
-/// takes all sources of the folder above as one program; the header there is for builds with that folder alone on their
+/// Kinematics for `LinuxCNC`, which include the other files. They are in a separate folder, so that a C compiler takes
+/// all sources of the folder above as one program. The header there is for builds with only that folder on their
 /// include path.
 fn kinematics_modules() -> [ExportedFile; 4] {
     [
@@ -93,18 +92,18 @@ fn one_swing_a_body(export: &Export) -> Result<(), Unsupported> {
         .map_or(Ok(()), |body| Err(Unsupported::SwingOfLegs(body)))
 }
 
-/// The octahedral platform a design is equivalent to, for controllers that compute its poses.
+/// The octahedral platform equivalent to a design, for controllers that compute its poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EquivalentOctahedral {
     /// The octahedral platform.
     pub manipulator: Manipulator,
-    /// `A^-1`, which takes squared lengths of the design, less `c`, to those of the octahedral platform.
+    /// `A^-1`, which maps squared lengths of the design, minus `c`, to those of the octahedral platform.
     pub a: [[f64; 6]; 6],
     /// `-A^-1 c`.
     pub c: [f64; 6],
 }
 
-/// A double as C reads it back.
+/// A double as a C literal that reads back equal.
 pub(super) fn number(x: f64) -> String {
     if x.is_nan() {
         "NAN".to_string()
@@ -115,7 +114,7 @@ pub(super) fn number(x: f64) -> String {
     }
 }
 
-/// `{x, y}` of numbers as `write` writes them.
+/// `{x, y}` of numbers in the notation of `write`.
 pub(super) fn braces(values: impl IntoIterator<Item = String>) -> String {
     format!("{{{}}}", values.into_iter().collect::<Vec<_>>().join(", "))
 }
@@ -133,18 +132,18 @@ fn points(list: &[Point3<f64>; 6]) -> String {
     matrix(&list.map(|p| [p.x, p.y, p.z]))
 }
 
-/// What each file of the design begins with, as one comment of C.
+/// The first comment of each file of the design.
 fn heading(export: &Export) -> String {
     let unit = export.unit.label;
     let mut lines = vec![format!("{}: written by {}", export.name, export.program)];
     lines.extend(export.source.iter().map(|s| format!("Source of the design: {s}")));
     lines.push(format!("Lengths in the unit of the design, {unit}; squared lengths in its square."));
-    // neither the beginning nor the end of a comment stands inside one
+    // neither the beginning nor the end of a comment may occur inside one
     let plain = |line: String| ascii(&line, |_| "_".to_string()).replace("*/", "* /").replace("/*", "/ *");
     format!("/*\n{} */\n", commented(" *", lines.into_iter().map(plain)))
 }
 
-/// C that a kind of drive has besides `equipod.c`, the same for every design.
+/// The additional C library of a kind of drive, the same for every design.
 struct OwnLibrary {
     name: &'static str,
     header: &'static str,
@@ -156,7 +155,7 @@ impl OwnLibrary {
     /// Both libraries with header, source and vectors of a design.
     fn files(&self, header: String, source: String, vectors: String) -> Vec<ExportedFile> {
         let name = self.name;
-        // the rules of the other library with one file more
+        // the rules of the other library with an additional file
         let rules = include_str!("CMakeLists.txt")
             .replace("STATIC equipod.c ", &format!("STATIC equipod.c {name}.c "));
         vec![
@@ -272,14 +271,14 @@ fn legs(out: &mut String, name: &str, m: &Manipulator) {
     );
 }
 
-/// Axes from which swing is measured, unit vectors in leg order: at the base in its frame, at the platform in its own.
+/// Axes of joint angles, unit vectors in leg order: at the base in its frame, at the platform in its own.
 pub(super) struct SwingAxes {
     base: [Vector3<f64>; 6],
     platform: [Vector3<f64>; 6],
 }
 
 impl SwingAxes {
-    /// Axes that are not given are along the legs at home.
+    /// The axes; those not given are along the legs at home.
     fn of(export: &Export) -> Self {
         let home: &Pose = &export.home;
         let mut at_home =

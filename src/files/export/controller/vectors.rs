@@ -1,4 +1,4 @@
-//! Numbers of the library for the self-test of the C: poses about home, ways between them, and inputs that must be
+//! Numbers of the library for the self-test of the C code: poses about home, ways between them, and inputs that must be
 //! refused.
 
 use std::fmt::Write as _;
@@ -17,19 +17,19 @@ use platform::manipulator::{SquaredLegLengths, jacobian};
 
 /// Seed of the poses.
 const SEED: u64 = 21;
-/// Poses about home: this far turned, radians, and moved, over the size.
+/// Greatest rotation (radians) and shift (over the size) of poses about home.
 const AWAY: f64 = 0.12;
-/// Poses for inverse kinematics besides those of the workspace.
+/// Number of poses for inverse kinematics besides those of the workspace.
 const POSES: usize = 16;
-/// Poses of the workspace taken at most.
+/// Greatest number of poses from the workspace.
 const OF_WORKSPACE: usize = 9;
-/// Lengths of ways, turns in radians and shifts over the size.
+/// Lengths of ways: rotations in radians and shifts over the size.
 const WAYS: [f64; 6] = [1e-4, 1e-3, 1e-2, 0.05, 0.2, 0.5];
-/// Ways of each length.
+/// Number of ways of each length.
 const REPEATS: usize = 6;
 /// Segments allowed: the value of `EQUIPOD_SEGMENTS`.
 const SEGMENTS: u32 = 8;
-/// Poses from which ways are followed to their limits.
+/// Number of poses whose ways are followed to their limits.
 const FREE_WAYS: usize = 3;
 /// Newton steps that correct a mapped pose.
 const CORRECTIONS: u32 = 2;
@@ -103,7 +103,7 @@ fn inverse(export: &Export, pose: &Pose) -> Option<String> {
     Some(braces(entries.into_iter().chain(margins)))
 }
 
-/// The covariance of a pose, `J^-1 E C E^T J^-T` with the covariance `C` of joints and offsets by legs; `None` at a
+/// The covariance of a pose, `J^-1 E C E^T J^-T`, with the covariance `C` of joints and offsets by legs; `None` at a
 /// singular pose.
 fn covariance(export: &Export, by_legs: &DMatrix<f64>, pose: &Pose) -> Option<String> {
     let m = &export.manipulator;
@@ -124,14 +124,14 @@ fn covariance(export: &Export, by_legs: &DMatrix<f64>, pose: &Pose) -> Option<St
     Some(braces([pose_numbers(pose), braces(rows)]))
 }
 
-/// Where a tracked pose begins and which squared lengths it goes to.
+/// The start of a tracked pose and its final squared lengths.
 struct TrackedWay {
     start: Pose,
     squares: SquaredLegLengths,
     segments: u32,
 }
 
-/// Ways of all lengths about home, and those that end at a singularity, are too far, or begin at what is no pose.
+/// Ways of all lengths about home. Further ways end at a singularity, are too far, or begin at an invalid pose.
 fn ways(export: &Export, rng: &mut Rng) -> Vec<TrackedWay> {
     let (m, home) = (&export.manipulator, &export.home);
     let mut out = Vec::new();
@@ -188,7 +188,7 @@ fn track(export: &Export, way: &TrackedWay) -> String {
     ])
 }
 
-/// The names of C for an outcome, and how far it got.
+/// The C names of an outcome, and the fraction of the way reached.
 fn told(outcome: &NearOutcome) -> (&'static str, &'static str, f64) {
     match outcome {
         NearOutcome::Tracked { .. } => ("EQUIPOD_TRACKED", "EQUIPOD_NO_REASON", 1.0),
@@ -223,7 +223,8 @@ fn newton(export: &Export, about: &[Pose], rng: &mut Rng) -> Vec<String> {
     about.iter().take(8).enumerate().filter_map(entry).collect()
 }
 
-/// Ways from poses about home and how far lengths and swing leave them free: each axis, and some with both velocities.
+/// Ways from poses about home with their free travel by lengths and joint angles: each axis, and some with both
+/// velocities.
 fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
     let hardware = Hardware {
         leg_length: export.hardware.leg_length,
@@ -247,7 +248,7 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
             let found = reach.along(&way, most);
             let mut travel = (found.amount, found.binding.is_some());
             if found.binding == Some(Limit::Singular) {
-                // singular poses are not looked for in the C
+                // the C code does not search for singular poses
                 most = 0.5 * found.amount;
                 travel = (most, false);
             }
@@ -262,7 +263,7 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
         }
     }
     if out.is_empty() {
-        // home itself violates a limit; C has no empty lists, and the self-test passes over ways of length zero
+        // home itself violates a limit; C has no empty lists, and the self-test skips ways of length zero
         out.push(braces([
             pose_numbers(&export.home),
             row(&[0.0; 3]),
@@ -275,7 +276,7 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
     out
 }
 
-/// The map as the C computes it: plain doubles, and a bound of their rounding.
+/// The map in the plain doubles of the C code, and a bound of their rounding.
 fn image(octahedral: &EquivalentOctahedral, s: &[f64; 6]) -> ([f64; 6], [f64; 6]) {
     let (mut to, mut radius) = ([0.0; 6], [0.0; 6]);
     for i in 0..6 {
@@ -291,7 +292,7 @@ fn image(octahedral: &EquivalentOctahedral, s: &[f64; 6]) -> ([f64; 6], [f64; 6]
     (to, radius)
 }
 
-/// `None` where the octahedral platform has no such lengths.
+/// `None` if the octahedral platform has no such lengths.
 fn mapped(export: &Export, octahedral: &EquivalentOctahedral, start: &Pose, end: &Pose) -> Option<String> {
     let squares = end.squared_lengths(&export.manipulator)?;
     let (to, radius) = image(octahedral, &squares.get());

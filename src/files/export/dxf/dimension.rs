@@ -4,11 +4,11 @@ use nalgebra::{Point2, Vector2};
 
 use super::page::Page;
 
-/// Distance of the first dimension line from the plate and of one line from the next, in text heights.
+/// Distance of the first dimension line from the plate and between lines, in text heights.
 const FIRST: f64 = 3.0;
 const NEXT: f64 = 2.5;
 
-/// A direction that is measured along, with the side its dimension lines are on.
+/// A measured direction, with the side of its dimension lines.
 #[derive(Debug, Clone, Copy)]
 struct DimensionAxis {
     along: Vector2<f64>,
@@ -22,13 +22,13 @@ const AXES: [DimensionAxis; 2] = [
     DimensionAxis { along: Vector2::new(0.0, 1.0), out: Vector2::new(-1.0, 0.0), angle: 90.0 },
 ];
 
-/// What is between `from` and `to` along an axis, as a DIMENSION and the block that R12 readers draw; the dimension
-/// line is `level` out from the origin.
+/// The dimension from `from` to `to` along an axis, as a DIMENSION and the block for R12 readers. The dimension line is
+/// at `level` from the origin.
 fn dimension(page: &mut Page, number: usize, axis: &DimensionAxis, level: f64, [from, to]: [Point2<f64>; 2]) {
     let h = page.text_height;
     let foot = |p: &Point2<f64>| Point2::from(axis.along * axis.along.dot(&p.coords) + axis.out * level);
     let (start, end) = (foot(&from), foot(&to));
-    // above the line as the text is read
+    // above the line in the reading direction
     let up = Vector2::new(-axis.along.y, axis.along.x);
     let middle = nalgebra::center(&start, &end) + up * (0.4 * h);
     let measured = axis.along.dot(&(to - from));
@@ -45,7 +45,7 @@ fn dimension(page: &mut Page, number: usize, axis: &DimensionAxis, level: f64, [
     page.entities.pairs(&[(0, "DIMENSION"), (8, "DIMENSIONS"), (2, &name)]);
     page.entities.point(10, end);
     page.entities.point(11, middle);
-    // rotated: measured along the angle, not from point to point
+    // rotated: measured along the angle, not between the points
     page.entities.pair(70, "0");
     page.entities.point(13, from);
     page.entities.point(14, to);
@@ -55,8 +55,8 @@ fn dimension(page: &mut Page, number: usize, axis: &DimensionAxis, level: f64, [
     page.reaches(end + axis.out * h);
 }
 
-/// All dimensions of a plate: `holes` and the corners of its extent. They start at the datum, or where there is none at
-/// the lowest hole.
+/// All dimensions of a plate: `holes` and the corners of its extent. They start at the datum, or at the lowest hole
+/// without a datum.
 pub(super) fn dimensions(
     page: &mut Page,
     holes: &[Point2<f64>],

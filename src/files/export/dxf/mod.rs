@@ -113,7 +113,7 @@ fn has_origin([low, high]: [Point2<f64>; 2]) -> bool {
     low.x <= 0.0 && low.y <= 0.0 && high.x >= 0.0 && high.y >= 0.0
 }
 
-/// A cross in the origin of the drawing, where the plate is near it.
+/// A cross at the origin of the drawing, if the plate is near it.
 fn origin(page: &mut Page, [low, high]: [Point2<f64>; 2]) {
     if has_origin([low, high]) {
         for arm in [Vector2::x(), Vector2::y()] {
@@ -172,7 +172,7 @@ fn title_block(
     }
 }
 
-/// Positions of the holes in the drawing, which are those in the frame of the plate.
+/// Positions of the holes in the drawing, equal to those in the frame of the plate.
 fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, extent: [Point2<f64>; 2]) {
     let (h, mm) = (page.text_height, export.unit.millimetres);
     let mut at = Point2::new(page.right() + 3.0 * h, extent[1].y);

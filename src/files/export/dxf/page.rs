@@ -1,4 +1,4 @@
-//! A drawing in the making: group codes and values of R12, its blocks, and how far it reaches.
+//! A drawing under construction: group codes and values of R12, its blocks, and its extent.
 
 use std::fmt::Write as _;
 
@@ -41,7 +41,7 @@ impl Groups {
         self.point(11, to);
     }
 
-    /// Text of a height; `centred` on the point, turned by degrees, or from it to the right.
+    /// Text of a height, rotated by degrees; centred on the point if `centred`, otherwise to its right.
     pub(super) fn text(
         &mut self,
         layer: &str,
@@ -53,7 +53,7 @@ impl Groups {
         self.pairs(&[(0, "TEXT"), (8, layer)]);
         self.point(10, at);
         self.reals(&[(40, height)]);
-        // what ASCII lacks is written as its code, as AutoCAD writes it
+        // characters outside ASCII are written as their code, as in AutoCAD
         self.pair(1, &ascii(text, |c| format!("\\U+{:04X}", c as u32)));
         if let Some(turn) = centred {
             self.reals(&[(50, turn)]);
@@ -90,13 +90,13 @@ impl Page {
         self.comments.pair(999, &ascii(text, |_| "?".to_string()));
     }
 
-    /// Tells that something is drawn there.
+    /// Extends the drawing to a point.
     pub(super) fn reaches(&mut self, p: Point2<f64>) {
         self.reach[0] = self.reach[0].inf(&p);
         self.reach[1] = self.reach[1].sup(&p);
     }
 
-    /// How far the drawing reaches to the right.
+    /// The right end of the drawing.
     pub(super) fn right(&self) -> f64 {
         self.reach[1].x
     }

@@ -1,5 +1,5 @@
-//! Six cranks on hinges with rods: each rod hangs on its crank by a universal joint (two hinges, the first along the
-//! axis of the crank) and is joined to the platform.
+//! Six cranks on hinges with rods. Each rod is joined to the platform. It hangs on its crank by a universal joint: two
+//! hinges, the first along the axis of the crank.
 
 use std::fmt::Write as _;
 
@@ -11,21 +11,20 @@ use crate::export::model::ExportCranks;
 use crate::export::text::{real, reals};
 use platform::geom::Pose;
 
-/// Natural gains of the actuators over those of legs that change their lengths, times the square of the length of the
-/// crank.
+/// Actuator gains relative to those of legs of variable length, times the square of the crank length.
 fn gains(scale: &Scale, length: f64) -> (f64, f64) {
     let arm = (length * scale.metres).powi(2);
     (scale.kp * arm, scale.kv * arm)
 }
 
-/// `child` seen from `parent`.
+/// The pose of `child` in the frame of `parent`.
 fn seen(parent: &Pose, child: &Pose) -> Pose {
     let back = parent.rotation.inverse();
     Pose { rotation: back * child.rotation, position: back * (child.position - parent.position) }
 }
 
-/// Frames of a crank, first axis along it and third along its axis, and of its rod, third axis along it, at home in the
-/// base frame.
+/// Home frames, base frame: of a crank (first axis along it, third along its axis) and of its rod (third axis along
+/// it).
 fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose; 2], Unsupported> {
     let crank = &cranks.platform.legs()[leg].crank;
     let tip = cranks.platform.tip(leg, cranks.home_angles[leg]).coords;
@@ -34,16 +33,16 @@ fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose
     let turned = Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: crank.centre.coords };
     let number = leg + 1;
     let along = (end - tip).try_normalize(0.0).ok_or(Unsupported::NoDirection { leg: number })?;
-    // across the axis of the crank and the rod: where the second hinge of the rod turns
+    // across the axis of the crank and the rod: the axis of the second hinge of the rod
     let across = along.cross(&n).try_normalize(1e-6).ok_or(Unsupported::RodAlongAxis { leg: number })?;
     let axes = Matrix3::from_columns(&[across.cross(&along), across, along]);
     Ok([turned, Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: tip }])
 }
 
-/// Range of the second hinge of a rod, where the design limits how far the rod leans out of the plane of its crank.
+/// Range of the second hinge of a rod, if the design limits the lean of the rod out of the plane of its crank.
 ///
-/// The first hinge turns about the axis of the crank and leaves that angle as it is, and the second is across both:
-/// turned by `b` it makes the angle larger by `b` than at home.
+/// The first hinge rotates about the axis of the crank and keeps that angle. The second is across both; its rotation
+/// `b` increases the angle by `b` relative to home.
 fn lean_range(cranks: &ExportCranks, at_home: f64) -> String {
     cranks.tip_swing.map_or_else(String::new, |most| {
         format!(" range=\"{} {}\"", real(-most - at_home), real(most - at_home))
@@ -161,7 +160,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
     out.push_str("  </actuator>\n");
     super::sensors(&mut out, "angle");
     out.push_str("  <keyframe>\n");
-    // the angle and both swings of each leg; the ball joint after those of leg 1
+    // the crank angle and both rod angles of each leg; the ball joint after those of leg 1
     let legs = cranks.home_angles.map(|q| format!("{} 0 0", real(q)));
     let qpos = format!("{} 1 0 0 0 {}", legs[0], legs[1..].join(" "));
     let _ =

@@ -49,8 +49,8 @@ impl Writer for Mjcf {
     }
 }
 
-/// Natural frequency of the platform on its actuators times the square root of the size, rad/s: a platform of 20 kg and
-/// 1 m on six legs of 1e5 N/m.
+/// Natural frequency of the platform on its actuators times the square root of the size, rad/s. The value is for a
+/// platform of 20 kg and 1 m on six legs of 1e5 N/m.
 const STIFFNESS: f64 = 173.2;
 /// Time step over the square root of the size in metres, seconds.
 const STEP: f64 = 1e-3;
@@ -60,7 +60,7 @@ const CYLINDER: &str = "0.25 0.25 0.28 1";
 const ROD: &str = "0.75 0.75 0.78 1";
 const GROUND: &str = "0.86 0.87 0.84 1";
 
-/// What all parts are computed from: SI units.
+/// The basic quantities of all parts, SI units.
 #[derive(Debug)]
 struct Scale {
     metres: f64,
@@ -113,7 +113,7 @@ fn quat(pose: &Pose) -> String {
     reals(pose.quaternion(), " ")
 }
 
-/// Bars along the hull of the joints of a body stand for its plate, balls for its joints.
+/// Draws the plate of a body as bars along the hull of its joints, and the joints as balls.
 fn shape(out: &mut String, scale: &Scale, body: &ExportBody, indent: &str) {
     let (radius, colour) = (real(0.25 * body.ball_diameter * scale.metres), PLATES[body.body.index()]);
     for joint in &body.joints {
@@ -139,7 +139,7 @@ fn shape(out: &mut String, scale: &Scale, body: &ExportBody, indent: &str) {
     }
 }
 
-/// Where the design limits lengths: the least and the greatest one less that at home, metres.
+/// The length range relative to home, metres, if the design limits lengths.
 fn range_of(export: &Export, leg: &ExportLeg, name: &str) -> String {
     export.leg_range.map_or_else(String::new, |(least, greatest)| {
         let [from, to] = [least, greatest].map(|l| real((l - leg.length()) * export.unit.metres));
@@ -147,11 +147,11 @@ fn range_of(export: &Export, leg: &ExportLeg, name: &str) -> String {
     })
 }
 
-/// Range of both hinges of the base joint of a leg, radians, where the design limits its swing.
+/// Range of both hinges of the base joint of a leg, radians, if the design limits its cone angle.
 ///
-/// Turned by `a` about the first hinge and by `b` about the second, a leg is `t` from where it is at home with
-/// `cos t = cos a cos b`, so that neither turns by more than `t`. A leg within `s` of the axis of its joint is within
-/// `s` plus the angle of the axis and the leg at home: the hinges keep no leg from where the swing lets it go.
+/// Rotations `a` about the first hinge and `b` about the second move a leg by the angle `t` from home, with
+/// `cos t = cos a cos b`. So neither exceeds `t`. A leg within `s` of its joint axis is within `s` plus the angle
+/// between axis and leg at home. The hinges therefore allow every position within the cone angle.
 fn swing_of(export: &Export, leg: &ExportLeg) -> Result<Option<f64>, Unsupported> {
     let Some(swing) = export.hardware.base_swing else { return Ok(None) };
     let home = leg.direction()?;
@@ -169,8 +169,7 @@ fn leg(
     export: &Export,
     leg: &ExportLeg,
 ) -> Result<(), Unsupported> {
-    // each hinge has a body of its own: Drake takes the axis of the first of several joints of a body in the frame of
-    // the parent
+    // each hinge has a separate body: Drake takes the axis of the first of several joints of a body in the parent frame
     let frame = leg_frame(leg)?;
     let (i, length) = (leg.number, leg.length());
     let (thick, thin) = leg.diameters;
@@ -213,7 +212,7 @@ fn leg(
         tendon.at_rod(out, scale);
     }
     if i == 1 {
-        // the platform frame seen from the tip of the leg
+        // the platform frame relative to the tip of the leg
         let joint = export.bodies[1].joints[leg.platform].at.coords;
         let turn = frame.rotation.inverse() * export.home.rotation;
         platform(out, (scale, masses), export, leg, &Pose { rotation: turn, position: -(turn * joint) });
@@ -222,7 +221,7 @@ fn leg(
     Ok(())
 }
 
-/// The platform on a leg, at a pose in the frame of the body that carries it.
+/// The platform on a leg, at a pose in the frame of its parent body.
 fn platform(
     out: &mut String,
     (scale, masses): (&Scale, &ModelMasses),
@@ -254,7 +253,7 @@ fn platform(
     out.push_str("            </body>\n");
 }
 
-/// The room that the payload takes up: it is seen, and touches nothing.
+/// The shape of the payload, visible but without contact.
 fn payload(out: &mut String, scale: &Scale, export: &Export) {
     let half = |x: f64| real(0.5 * x * scale.metres);
     let geom = match export.payload_shape {
@@ -279,8 +278,8 @@ fn payload(out: &mut String, scale: &Scale, export: &Export) {
     let _ = writeln!(out, "              <geom name=\"payload\" {geom} rgba=\"0.5 0.5 0.5 0.3\"/>");
 }
 
-/// How high the ground is: below the lowest joint at home, its ball and the plate that carries it, metres. None where
-/// gravity does not pull along the third axis of the base.
+/// Height of the ground, metres: below the lowest joint at home, its ball and its plate. None if gravity is not along
+/// the third axis of the base.
 fn ground(export: &Export, scale: &Scale) -> Option<f64> {
     let down = export.gravity.x == 0.0 && export.gravity.y == 0.0 && export.gravity.z < 0.0;
     let place = |k: usize, p: &Point3<f64>| if k == 0 { *p } else { export.home.transform(p) };
@@ -291,8 +290,8 @@ fn ground(export: &Export, scale: &Scale) -> Option<f64> {
     lowest.reduce(f64::min).filter(|_| down).map(|z| z * scale.metres)
 }
 
-/// What the drives and the platform do, as sensors: place, speed and force of each drive, pose of the platform frame.
-/// `joint` is what the joints of the drives are called.
+/// Sensors: position, speed and force of each drive, and pose of the platform frame. `joint` is the name prefix of the
+/// drive joints.
 fn sensors(out: &mut String, joint: &str) {
     out.push_str("  <sensor>\n");
     for i in 1..=6 {
@@ -309,7 +308,7 @@ fn sensors(out: &mut String, joint: &str) {
     );
 }
 
-/// Everything before the bodies, with what is said of this kind of model in the comment, lines indented.
+/// Everything before the bodies, with `text` about this kind of model in the comment, lines indented.
 fn opening(export: &Export, scale: &Scale, text: &str) -> String {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!--\n");
     for line in export.heading("m") {
@@ -351,8 +350,8 @@ fn opening(export: &Export, scale: &Scale, text: &str) -> String {
     out
 }
 
-/// What a calibration found beside the joints, which changes nothing in the simulation: numbers that programs can read,
-/// one row of correlations an element, since some versions take at most 500 numbers in one.
+/// Results of a calibration besides the joints, without influence on the simulation. Programs can read these numbers.
+/// Each element has one row of correlations, since some versions accept at most 500 numbers in one.
 fn calibration(out: &mut String, export: &Export) {
     if export.leg_offsets.is_none() && export.calibration.is_none() {
         return;
@@ -441,7 +440,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     out.push_str("  </actuator>\n");
     sensors(&mut out, "leg");
     out.push_str("  <keyframe>\n");
-    // x swing, y swing, slide of each leg; the ball joint after the slide of leg 1
+    // x angle, y angle, slide of each leg; the ball joint after the slide of leg 1
     let qpos = format!("0 0 0 1 0 0 0{}", " 0 0 0".repeat(5));
     let _ = writeln!(
         out,

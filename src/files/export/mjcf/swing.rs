@@ -1,8 +1,8 @@
-//! Swing limits of the balls at the platform, of legs and of rods on cranks.
+//! Cone angles of the ball joints at the platform, for legs and for rods on cranks.
 //!
-//! The range of a ball joint limits its whole turn, that about the leg included, and legs 2 to 6 have no ball joint but
-//! a `connect`. A tendon between two points does what a cone does: with the joint in the origin, `-h u` on the rod and
-//! `-h k` on the axis of the joint, `u` and `k` unit vectors with the angle `t`, its length is
+//! The range of a ball joint limits its whole rotation, including that about the leg. Legs 2 to 6 have a `connect`
+//! instead of a ball joint. A tendon between two points acts as a cone. Relative to the joint, its ends are `-h u` on
+//! the rod and `-h k` on the joint axis. The unit vectors `u` and `k` enclose the angle `t`. Its length is
 //!
 //! ```text
 //! |h u - h k| = 2 h sin(t / 2).
@@ -15,13 +15,13 @@ use nalgebra::Vector3;
 use super::{Export, ExportLeg, Scale, Unsupported, real};
 use machine::requirements::JointAxes;
 
-/// Distance of both ends of the tendon from the joint, over the length of the leg at home or of the rod.
+/// Distance of both tendon ends from the joint, over the leg length at home or the rod length.
 const AWAY: f64 = 0.1;
 
-/// What the comment of a model says of the tendons.
+/// The comment of a model about the tendons.
 pub(super) const COMMENT: &str = "  Tendon swingN limits the swing at the platform: it joins a site of rod N to one behind its joint on the axis of the joint, as far from it, so that its length is twice\n  that distance times the sine of half the angle between rod and axis, and that of no turn about the rod.\n";
 
-/// The greatest angle of a leg or a rod (from 0) at the platform, radians, where the design limits it.
+/// The greatest angle of a leg or a rod (from 0) at the platform, radians, if the design limits it.
 fn limit(export: &Export, leg: usize) -> Option<f64> {
     let most = match &export.cranks {
         Some(cranks) => cranks.platform_swing,
@@ -30,7 +30,7 @@ fn limit(export: &Export, leg: usize) -> Option<f64> {
     most.filter(|most| *most < std::f64::consts::PI)
 }
 
-/// Whether the swing of any leg at the platform is limited.
+/// Whether the angle of any leg at the platform is limited.
 pub(super) fn is_limited(export: &Export) -> bool {
     (0..6).any(|leg| limit(export, leg).is_some())
 }
@@ -40,7 +40,7 @@ pub(super) struct SwingTendon {
     number: usize,
     /// Distance of its ends from the joint, design units.
     away: f64,
-    /// The joint along the third axis of the body that is called rod, design units.
+    /// Position of the joint along the third axis of the body called rod, design units.
     joint: f64,
     /// Its end on the platform, platform frame.
     seat: Vector3<f64>,
@@ -49,7 +49,7 @@ pub(super) struct SwingTendon {
 }
 
 impl SwingTendon {
-    /// `None` where nothing limits the swing.
+    /// `None` without a limit.
     pub(super) fn of(export: &Export, leg: &ExportLeg) -> Result<Option<Self>, Unsupported> {
         let Some(most) = limit(export, leg.number - 1) else { return Ok(None) };
         let to_platform = export.home.rotation.inverse();

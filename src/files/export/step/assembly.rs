@@ -15,7 +15,7 @@ pub(super) struct StepPart {
     frame: Id,
 }
 
-/// What is placed: the placed frame, the part, the name of the occurrence.
+/// An occurrence: the placed frame, the part, the name.
 #[derive(Debug)]
 struct Occurrence {
     part: StepPart,
@@ -44,7 +44,7 @@ impl StepAssembly {
     pub(super) fn new(export: &Export, legs: Vec<String>) -> Self {
         let mut lines = export.heading("mm");
         lines.push("Assembly frame: the base frame; the platform is at home".to_string());
-        // what no shape of the assembly says: the plate is where its joints are
+        // the shape of the assembly does not give the home position, so the text does
         let place = export.home.position.iter().map(|x| x * export.unit.millimetres);
         lines.push(format!(
             "Platform frame at home: {} {}",
@@ -53,7 +53,7 @@ impl StepAssembly {
         ));
         lines.extend(legs);
         let description: Vec<String> = lines.iter().map(|l| string(l)).collect();
-        // a time would make two runs differ
+        // a time of day would make two runs differ
         let header = format!(
             "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(({}),'2;1');\nFILE_NAME('platform.step','1970-01-01T00:00:00',(''),(''),{},{},'');\n{HEADER_END}",
             description.join(","),
@@ -100,7 +100,7 @@ impl StepAssembly {
         self.b.frame(&Point3::origin(), &Vector3::z(), &Vector3::x())
     }
 
-    /// A part with one solid, and what there is to say about it.
+    /// A part with one solid, and its description.
     pub(super) fn part(
         &mut self,
         (name, description): (&str, &str),
@@ -129,7 +129,7 @@ impl StepAssembly {
         group.0.push(Occurrence { part, frame, name: name.to_string() });
     }
 
-    /// A part made of those of a group.
+    /// A part made of the parts of a group.
     pub(super) fn assembled(&mut self, name: &str, description: &str, group: &Group) -> StepPart {
         let definition = self.product(name, description);
         let own = self.own_frame();
@@ -162,7 +162,7 @@ impl StepAssembly {
         StepPart { definition, shape, frame: own }
     }
 
-    /// The file, whose whole is made of the parts of a group.
+    /// The file, with a top-level part made of the parts of a group.
     pub(super) fn finish(mut self, group: &Group) -> String {
         let name = self.name.clone();
         self.assembled(&name, "", group);

@@ -1,4 +1,4 @@
-//! Entities of an exchange file (ISO 10303-21), numbered as they come.
+//! Entities of an exchange file (ISO 10303-21), numbered in order of creation.
 
 use std::fmt::Write as _;
 
@@ -29,7 +29,7 @@ pub(super) fn list(ids: &[Id]) -> String {
     format!("({})", ids.join(","))
 }
 
-/// A string: apostrophes and backslashes are doubled, what ASCII lacks is written as UTF-16 in hexadecimal.
+/// A string: apostrophes and backslashes are doubled; characters outside ASCII are written as UTF-16 in hexadecimal.
 pub(super) fn string(text: &str) -> String {
     let mut out = String::from("'");
     for c in one_line(text).chars() {
@@ -91,7 +91,7 @@ impl Builder {
         self.add(&format!("EDGE_CURVE('',{},{},{line},.T.)", ends.0, ends.1))
     }
 
-    /// The edge on a circle about the direction of z, counter-clockwise; a full circle when both ends are the same.
+    /// The edge on a circle about the direction of z, counter-clockwise; a full circle if both ends are equal.
     pub(super) fn round(&mut self, ends: (Id, Id), centre: &Point3<f64>, radius: f64) -> Id {
         let frame = self.frame(centre, &Vector3::z(), &Vector3::x());
         let circle = self.add(&format!("CIRCLE('',{frame},{})", step_real(radius)));
@@ -110,7 +110,7 @@ impl Builder {
         self.add(&format!("EDGE_LOOP('',{})", list(&oriented)))
     }
 
-    /// A face: outer loop, holes, surface; `along` when its outward normal is that of the surface.
+    /// A face: outer loop, holes, surface; `along` if its outward normal is that of the surface.
     pub(super) fn face(&mut self, outer: Id, holes: &[Id], surface: Id, along: bool) -> Id {
         let mut bounds = vec![self.add(&format!("FACE_OUTER_BOUND('',{outer},.T.)"))];
         bounds.extend(holes.iter().map(|h| self.add(&format!("FACE_BOUND('',{h},.T.)"))));

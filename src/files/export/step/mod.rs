@@ -1,7 +1,7 @@
 //! STEP AP242 (ISO 10303-242) assembly: base and platform with plate and joints, and legs with cylinder and rod, as
 //! exact solids.
 //!
-//! Legs of a kind are places of one part. Its rod stands in the bore of its cylinder as it does at home; both fit over
+//! Legs of a kind are places of one part. The rod is in the bore of its cylinder at its home position; both fit over
 //! the whole stroke ([`Telescope`]).
 
 mod assembly;
@@ -46,7 +46,7 @@ fn along(origin: &Point3<f64>, d: &Vector3<f64>) -> Pose {
     Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin.coords }
 }
 
-/// `inner` seen from outside `outer`.
+/// The pose `inner`, given in the frame `outer`, in the frame outside `outer`.
 fn within(outer: &Pose, inner: &Pose) -> Pose {
     Pose {
         rotation: outer.rotation * inner.rotation,
@@ -77,7 +77,7 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Step
             let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
             a.place(&mut group, ball, &joint.name, &at);
         }
-        // the box that distances of joints and envelopes take, along the axes of the body
+        // the box that distances of joints and envelopes use, along the axes of the body
         let Some(Housing::Box(edges)) = sort.housing else { continue };
         let name = format!("housing of the {name}");
         let block = a.part((&name, ""), |b| solids::block(b, &name, &(edges * mm)));
@@ -97,7 +97,7 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Step
     Ok(a.assembled(body.body.name(), "", &group))
 }
 
-/// What a leg of a kind does over its stroke, for the header.
+/// The motion of a kind of leg over its stroke, for the header.
 fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
     let [least, greatest] = t.range.map(|l| rounded(l * mm));
     let (name, numbers, rod) = (kind.name("leg"), kind.numbers(), rounded(t.rod * mm));
@@ -114,7 +114,7 @@ fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
     format!("Part {name} ({numbers}), {least} to {greatest} long: the rod of {rod} is {held}{met}")
 }
 
-/// Cylinders and rods, each shape once: legs that differ in length alone may have the same ones.
+/// Cylinders and rods, each shape once: legs of different lengths may share them.
 #[derive(Default)]
 struct LegParts {
     cylinder: Option<StepPart>,
@@ -133,7 +133,7 @@ fn leg(
     let mut group = Group::default();
     let up = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
     let height = (t.mouth - t.foot) * mm;
-    // sizes of cylinders are those of the machine
+    // without individual limits, cylinder sizes are the same for the whole machine
     let cylinder = *parts.cylinder.get_or_insert_with(|| {
         a.part(("cylinder", ""), |b| {
             if t.floor < t.mouth {
@@ -169,7 +169,7 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
     }
     let mut legs: Vec<(usize, StepPart)> = Vec::new();
     let mut parts = LegParts::default();
-    // parts of different shapes have names of their own: programs keep parts by their names
+    // different shapes have different names, since programs identify parts by their names
     let first = kinds[0].1.rod;
     let one_rod = kinds.iter().all(|(_, t)| t.rod.total_cmp(&first).is_eq());
     for (kind, t) in &kinds {

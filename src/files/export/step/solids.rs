@@ -1,4 +1,4 @@
-//! Boundary representations of plates, cylinders and balls, each in a frame of its own.
+//! Boundary representations of plates, cylinders and balls, each in a separate frame.
 
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -11,7 +11,7 @@ fn at(p: &Point2<f64>, z: f64) -> Point3<f64> {
     Point3::new(p.x, p.y, z)
 }
 
-/// A full turn of a cylinder about the direction of z: circles below and above and the seam between them.
+/// A full cylinder surface about the direction of z: lower and upper circle and the seam between them.
 #[derive(Debug)]
 struct Tube {
     below: Id,
@@ -116,8 +116,7 @@ pub(super) fn cylinder(b: &mut Builder, name: &str, diameter: f64, height: f64) 
     b.solid(name, &[side, top, bottom])
 }
 
-/// A cylinder on the origin along z with a bore of another diameter that begins at `floor` and is open above,
-/// millimetres.
+/// A cylinder on the origin along z, millimetres, with a bore of another diameter from `floor` to the open top.
 pub(super) fn sleeve(
     b: &mut Builder,
     name: &str,

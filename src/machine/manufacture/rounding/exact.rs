@@ -81,7 +81,7 @@ impl TrianglesOfBodies {
 
 /// Joints may be this share of the shortest side off their places.
 const REACH_SHARE: f64 = 0.3;
-/// And this many pitches, at most.
+/// Greatest shift of a joint, pitches.
 const REACH: f64 = 12.0;
 
 /// A rounding that is exactly equivalent to an octahedral platform.
@@ -98,13 +98,13 @@ pub struct ExactRounding {
     pub fractions: Option<[(i64, i64); 6]>,
     /// Every joint, in the order of [`joints`].
     pub joints: Vec<RoundedJoint>,
-    /// What it is worth.
+    /// The judgement of the rounded design.
     pub judgement: Judgement,
     /// Whether exact rational arithmetic on the holes shows: six independent legs in the span of six independent
     /// octahedral legs.
     pub proved: bool,
-    /// Turns by 120 degrees at home take the triangles of both bodies with their joints to themselves: a design of that
-    /// kind on triangular grids keeps its symmetry.
+    /// Whether rotations by 120 degrees at home map the triangles of both bodies with their joints to themselves.
+    /// Triangular grids keep this symmetry.
     pub three_fold: bool,
     /// Triangles of each body in the search.
     pub pool: [usize; 2],
@@ -113,11 +113,11 @@ pub struct ExactRounding {
     pub complete_to: [f64; 2],
     /// Replacements of one body's triangle by a better one after the first search.
     pub replacements: usize,
-    /// Leg map and forward kinematics against `octahedral`.
+    /// Leg map and forward kinematics compared with `octahedral`.
     pub verification: Result<Verification, VerifyError>,
 }
 
-/// The search state: a pair of triangles with its worth.
+/// A pair of triangles with its objective.
 #[derive(Debug, Clone, Copy)]
 struct TrianglePair {
     triangles: [GridTriangle; 2],
@@ -129,7 +129,7 @@ struct ExactRoundingSearch<'a> {
     plates: [PlateHoles; 2],
     roles: &'a TrianglesOfBodies,
     list: Vec<Joint>,
-    /// Combinations that do not reach it are passed over.
+    /// Combinations below this share of the requirements are skipped.
     least: Keeping,
     hint: usize,
 }
@@ -156,7 +156,7 @@ impl ExactRoundingSearch<'_> {
         on_cells(self.problem, &self.plates, &cells(self.roles, &self.list, triangles))
     }
 
-    /// The pair when its objective is above `floor` and, what it keeps of the requirements is enough.
+    /// The pair, if its objective is above `floor` and it keeps enough of the requirements.
     fn better(&mut self, triangles: [GridTriangle; 2], floor: f64) -> Option<TrianglePair> {
         let m = self.build(&triangles)?;
         let mut hint = self.hint;
@@ -168,8 +168,8 @@ impl ExactRoundingSearch<'_> {
         reached.then_some(TrianglePair { triangles, objective })
     }
 
-    /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its
-    /// pool until none is better.
+    /// The best combination of the first `count` triangles of each body. Replacing one triangle by any of its pool then
+    /// improves it until none is better.
     fn run(&mut self, pools: &[TrianglePool; 2], count: usize) -> Option<(TrianglePair, usize)> {
         let floor = |best: &Option<TrianglePair>| best.map_or(0.0, |b| b.objective);
         let mut best: Option<TrianglePair> = None;
@@ -178,7 +178,7 @@ impl ExactRoundingSearch<'_> {
                 best = self.better([*a, *b], floor(&best)).or(best);
             }
         }
-        // nothing among the nearest: all of one body with the nearest of the other
+        // if the nearest triangles give nothing, combine all of one body with the nearest of the other
         if best.is_none() {
             for (body, pool) in pools.iter().enumerate() {
                 for t in &pool.triangles {
@@ -243,7 +243,7 @@ pub(super) fn proved(
     [&legs, &octahedral, &both].into_iter().all(|list| rank(list) == Some(6))
 }
 
-/// Where the roles are wanted on a grid.
+/// The wanted places of the roles on a grid.
 pub(super) fn wanted(m: &Manipulator, roles: &TrianglesOfBodies, grid: &BodyGrid, body: usize) -> Wanted {
     let at = |j: Joint| grid.coordinates(&place(m, j));
     Wanted {
@@ -262,7 +262,7 @@ pub(super) fn limit(w: &Wanted) -> f64 {
     (REACH_SHARE * side(0).min(side(1)).min(side(2))).min(REACH)
 }
 
-/// What a joint is on a triangle.
+/// The role of a joint on a triangle.
 #[derive(Debug, Clone, Copy)]
 enum TriangleRole {
     Corner(usize),
@@ -278,7 +278,7 @@ impl TriangleRole {
     }
 }
 
-/// The joints of a body that stay, with the holes that they are on.
+/// The joints of a body that stay, with their holes.
 fn held(
     problem: &RoundingProblem<'_>,
     roles: &TrianglesOfBodies,
@@ -293,7 +293,7 @@ fn held(
         .collect()
 }
 
-/// The best pair of triangles on grids that are laid, and how it was found.
+/// The best pair of triangles on given grids, and the course of the search.
 struct BestTriangles {
     laying: Laying,
     pitches: [f64; 2],
@@ -301,7 +301,7 @@ struct BestTriangles {
     best: TrianglePair,
     replacements: usize,
     three_fold: bool,
-    /// What it keeps of the requirements.
+    /// The kept share of the requirements.
     keeping: Keeping,
 }
 
@@ -315,10 +315,10 @@ fn search(
     let lattice = |body: Body| laying.bodies[body.index()].lattice().ok_or(NoRounding::NoLines(body));
     let grids = [*lattice(Body::Base)?, *lattice(Body::Platform)?];
     let all = [0, 1].map(|body| wanted(m, roles, &grids[body], body));
-    // a design that turns keeps that where both grids have triangles that do
+    // a rotationally symmetric design keeps its symmetry if both grids have symmetric triangles
     let turning = all.each_ref().map(|w| three_fold_pool(w, limit(w)).filter(|p| !p.triangles.is_empty()));
     let held = [0, 1].map(|body| held(problem, roles, &laying.bodies[body], body));
-    // triangles through given holes are few
+    // only few triangles pass through given holes
     let wide = held.each_ref().map(|list| if list.is_empty() { count } else { POOL });
     let (mut pools, three_fold) = match turning {
         [Some(base), Some(platform)] => ([base, platform], true),
@@ -361,8 +361,7 @@ fn search(
     })
 }
 
-/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first
-/// where there is none.
+/// The best result on any of the grids, the first of equals; without a result, the reason on the first grid.
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],

@@ -1,4 +1,4 @@
-//! Origin and angle of a grid, chosen so that holes come near to the joints.
+//! Origin and angle of a grid, chosen so that holes come near the joints.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,9 +7,9 @@ use nalgebra::{Rotation2, Vector2};
 use super::grid::{BodyGrid, GridHole, Wanted, pool};
 use crate::requirements::Grid;
 
-/// Points within this much of the radius beyond it count as inside a circle.
+/// Points beyond a circle by at most this share of its radius count as inside.
 const SLIP: f64 = 1e-12;
-/// Golden sections of the range of turns: what is left of it is its `1e-9`th part.
+/// Golden-section steps over the range of rotations; they leave `1e-9` of the range.
 const SECTIONS: usize = 44;
 
 /// Centre and radius of the smallest circle that holds the points (incremental, Welzl 1991); radius 0 for no points.
@@ -43,7 +43,7 @@ fn of_two(p: &Vector2<f64>, q: &Vector2<f64>) -> (Vector2<f64>, f64) {
     ((p + q) / 2.0, (p - q).norm() / 2.0)
 }
 
-/// The circle through three points; where they are on a line, that of the two farthest apart.
+/// The circle through three points; for collinear points, the circle on the two farthest apart as diameter.
 fn of_three(p: &Vector2<f64>, q: &Vector2<f64>, r: &Vector2<f64>) -> (Vector2<f64>, f64) {
     let (a, b) = (q - p, r - p);
     let doubled = 2.0 * a.perp(&b);
@@ -59,8 +59,8 @@ fn of_three(p: &Vector2<f64>, q: &Vector2<f64>, r: &Vector2<f64>) -> (Vector2<f6
     pairs.into_iter().fold((*p, 0.0), |best, c| if c.1 > best.1 { c } else { best })
 }
 
-/// A grid in a plane: its turn (radians), a hole (in pitches, axes that are not turned), and the greatest distance of
-/// what was fitted (pitches).
+/// A grid in a plane: its rotation (radians), the position of a hole (pitches, axes without rotation), and the greatest
+/// fitting distance (pitches).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Laid {
     pub(super) angle: f64,
@@ -68,8 +68,8 @@ pub(super) struct Laid {
     pub(super) worst: f64,
 }
 
-/// Lays the grid so that the greatest distance of the cells from their places is least: the best shift for every turn
-/// is the centre of a smallest circle, the turn is sought within `half` of `angle`, where that distance is nearly
+/// Places the grid so that the greatest distance of the cells from their places is least. The best shift for a rotation
+/// is the centre of a smallest circle. The rotation is sought within `half` of `angle`, where the distance is nearly
 /// convex.
 fn fit(places: &[Vector2<f64>], cells: &[GridHole], angle: f64, half: f64) -> Laid {
     let at = |angle: f64| {
@@ -95,19 +95,19 @@ fn fit(places: &[Vector2<f64>], cells: &[GridHole], angle: f64, half: f64) -> La
     [start, left, right].into_iter().fold(start, |best, l| if l.worst < best.worst { l } else { best })
 }
 
-/// Turns that are tried, at most.
+/// Greatest number of tried rotations.
 const TURNS: u32 = 10_000;
-/// The same where every turn needs a pool of triangles.
+/// The same limit where every rotation needs a pool of triangles.
 const TURNS_OF_POOLS: u32 = 240;
-/// Turns and cells that are fitted after all turns have been ranked.
+/// Number of rotations and cells fitted after the ranking of all rotations.
 const FITTED: usize = 64;
 /// Triangles of every pool, at least, and how many of them are fitted.
 const TRIANGLES: (usize, usize) = (8, 40);
-/// Turns of the centre of the smallest circle on the torus of shifts.
+/// Number of refinements of the centre of the smallest circle on the torus of shifts.
 const WRAPS: usize = 3;
 /// Grids of a body that are kept.
 const KEPT: usize = 3;
-/// Greatest distances that differ by less (pitches) belong to one grid found twice.
+/// Grids whose greatest distances differ by less (pitches) count as the same.
 const SAME: f64 = 1e-9;
 
 type Place = Vector2<f64>;
@@ -116,7 +116,7 @@ fn place(x: [f64; 2]) -> Place {
     Vector2::new(x[0], x[1])
 }
 
-/// Turns in a quarter, `share` pitches apart at the place farthest from the centre, at most `most`.
+/// Rotations within a quarter turn, `share` pitches apart at the place farthest from the centre, at most `most`.
 fn turns(places: &[Place], centre: &Place, share: f64, most: u32) -> Vec<f64> {
     let reach = places.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
     let wanted = (FRAC_PI_2 * reach / share).ceil();
@@ -124,7 +124,7 @@ fn turns(places: &[Place], centre: &Place, share: f64, most: u32) -> Vec<f64> {
     (0..count).map(|k| FRAC_PI_2 * f64::from(k) / f64::from(count)).collect()
 }
 
-/// The best different ones, best first.
+/// The best distinct grids, best first.
 fn best(mut found: Vec<Laid>) -> Vec<Laid> {
     found.sort_by(|a, b| a.worst.total_cmp(&b.worst).then(a.angle.total_cmp(&b.angle)));
     found.dedup_by(|a, b| (a.worst - b.worst).abs() < SAME);
@@ -132,7 +132,7 @@ fn best(mut found: Vec<Laid>) -> Vec<Laid> {
     found
 }
 
-/// The shift of a grid that is not turned with the least greatest distance of the places from holes, and that distance.
+/// The shift of a grid without rotation with the least greatest distance of the places from holes, and that distance.
 fn shift(places: &[Place]) -> (Place, f64) {
     let mut best = (Place::zeros(), f64::INFINITY);
     for first in places {
@@ -167,8 +167,8 @@ pub(super) fn near_holes(places: &[[f64; 2]]) -> Vec<Laid> {
     best(ranked.iter().take(FITTED).map(|(_, angle, cells)| fit(&places, cells, *angle, step)).collect())
 }
 
-/// Grids with the least greatest distance of the joints from the corners of a triangle of holes and from holes on its
-/// sides; `limit` is the greatest reach (pitches).
+/// Grids that minimise the greatest distance of the joints from the corners of a triangle of holes and from holes on
+/// its sides. `limit` is the greatest reach (pitches).
 pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
     let all = wanted.corners.iter().chain(wanted.inner.iter().flatten());
     let places: Vec<Place> = all.map(|p| place(*p)).collect();
@@ -192,8 +192,8 @@ pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
     best(found)
 }
 
-/// The grid as it is asked for: the hole nearest to the foot of the frame's origin, the turn within an eighth; `plain`
-/// is the grid of this pitch that is neither shifted nor turned.
+/// The grid as the user states it: the hole nearest to the foot of the frame's origin, and a rotation within an eighth
+/// turn. `plain` is the grid of this pitch without shift and rotation.
 pub(super) fn as_grid(laid: &Laid, plain: &BodyGrid) -> Grid {
     let mut angle = laid.angle.rem_euclid(FRAC_PI_2);
     if angle > FRAC_PI_2 / 2.0 {

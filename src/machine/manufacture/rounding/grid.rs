@@ -1,4 +1,4 @@
-//! A grid of holes in the plane of a body, and triangles on it whose sides carry grid points where joints are wanted.
+//! A grid of holes in the plane of a body, and triangles on it whose sides carry grid points near wanted joints.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -7,7 +7,7 @@ use num::small::symmetric_eigen3;
 
 /// Joints count as lying in a plane within this times the size of the design.
 const FLAT: f64 = 1e-9;
-/// Cells farther out than this are not counted exactly.
+/// Cells farther out than this cannot be counted exactly.
 const FARTHEST: f64 = 1e6;
 
 /// A hole, counted from the origin along both axes.
@@ -71,12 +71,12 @@ impl JointPlane {
         self.x.cross(&self.y)
     }
 
-    /// The point with these coordinates from a place with these.
+    /// The point with these coordinates relative to an origin in the plane.
     pub(super) fn point(&self, [u, v]: [f64; 2], origin: [f64; 2]) -> Point3<f64> {
         self.foot + self.x * (origin[0] + u) + self.y * (origin[1] + v)
     }
 
-    /// Coordinates of a point from a place with these.
+    /// Coordinates of a point relative to an origin in the plane.
     pub(super) fn coordinates(&self, p: &Point3<f64>, origin: [f64; 2]) -> [f64; 2] {
         let d = p - self.foot;
         [d.dot(&self.x) - origin[0], d.dot(&self.y) - origin[1]]
@@ -117,20 +117,20 @@ impl BodyGrid {
         self.pitch
     }
 
-    /// Whether all points are near enough for cells to be counted.
+    /// Whether all points are near enough to count cells exactly.
     pub(super) fn reaches(&self, points: &[Point3<f64>]) -> bool {
         points.iter().all(|p| self.coordinates(p).iter().all(|x| x.abs() < FARTHEST))
     }
 }
 
-/// Reaches that are tried, in pitches: each larger by this factor than the one before.
+/// Growth factor between successive tried reaches.
 const GROWTH: f64 = 1.25;
-/// The first of them, in pitches.
+/// The first tried reach, pitches.
 const FIRST_REACH: f64 = 0.75;
-/// Triangles kept of a body, at most: the nearest ones.
+/// Greatest number of triangles kept for a body: the nearest ones.
 pub(super) const POOL: usize = 3000;
 
-/// Where corners and joints on the sides are wanted, in pitches; side `k` runs from corner `k` to corner `k + 1`.
+/// Wanted places of corners and of joints on the sides, pitches; side `k` runs from corner `k` to corner `k + 1`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) corners: [[f64; 2]; 3],
@@ -143,11 +143,11 @@ pub(super) struct Wanted {
 /// A triangle on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct GridTriangle {
-    /// Largest distance of a joint from where it is wanted, pitches.
+    /// Largest distance of a joint from its wanted place, pitches.
     deviation: f64,
     pub(super) corners: [GridHole; 3],
-    /// Side `k` has `parts[k]` equal parts between grid points; its joint is at the end of part `inner[k]` (below 0 or
-    /// above `parts` on an extension).
+    /// Side `k` has `parts[k]` equal parts between grid points; its joint ends part `inner[k]`, which is below 0 or
+    /// above `parts` on an extension.
     pub(super) parts: [i64; 3],
     pub(super) inner: [i64; 3],
 }
@@ -165,7 +165,7 @@ impl GridTriangle {
 pub(super) struct TrianglePool {
     /// Nearest first.
     pub(super) triangles: Vec<GridTriangle>,
-    /// All triangles whose joints are within this many pitches of their places are among them.
+    /// The list holds all triangles whose joints are within this many pitches of their places.
     pub(super) complete_to: f64,
 }
 
@@ -185,8 +185,8 @@ fn cells_within(centre: [f64; 2], reach: f64, skew: f64) -> Vec<GridHole> {
     all.filter(|c| distance(*c, centre, skew) <= reach).collect()
 }
 
-/// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from where it
-/// is wanted.
+/// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from its
+/// wanted place.
 #[derive(Debug, Clone, Copy)]
 struct GridSide {
     to: usize,
@@ -298,17 +298,16 @@ fn nearest_first(mut triangles: Vec<GridTriangle>, reach: f64) -> TrianglePool {
     TrianglePool { triangles, complete_to }
 }
 
-/// Corners and joints count as turned into one another within this many pitches.
+/// Corners and joints within this many pitches of their rotated images count as symmetric.
 const TURNED: f64 = 1e-6;
 
-/// The displacement in pitches of a triangular grid, turned by 120 degrees: its axes `a`, `b` go to `b - a` and `-a`.
+/// The displacement in pitches of a triangular grid, rotated by 120 degrees: its axes `a`, `b` go to `b - a` and `-a`.
 fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j]: [T; 2]) -> [T; 2] {
     [-i - j, i]
 }
 
-/// The triangles within `limit` (pitches) that turns by 120 degrees about the middle of the wanted one take to
-/// themselves with their joints, nearest first; `None` where the wanted triangle is not of that kind, or the grid does
-/// not turn about its middle.
+/// The triangles within `limit` (pitches) with three-fold symmetry about the middle of the wanted one, joints included,
+/// nearest first. `None` if the wanted triangle lacks this symmetry, or the grid has none about its middle.
 pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<TrianglePool> {
     if HolePattern::Triangular.skew() != Some(wanted.skew) {
         return None;
@@ -323,7 +322,7 @@ pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<TrianglePoo
     let turns = if near(about(wanted.corners[0]), wanted.corners[1]) { 1 } else { 2 };
     let turn = |p: [f64; 2]| (0..turns).fold(p, |p, _| about(p));
     let symmetric = |list: &[[f64; 2]; 3]| (0..3).all(|k| near(turn(list[k]), list[(k + 1) % 3]));
-    // where the turn takes the hole at the origin
+    // the image of the hole at the origin
     let shift = turn([0.0; 2]);
     let whole = shift.map(f64::round);
     if !(symmetric(&wanted.corners) && wanted.inner.iter().all(symmetric) && near(shift, whole)) {
@@ -448,8 +447,8 @@ mod tests {
         assert_eq!(found.triangles[0].corners, [[0, 0], [24, 1], [11, 21]]);
     }
 
-    /// A triangle with joints on its sides that turns by 120 degrees take to itself about `middle`, in pitches of a
-    /// triangular grid.
+    /// A triangle with joints on its sides that is symmetric under rotations by 120 degrees about `middle`, in pitches
+    /// of a triangular grid.
     fn three_fold(middle: [f64; 2]) -> Wanted {
         let turns = |start: [f64; 2]| {
             let about = |p: [f64; 2]| [middle[0] + p[0], middle[1] + p[1]];
@@ -495,7 +494,7 @@ mod tests {
 
     #[test]
     fn what_does_not_turn_has_no_three_fold_triangles() {
-        // a middle about which the grid does not turn, joints that do not, a square grid
+        // no symmetry under rotations by 120 degrees: the grid about this middle, the joints, a square grid
         assert!(three_fold_pool(&three_fold([0.25, 0.0]), 4.0).is_none());
         let mut uneven = three_fold([0.0, 0.0]);
         uneven.inner.as_mut().unwrap()[1][0] += 0.01;

@@ -1,5 +1,5 @@
-//! Puts the joints of a design on a grid of holes, and says what the rounded design is worth: conditioning,
-//! requirements, distances of joints.
+//! Moves the joints of a design to a grid of holes and judges the rounded design: conditioning, requirements, distances
+//! of joints.
 
 mod exact;
 mod free;
@@ -25,24 +25,24 @@ use crate::requirements::{Grid, HolePattern, PoseSpace, Requirements, TermKind, 
 use platform::geom::{Pose, SamplePlan};
 use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 
-/// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
+/// Sets of leg lengths for the comparison of a rounded design with its equivalent.
 const SAMPLES: usize = 3;
 
-/// A design to put on a grid, and what it is judged by.
+/// A design to put on a grid, and the criteria of its judgement.
 #[derive(Debug, Clone, Copy)]
 pub struct RoundingProblem<'a> {
     /// The design as wanted.
     pub manipulator: &'a Manipulator,
-    /// Grids of base and platform; `None` for a plate whose joints stay where they are.
+    /// Grids of base and platform; `None` for a plate whose joints keep their places.
     pub grids: [Option<Grid>; 2],
-    /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is
-    /// never worse than theirs.
+    /// Whether origins and angles are chosen too; the given grids remain candidates, so the result is never worse than
+    /// theirs.
     pub free: bool,
-    /// For each joint of base and platform whether it stays where it is; empty: none does.
+    /// For each joint of base and platform, `true` if rounding keeps its place; empty: none is kept.
     pub fixed: [&'a [bool]; 2],
-    /// What it has to satisfy.
+    /// The requirements of the design.
     pub requirements: &'a Requirements,
-    /// The poses it has to reach.
+    /// The required poses.
     pub space: &'a PoseSpace,
     /// Poses at which it is judged, at least one.
     pub poses: &'a [Pose],
@@ -63,13 +63,13 @@ pub struct RoundingProblem<'a> {
 }
 
 impl RoundingProblem<'_> {
-    /// Whether a joint stays where it is.
+    /// Whether rounding keeps the place of a joint.
     fn holds(&self, joint: Joint) -> bool {
         self.fixed[joint.body.index()].get(joint.index) == Some(&true)
     }
 }
 
-/// Why there is no rounding.
+/// Reasons why there is no rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoRounding {
@@ -86,10 +86,10 @@ pub enum NoRounding {
         "the {0} has no square or triangular grid: lines through holes on circles pass no further holes, and joints that stay where they are lie on no holes"
     )]
     NoLines(Body),
-    /// Origins and angles are chosen for square grids alone.
+    /// Origins and angles can be chosen only for square grids.
     #[error("the origin and the angle of the grid of the {0} cannot be chosen: its holes lie on no squares")]
     FreePattern(Body),
-    /// The design is neither octahedral nor has it one joint on each side of two triangles.
+    /// The design is not octahedral and lacks one joint on each side of two triangles.
     #[error(
         "the design is neither octahedral nor has one joint on each side of two triangles, so there are no lines to keep the joints on"
     )]
@@ -111,7 +111,7 @@ pub enum NoRounding {
 }
 
 impl NoRounding {
-    /// The word for it.
+    /// The reason as a word.
     #[must_use]
     pub fn word(self) -> NoRoundingWord {
         match self {
@@ -127,7 +127,7 @@ impl NoRounding {
     }
 }
 
-/// A short code for what stands against a rounding.
+/// The reason against a rounding as a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -145,7 +145,7 @@ pub enum NoRoundingWord {
     JointsCoincide,
     /// A pose becomes singular.
     SingularPose,
-    /// The origin and the angle of a grid can be chosen for square grids alone.
+    /// Origin and angle can be chosen only for square grids.
     FreePattern,
     /// The grid cannot be used.
     BadGrid,
@@ -158,13 +158,13 @@ pub enum NoRoundingWord {
 pub struct RoundedJoint {
     /// The joint.
     pub joint: Joint,
-    /// Hole: counted from the origin of the grid along its axes, or circle and number on it; `None` where the joint
-    /// stays where it was wanted.
+    /// Hole: its count from the origin of the grid along both axes, or circle and number on it. `None` for a joint that
+    /// stays at its wanted place.
     pub cell: Option<[i64; 2]>,
-    /// How far it is from where it was wanted, frame of the body, design units.
+    /// Shift of the joint from its wanted place, frame of the body, design units.
     pub moved: Vector3<f64>,
-    /// Distance from the line of its side: of the new triangle for the exact rounding, of the wanted one for the
-    /// nearest; `None` for joints that are corners or belong to no triangle.
+    /// Distance from the line of its side, design units: of the new triangle for the exact rounding, of the wanted one
+    /// for the nearest. `None` for corners and for joints without triangle.
     pub off_line: Option<f64>,
 }
 
@@ -175,14 +175,13 @@ pub struct Rounding {
     pub wanted: Judgement,
     /// All joints on the grid and exactly on the lines of two triangles.
     pub exact: Result<ExactRounding, NoRounding>,
-    /// All joints on grid points next to where they are wanted.
+    /// All joints on grid points next to their wanted places.
     pub nearest: Result<NearestRounding, NoRounding>,
 }
 
 impl Rounding {
-    /// The rounding to build, by rule: the exact one when it meets the requirements and keeps the share `keep` of the
-    /// objective; else the nearest one when it meets the requirements; else the exact one when it meets them; else
-    /// none.
+    /// The rounding to build. The exact one is chosen if it meets the requirements and keeps the share `keep` of the
+    /// objective. Otherwise the nearest one is chosen if it meets them, then the exact one if it meets them.
     #[must_use]
     pub fn choice(&self, keep: f64) -> Option<&Manipulator> {
         let exact = self.exact.as_ref().ok().filter(|e| e.judgement.met);
@@ -191,11 +190,10 @@ impl Rounding {
         kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
     }
 
-    /// Where the rule chooses none: of the roundings the one that misses the requirements least, the exact one of
-    /// equals.
+    /// The rounding that misses the requirements least, if the rule chooses none; of equals the exact one.
     ///
-    /// What a rounding misses is the greatest share by which a margin is below 0: of what is limited, or of the size of
-    /// the design.
+    /// The miss of a rounding is the greatest share by which a margin is below 0. The share refers to the limit or to
+    /// the size of the design.
     pub fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
         let exact =
             self.exact.as_ref().ok().map(|e| (&e.manipulator, e.judgement.missed_share(required, size)));
@@ -208,16 +206,16 @@ impl Rounding {
 
 /// Puts the joints of a design with planar bodies on grids, in two ways.
 ///
-/// *Exact*: triangles with corners on grid points whose sides carry grid points where joints are wanted; the result is
-/// equivalent to the octahedral platform on these triangles without any error, decided in exact arithmetic. *Nearest*:
-/// every joint on one of the four grid points around it, chosen for the least error of the pose that the formula of the
-/// wanted design gives.
+/// *Exact*: triangles with corners on grid points whose sides carry grid points near the wanted joints. The result is
+/// exactly equivalent to the octahedral platform on these triangles, decided in exact arithmetic. *Nearest*: every
+/// joint on one of the four grid points around it. The choice minimises the pose error of the formula of the wanted
+/// design.
 ///
-/// With `free` grids their origins and angles are chosen as well (`docs/theory/manufacture.md`): of the grids given and
-/// those whose holes come nearest to what is wanted each way takes the ones that make its own answer best.
+/// `free` grids also choose their origins and angles (`docs/theory/manufacture.md`). The candidates are the given grids
+/// and those whose holes come nearest to the wanted places; each rounding takes its own best.
 ///
 /// # Errors
-/// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the
+/// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; a reason against one of the two ways is in its part of the
 /// answer.
 pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
     let m = problem.manipulator;
@@ -252,7 +250,7 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
     })
 }
 
-/// Grids of both bodies, laid.
+/// Grids of both bodies, placed.
 #[derive(Debug, Clone, Copy)]
 struct Laying {
     grids: [Option<Grid>; 2],
@@ -262,9 +260,9 @@ struct Laying {
 /// A grid with its holes in the plane of a body.
 type LaidPlate = (Option<Grid>, PlateHoles);
 
-/// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the
-/// roles, with the best of each body, or without roles to the joints as they are, with the best ones of both in every
-/// combination.
+/// The given grids, and grids of the same pitches whose holes come nearest to the wanted places. With roles these are
+/// the best triangles of each body. Without roles they are the best grids for the joints, in every combination of the
+/// two bodies.
 fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&TrianglesOfBodies>) -> Vec<Laying> {
     let m = problem.manipulator;
     let found = Body::BOTH.map(|body| {
@@ -295,8 +293,7 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Triangl
     std::iter::once(*given).chain(all.map(pair)).collect()
 }
 
-/// The best of what was found on several grids, the first where several are equally good; the first error where nothing
-/// was found.
+/// The best result over several grids, the first of equals; without a result, the first error.
 fn best_of<T>(
     all: impl Iterator<Item = Result<T, NoRounding>>,
     better: impl Fn(&T, &T) -> bool,
@@ -317,7 +314,7 @@ fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
     m.joints(joint.body)[joint.index]
 }
 
-/// The design with its joints (in the order of [`joints`]) on these holes; those that stay are where they were.
+/// The design with its joints (in the order of [`joints`]) on these holes; fixed joints keep their places.
 fn on_cells(
     problem: &RoundingProblem<'_>,
     plates: &[PlateHoles; 2],
@@ -336,20 +333,21 @@ fn plate_of(plates: &[PlateHoles; 2], body: Body) -> &PlateHoles {
     &plates[body.index()]
 }
 
-/// Sample poses in the workspace, or a quarter of the size and 20 degrees about home where it has no width.
+/// Sample poses in the workspace, or within a quarter of the size and 20 degrees about home if the workspace has no
+/// width.
 fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
     let space = problem.space;
     let widths = (space.translation, space.rotation_deg);
     SamplePlan::about(problem.manipulator, space.home, widths, (SAMPLES, problem.seed))
 }
 
-/// How good a design is.
+/// The quality of a design.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "JudgementRecord", transform = num::nullable))]
 pub struct Judgement {
     /// The worst inverse condition number over the poses.
     pub objective: f64,
-    /// Where it is.
+    /// The pose of this value.
     #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub worst_pose: Pose,
     /// Least distances of two joints, base and platform.
@@ -371,7 +369,7 @@ pub struct Judgement {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "RequirementMarginRecord", transform = num::nullable))]
 pub struct LeastMargin {
-    /// Which.
+    /// The requirement.
     #[cfg_attr(feature = "serde", serde(rename = "name"))]
     pub kind: TermKind,
     /// The margin; a violation below 0.
@@ -380,8 +378,7 @@ pub struct LeastMargin {
 }
 
 impl Judgement {
-    /// By how much a requirement is missed at most, as a share of what is limited, or of the size of the design; 0
-    /// where none is.
+    /// The greatest miss of a requirement, as a share of its limit or of the size of the design; 0 if none is missed.
     fn missed_share(&self, required: &Requirements, size: f64) -> f64 {
         let share = |margin: &LeastMargin| {
             let whole = required.whole(margin.kind);
@@ -391,7 +388,7 @@ impl Judgement {
     }
 }
 
-/// What a rounding keeps of the requirements at the poses looked at, least first.
+/// The degree to which a rounding keeps the requirements at the sampled poses, least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Keeping {
     Nothing,
@@ -400,7 +397,7 @@ enum Keeping {
 }
 
 impl Keeping {
-    /// From the most to nothing.
+    /// From the strictest to the weakest.
     const ALL: [Self; 3] = [Self::Reserve, Self::Limits, Self::Nothing];
 }
 
@@ -414,8 +411,8 @@ impl Judgement {
     }
 }
 
-/// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the
-/// number of the worst.
+/// The worst inverse condition number if it is above `floor`. The search begins at pose number `hint`, which becomes
+/// the number of the worst pose.
 fn objective_above(
     m: &Manipulator,
     problem: &RoundingProblem<'_>,
@@ -457,7 +454,7 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<LeastMargin>,
     (least.into_iter().map(|(kind, (value, _))| LeastMargin { kind, value }).collect(), met)
 }
 
-/// Everything about a design.
+/// The judgement of a design.
 fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! Every joint on a grid point next to where it is wanted, chosen for the least error of the pose.
+//! Every joint on a grid point near its wanted place, chosen for the least error of the pose.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -26,19 +26,19 @@ pub struct NearestRounding {
     pub manipulator: Manipulator,
     /// Every joint, in the order of [`joints`].
     pub joints: Vec<RoundedJoint>,
-    /// What it is worth.
+    /// The judgement of the rounded design.
     pub judgement: Judgement,
-    /// Greatest error of the pose over the poses of the problem when the formula of the wanted design is used, to first
-    /// order: of the tool point (design units) and of the orientation (degrees).
+    /// Greatest pose error over the poses of the problem with the formula of the wanted design, to first order. The
+    /// parts are the tool point (design units) and the orientation (degrees).
     pub first_order: (f64, f64),
     /// The same with every joint simply on the nearest grid point.
     pub first_order_nearest: (f64, f64),
-    /// The error at random poses of the workspace, solved, and how many there were.
+    /// The error at random poses of the workspace, solved, and the number of these poses.
     pub solved: (ErrorSpread, usize),
     /// Joints that are not on the grid point nearest to them.
     pub not_nearest: usize,
-    /// Turns by 120 degrees about the middle of its joints take the joints of both bodies to themselves: a design of
-    /// that kind keeps its symmetry on holes that turn too.
+    /// Whether rotations by 120 degrees about the middle of its joints map the joints of each body to themselves.
+    /// Symmetric holes keep this symmetry.
     pub three_fold: bool,
     /// Leg map and forward kinematics against the wanted design.
     pub verification: Result<Verification, VerifyError>,
@@ -59,8 +59,8 @@ impl RoundingErrors<'_> {
         norms.fold((0.0, 0.0), |m, (p, w)| (f64::max(m.0, p.norm()), f64::max(m.1, w.norm())))
     }
 
-    /// Greatest over the poses of the larger of both, the angle times the characteristic length, with some joints at
-    /// other places.
+    /// The greatest error over the poses with some joints at other places: the larger of the position error and the
+    /// angle times the characteristic length.
     fn cost(&self, sums: &[(Vector3<f64>, Vector3<f64>)], moved: &[(usize, Vector3<f64>)]) -> f64 {
         let one = |(s, (p, w)): (&Sensitivity, &(Vector3<f64>, Vector3<f64>))| {
             let with = |g: &[Matrix3<f64>], sum: &Vector3<f64>| {
@@ -72,14 +72,14 @@ impl RoundingErrors<'_> {
     }
 }
 
-/// Joints that move together, by their numbers in the list, and the holes that they can have, nearest first.
+/// Joints that move together, by their numbers in the list, and their possible holes, nearest first.
 struct Orbit {
     members: Vec<usize>,
     choices: Vec<Vec<GridHole>>,
 }
 
-/// Every joint by itself; or three at a time, where turns by 120 degrees take the joints of the body to one another and
-/// the holes around them to holes.
+/// Every joint alone, or three joints together if rotations by 120 degrees permute the joints of the body and the holes
+/// around them.
 fn orbits(
     problem: &RoundingProblem<'_>,
     list: &[Joint],
@@ -98,7 +98,7 @@ fn orbits(
             let (second, third) = (symmetry.next[first], symmetry.next[symmetry.next[first]]);
             let members = [first, second, third].map(|k| own[k]);
             if members.iter().any(|k| holds(*k)) {
-                // they turn into one another as they are, or not at all
+                // the joints are symmetric as they stand, or not at all
                 let stay: Vec<GridHole> = members.iter().map(|k| staying(*k)).collect();
                 let all = members.iter().all(|k| holds(*k));
                 return all.then(|| Orbit { members: members.to_vec(), choices: vec![stay] });
@@ -134,10 +134,10 @@ fn orbits(
     (own.into_iter().map(one).collect(), false)
 }
 
-/// The holes on grids that are laid.
+/// The holes on placed grids.
 struct NearestHoles {
     laying: Laying,
-    /// For every joint its hole, and where it is next to the nearest.
+    /// The hole of each joint, or its place next to the nearest hole.
     cells: Vec<GridHole>,
     moved: Vec<Vector3<f64>>,
     not_nearest: usize,
@@ -149,7 +149,7 @@ struct NearestHoles {
 }
 
 impl NearestHoles {
-    /// What is lowered.
+    /// The cost that the search lowers.
     fn cost(&self, length: f64) -> f64 {
         self.errors.0.max(length * self.errors.1)
     }
@@ -189,7 +189,7 @@ fn search(
     let length = problem.characteristic_length;
     let mut state = RoundingErrors { sensitivities, length, cells, moved: start };
     let nearest_errors = state.errors();
-    // one joint or orbit at a time, until none can do better
+    // one joint or orbit at a time, until no change improves the cost
     loop {
         let mut better = false;
         for Orbit { members, choices } in &orbits {
@@ -234,8 +234,7 @@ fn search(
     })
 }
 
-/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first
-/// where there is none.
+/// The best result on any of the grids, the first of equals; without a result, the reason on the first grid.
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use super::grid::{BodyGrid, GridHole, JointPlane, length};
 use crate::requirements::{Grid, HolePattern};
 
-/// Circles farther out than this are not counted.
+/// Circles farther out than this cannot be counted.
 const LAST_CIRCLE: f64 = 1e6;
 /// Points count as holes within this share of the distance to the next hole.
 const ON_HOLE: f64 = 1e-6;
@@ -18,7 +18,7 @@ pub(super) struct BodyCircles {
 }
 
 impl BodyCircles {
-    /// The place as radius and turn (radians) from the first hole of each circle.
+    /// The place as radius and angle (radians) from the first hole of each circle.
     fn polar(&self, p: &Point3<f64>) -> (f64, f64) {
         let [x, y] = self.plane.coordinates(p, self.grid.origin);
         let turn = if x == 0.0 && y == 0.0 { 0.0 } else { y.atan2(x) };
@@ -36,7 +36,7 @@ impl BodyCircles {
     fn circles_about(&self, radius: f64) -> Vec<i64> {
         let listed = self.grid.circles.as_slice();
         if self.grid.circle(listed.len()).is_some() {
-            // rings without end
+            // circles without end
             let first = listed.first().map_or(0.0, |c| c.radius);
             // inside the first ring there is no other one
             if radius < first {
@@ -72,7 +72,7 @@ impl BodyCircles {
     }
 }
 
-/// Where the joints of a body may be put.
+/// The allowed places of the joints of a body.
 #[derive(Debug, Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "there are two of them, and they are copied")]
 pub(super) enum PlateHoles {
@@ -80,7 +80,7 @@ pub(super) enum PlateHoles {
     Lattice(BodyGrid),
     /// On holes of circles.
     Circles(BodyCircles),
-    /// Where they are.
+    /// The wanted places.
     AsWanted,
 }
 
@@ -94,7 +94,7 @@ impl PlateHoles {
         Some(Self::Circles(BodyCircles { grid: *grid, plane: JointPlane::of(points, size)? }))
     }
 
-    /// The holes on two axes, where they are.
+    /// The grid of two axes, if the holes lie on one.
     pub(super) fn lattice(&self) -> Option<&BodyGrid> {
         match self {
             Self::Lattice(grid) => Some(grid),
@@ -102,7 +102,7 @@ impl PlateHoles {
         }
     }
 
-    /// Whether all points are near enough for holes to be counted.
+    /// Whether all points are near enough to count the holes.
     pub(super) fn reaches(&self, points: &[Point3<f64>]) -> bool {
         match self {
             Self::Lattice(grid) => grid.reaches(points),
@@ -114,7 +114,7 @@ impl PlateHoles {
         }
     }
 
-    /// The hole; `wanted` itself where the joint stays where it is.
+    /// The hole; `wanted` itself for a joint that stays.
     pub(super) fn point(&self, cell: GridHole, wanted: &Point3<f64>) -> Point3<f64> {
         match self {
             Self::Lattice(grid) => grid.point(cell),
@@ -123,8 +123,8 @@ impl PlateHoles {
         }
     }
 
-    /// The holes around a place, nearest first, at least one. A joint that stays where it is has one, the number
-    /// `joint`, which no other of its body has.
+    /// The holes around a place, nearest first, at least one. A joint that stays has one hole: the number `joint`,
+    /// unique in its body.
     pub(super) fn around(&self, wanted: &Point3<f64>, joint: usize) -> Vec<GridHole> {
         let mut out = match self {
             Self::Lattice(grid) => {
@@ -160,9 +160,9 @@ impl PlateHoles {
     }
 }
 
-/// Whether holes can hold a platform that turns by 120 degrees about the middle of joints take to itself: on a
-/// triangular grid where the turn takes holes to holes, on circles about that middle of which one has holes that come
-/// in threes; `true` without a grid, and `false` where the joints themselves do not turn.
+/// Whether the holes allow a platform with three-fold symmetry about the middle of its joints. A triangular grid must
+/// have this symmetry about that middle. Circles must be centred there, one of them with a multiple of three holes.
+/// `true` without a grid; `false` for joints without this symmetry.
 pub fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> bool {
     let Some(grid) = grid else { return true };
     let (Some(symmetry), Some(plate)) =
@@ -173,7 +173,7 @@ pub fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> boo
     let stays = |p: &Point3<f64>, spacing: f64| (symmetry.turned(p) - p).norm() <= ON_HOLE * spacing;
     match &plate {
         PlateHoles::Lattice(lattice) => {
-            // the turn keeps the directions of a triangular grid: one hole speaks for all
+            // the rotation keeps the directions of a triangular grid, so one hole decides
             HolePattern::Triangular.skew() == Some(lattice.skew())
                 && plate.hole_at(&symmetry.turned(&lattice.point([0, 0])), 0).is_some()
         }
@@ -186,7 +186,7 @@ pub fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> boo
     }
 }
 
-/// Joints of a body that turns by 120 degrees take to one another: `next[k]` is where joint `k` goes.
+/// Joints of a body with three-fold symmetry: `next[k]` is the image of joint `k` in a rotation by 120 degrees.
 #[derive(Debug, Clone)]
 pub(super) struct ThreeFold {
     pub(super) next: Vec<usize>,
@@ -195,7 +195,7 @@ pub(super) struct ThreeFold {
 }
 
 impl ThreeFold {
-    /// `None` where the joints are not of that kind within rounding of the size of the design.
+    /// `None` if the joints lack this symmetry within rounding of the size of the design.
     pub(super) fn of(points: &[Point3<f64>], size: f64) -> Option<Self> {
         let count = points.len();
         if count == 0 || !count.is_multiple_of(3) {
@@ -211,13 +211,13 @@ impl ThreeFold {
         (0..count).all(|k| next[k] != k).then(|| Self { next, ..all.clone() })
     }
 
-    /// The place turned by 120 degrees about the middle of the joints.
+    /// The place rotated by 120 degrees about the middle of the joints.
     pub(super) fn turned(&self, p: &Point3<f64>) -> Point3<f64> {
         self.centre + self.turn * (p - self.centre)
     }
 }
 
-/// Joints count as turned into one another within this share of the size of the design.
+/// Joints within this share of the size of the design from their rotated images count as symmetric.
 const SAME: f64 = 1e-9;
 
 #[cfg(test)]
@@ -286,7 +286,7 @@ mod tests {
         };
         let circle = |holes| HoleCircle { radius: 4.0, holes };
         assert!(holds(bolts(&[circle(8), circle(9)])) && !holds(bolts(&[circle(8), circle(10)])));
-        // no grid, and joints that do not turn
+        // no grid; a grid whose holes are not symmetric about the middle
         assert!(holes_turn(&plane(), None, 5.0));
         assert!(!holes_turn(&plane(), Some(&pattern(HolePattern::Triangular, [0.0; 2])), 5.0));
     }

@@ -1,4 +1,4 @@
-//! Roundings: on the grid, on the lines, not beaten by their neighbours, told apart from those that are not exact.
+//! Roundings: on the grid, on the lines, better than their neighbours, and distinguished from inexact ones.
 
 #![allow(clippy::large_types_passed_by_value, reason = "tests make their grids on the spot")]
 
@@ -156,7 +156,7 @@ fn the_nearest_rounding_errs_as_the_first_order_says_and_in_proportion_to_the_pi
     let (coarse, fine) = (at(0.023), at(0.00023));
     for n in [&coarse, &fine] {
         assert!(matches!(n.verification.as_ref().unwrap().verdict, Verdict::NotEquivalent(_)));
-        // the cost that is lowered has both errors
+        // the lowered cost includes both errors
         let cost = |(p, w): (f64, f64)| p.max(2.5 * w.to_radians());
         assert!(cost(n.first_order) <= cost(n.first_order_nearest) * (1.0 + 1e-12));
         let (solved, count) = n.solved;
@@ -176,12 +176,12 @@ fn requirements_are_respected_or_the_violation_is_told() {
     let found = with(&free(), [GRID; 2], &distance(apart), round_to_grid).unwrap();
     let j = found.exact.unwrap().judgement;
     assert!(j.met && j.least_distances.iter().all(|d| *d >= apart), "{j:?}");
-    // more than any triangle near the wanted one has room for
+    // more than any triangle near the wanted one allows
     let found = with(&free(), [GRID; 2], &distance(30.0), round_to_grid).unwrap();
     assert!(found.choice(0.9).is_none());
     let j = &found.exact.as_ref().unwrap().judgement;
     assert!(!j.met && j.requirements.iter().any(|m| m.kind == TermKind::BaseSpacing && m.value < 0.0));
-    // of two that miss the distance the one that misses less of it is named
+    // the search names the rounding with the smaller miss of the distance
     let missed = |j: &Judgement| j.requirements.iter().map(|m| -m.value / 30.0).fold(0.0, f64::max);
     let of_exact = found.exact.as_ref().map(|e| (&e.manipulator, missed(&e.judgement))).unwrap();
     let of_nearest = found.nearest.as_ref().map(|n| (&n.manipulator, missed(&n.judgement))).unwrap();
@@ -190,7 +190,7 @@ fn requirements_are_respected_or_the_violation_is_told() {
     assert!(std::ptr::eq(named, less), "{} {}", of_exact.1, of_nearest.1);
 }
 
-/// Holes of a turned grid are doubles, so that the map holds within rounding.
+/// Holes of a rotated grid are doubles, so the map holds within rounding.
 fn equivalent_to_rounding(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Equivalent | Verdict::Inconclusive(InconclusiveReason::WithinRounding))
 }
@@ -204,7 +204,7 @@ fn grids_may_be_turned_shifted_and_of_two_pitches() {
     assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     let back = Rotation3::from_axis_angle(&Vector3::z_axis(), -30f64.to_radians());
     for p in e.manipulator.base_joints() {
-        // the origin is given before the turn
+        // the origin is given before the rotation of the grid
         let x = back * (p.coords - Vector3::new(0.11, -0.07, 0.0)) / 0.3;
         assert!((x.x - x.x.round()).abs() < 1e-9 && (x.y - x.y.round()).abs() < 1e-9);
     }
@@ -271,7 +271,7 @@ fn free_grids_are_never_worse_than_the_given_ones() {
             assert!(equivalent_to_rounding(&b.verification.unwrap().verdict));
         }
     }
-    // and better where there is something to choose
+    // and better where the choice is free
     let (fixed, chosen) = (round(&hexapod(), grids).unwrap(), round_freely(&hexapod(), grids));
     assert!(cost(&chosen.nearest.unwrap()) < 0.9 * cost(&fixed.nearest.unwrap()));
 }
@@ -305,7 +305,7 @@ fn same_input_same_rounding() {
     assert_eq!(one(), one());
 }
 
-/// A platform that turns by 120 degrees take to itself, joints on the sides of its triangles.
+/// A platform with three-fold symmetry, joints on the sides of its triangles.
 fn three_fold() -> Manipulator {
     let corner = |radius: f64, deg: f64, z: f64| {
         move |k: usize| {
@@ -335,7 +335,7 @@ fn three_fold_platforms_keep_their_symmetry_on_triangular_grids() {
     assert!(e.three_fold && e.proved && symmetric(&e.manipulator), "{:?}", e.joints);
     assert!(equivalent_to_rounding(&e.verification.unwrap().verdict));
     assert!(e.joints.iter().all(|j| j.off_line.is_none_or(|off| off < 1e-12)));
-    // negative controls: squares, a grid that does not turn about the middle, a platform that does not turn
+    // negative controls: square grids, a grid without this symmetry about the middle, a platform without it
     let off = Grid { origin: [0.3 * pitch, 0.0], ..triangular };
     for (m, grids) in [(three_fold(), [GRID; 2]), (three_fold(), [off; 2]), (free(), [triangular; 2])] {
         let e = round(&m, grids).unwrap().exact.unwrap();
@@ -371,8 +371,8 @@ fn three_fold_platforms_keep_their_symmetry_on_circles_and_joints_stand_on_their
         // the circles of the platform are up to 0.9 apart
         assert!(joint.moved.norm() < 1.0, "{joint:?}");
     }
-    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform that does
-    // not turn
+    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform without the
+    // symmetry
     let uneven = Grid::polar(HoleCircle { radius: 1.0, holes: 47 }, 0.5);
     let off = Grid { origin: [0.1, 0.0], ..polar };
     for (m, grids) in [(three_fold(), [uneven, bolts]), (three_fold(), [off, bolts]), (free(), [polar; 2])] {
@@ -460,7 +460,7 @@ fn a_reserve_is_kept_where_a_rounding_keeps_it() {
     };
     let (met, kept, spacing) = least(30.0);
     assert!(met && kept && spacing >= 0.9 * 1.3, "{spacing}");
-    // more than any rounding keeps: the limit itself still holds
+    // a reserve above that of any rounding: the limit itself still holds
     let (met, kept, spacing) = least(99.0);
     assert!(met && spacing >= 0.9, "{spacing}");
     assert_eq!(kept, spacing >= 0.9 * 1.99);

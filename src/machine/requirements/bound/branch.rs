@@ -1,5 +1,5 @@
-//! Branch and bound over the cells of a workspace (Moore 1966): which cell is halved next, what is searched from it,
-//! and when the bound decides.
+//! Branch and bound over the cells of a workspace (Moore 1966): choice of the next cell, searches from it, decision of
+//! the bound.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -17,14 +17,14 @@ use platform::geom::{Chart, ChartCell, Covered};
 /// A cell that waits.
 struct WaitingCell {
     below: f64,
-    /// Order of arrival, which makes the order of equal bounds certain.
+    /// Order of arrival, which makes the order of equal bounds deterministic.
     number: usize,
     function: usize,
     chart: usize,
     cell: ChartCell,
-    /// For swing: directions in which the leg leans.
+    /// For joint angles: directions in which the leg leans.
     sector: Sector,
-    /// What to halve: a coordinate, or the sector (6).
+    /// The part to halve: a coordinate, or the sector (6).
     axis: usize,
 }
 
@@ -51,19 +51,19 @@ impl Ord for WaitingCell {
         other.below.total_cmp(&self.below).then(other.number.cmp(&self.number))
     }
 }
-/// Local searches that go on from a cell, by function.
+/// Greatest number of local searches from cells, by function.
 const SEARCHES: usize = 3;
 
-/// Cells in which worse violations than the first one are looked for.
+/// Number of cells searched for worse violations after the first one.
 const WORSE: usize = 300;
 
 /// Rounds of random steps of a local search.
 const ROUNDS: usize = 60;
 
-/// Bounds need not come closer to the least margin than this part of it.
+/// Bounds may stay below the least margin by up to this share.
 const CLOSE: f64 = 0.8;
 
-/// Cells that are halved before the next ones are chosen, whatever the number of threads.
+/// Number of cells halved before the next choice, for any number of threads.
 const BATCH: usize = 16;
 
 /// A function, by its number, on a chart.
@@ -85,7 +85,7 @@ struct BranchProgress {
 }
 
 impl BranchProgress {
-    /// Learns of a point with an upper bound.
+    /// Records a point with its upper bound.
     fn see(&mut self, place: Place, z: [f64; 6], upper: f64) {
         if upper < self.upper {
             (self.upper, self.worst) = (upper, Some((place.1, z)));
@@ -102,21 +102,21 @@ struct CellJob {
     place: Place,
     cell: ChartCell,
     sector: Sector,
-    /// What is known already.
+    /// The known lower bound.
     below: f64,
 }
 
-/// What became of it.
+/// The result of bounding a cell.
 struct BoundedCell {
     cells: usize,
     /// The point with the least upper bound.
     worst: ([f64; 6], f64),
     below: f64,
-    /// What is left of the cell, and the axis to halve.
+    /// The rest of the cell, and the axis to halve.
     rest: Option<(ChartCell, usize)>,
 }
 
-/// A local search in doubles from the worst point known of a function.
+/// A local search in doubles from the worst known point of a function.
 struct CellSearch {
     place: Place,
     from: [f64; 6],
@@ -131,8 +131,8 @@ impl CellJudge<'_> {
         all.filter(|(t, _)| function.has(t)).map(|(_, v)| v).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least margin of a kind over all charts, decided against `reserve`; the bound below is that of the margin
-    /// less the reserve.
+    /// The least margin of a kind over all charts, decided against `reserve`; the lower bound is that of the margin
+    /// minus the reserve.
     pub(super) fn bound(&self, mut found: Margin, cells: usize, seed: u64, reserve: f64) -> MarginBound {
         let kind = found.term.kind;
         let functions = self.functions(kind);
@@ -165,7 +165,7 @@ impl CellJudge<'_> {
         while let Some(first) = state.heap.pop() {
             below = first.below - reserve;
             let upper = state.upper - reserve;
-            // a cell with this bound need not be halved
+            // whether a cell with this bound is settled without halving
             let settles = |below: f64| {
                 let close = !self.close || below >= CLOSE * upper.abs() || below >= upper - slack;
                 close && below >= -slack
@@ -211,7 +211,7 @@ impl CellJudge<'_> {
         out
     }
 
-    /// Bounds cells, and keeps those that can hold a least margin.
+    /// Bounds cells and keeps those that can contain a least margin.
     fn look_at(&self, state: &mut BranchProgress, functions: &[BoundedFunction], jobs: Vec<CellJob>) {
         let known = &state.points;
         let bounded = |k: usize| {
@@ -240,8 +240,8 @@ impl CellJudge<'_> {
         }
     }
 
-    /// Bounds a cell, and what is left of it as long as that gets smaller; `known` is the worst point known of the
-    /// function with its upper bound.
+    /// Bounds a cell and then its rest, as long as the rest shrinks. `known` is the worst known point of the function
+    /// with its upper bound.
     fn bounded(
         &self,
         function: BoundedFunction,
@@ -265,7 +265,7 @@ impl CellJudge<'_> {
             (done.worst, done.below) = (worst, done.below.max(found.bounded.below));
             let Some(rest) = found.rest else { return done };
             if rest != cell {
-                // what is left is smaller: its bound is better
+                // the rest is smaller, so its bound is better
                 cell = rest;
                 continue;
             }
@@ -281,7 +281,8 @@ impl CellJudge<'_> {
         }
     }
 
-    /// Local searches from the worst points known of some functions, where these are worse than those of the last ones.
+    /// Local searches from the worst known points of some functions, if these are worse than the starts of the last
+    /// searches.
     fn search(
         &self,
         state: &mut BranchProgress,
@@ -317,7 +318,7 @@ impl CellJudge<'_> {
         }
     }
 
-    /// Where a local search ends.
+    /// The result of a local search.
     fn searched(
         &self,
         kind: TermKind,

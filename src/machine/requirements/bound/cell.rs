@@ -12,19 +12,19 @@ use num::jet::Jet;
 use platform::geom::{Chart, ChartCell};
 use platform::manipulator::Body;
 
-/// What is known of a cell.
+/// Bounds of a cell.
 pub(super) struct CellBounds {
     pub(super) bounded: Bounded,
     /// Proved upper bound of the margin at `z`, which is a pose of the workspace.
     pub(super) upper: f64,
     pub(super) z: [f64; 6],
-    /// The cell less what cannot hold the least margin; `None` when nothing is left.
+    /// The part of the cell that can contain the least margin; `None` if nothing is left.
     pub(super) rest: Option<ChartCell>,
-    /// By how much the width of the sector loosens the bound.
+    /// Amount by which the width of the sector loosens the bound.
     pub(super) loose_sector: f64,
 }
 
-/// What is known of a cell from one point of it.
+/// Bounds of a cell from one of its points.
 pub(super) struct AtPoint {
     pub(super) bounded: Bounded,
     pub(super) upper: f64,
@@ -60,7 +60,7 @@ impl CellJudge<'_> {
     ) -> CellBounds {
         let chart = &self.charts[c];
         let held = |x: [f64; 6]| -> [f64; 6] { std::array::from_fn(|k| x[k].clamp(cell.lo[k], cell.hi[k])) };
-        // where to expand: near the middle, and as near as possible to the worst point known where that is not far
+        // expansion points: near the middle, and as near as possible to the worst known point if that is not far
         let mut points = vec![held(chart.pulled_inside(cell.centre()))];
         if let Some(x) = known {
             let near = held(x);
@@ -69,7 +69,7 @@ impl CellJudge<'_> {
                 points.push(near);
             }
         }
-        // of joints that are not ideal the rates have first derivatives only
+        // for joints with offsets the rates have first derivatives only
         let second = match function {
             BoundedFunction::Load(_) | BoundedFunction::Platform(_) => self.joints.is_none(),
             _ => true,
@@ -101,9 +101,9 @@ impl CellJudge<'_> {
         out
     }
 
-    /// Goes to the pose of the workspace where a function with the slopes of this point is least, and on from there as
-    /// long as margins fall: for functions with their least values on the boundary, as lengths and angles have them,
-    /// this ends at a local one after a few steps.
+    /// Goes to the pose of the workspace where a function with the slopes at this point is least, and repeats while
+    /// margins fall. Functions with boundary minima, such as lengths and angles, reach a local minimum after a few
+    /// steps.
     fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut CellBounds) {
         for _ in 0..STEPS {
             let y = farthest(chart, &slope);
@@ -124,7 +124,7 @@ impl CellJudge<'_> {
         self.leg_value(kind, i, at).map_or(f64::INFINITY, |x| self.margin((kind, i), x.value).hi())
     }
 
-    /// A lower bound over the cell, an upper one at `z`, and what is left of the cell.
+    /// A lower bound over the cell, an upper one at `z`, and the rest of the cell.
     fn at_point(
         &self,
         function: BoundedFunction,
@@ -224,7 +224,7 @@ impl CellJudge<'_> {
     }
 }
 
-/// Where a function with given slopes is least on a chart.
+/// The minimum of a linear function with given slopes on a chart.
 fn farthest(chart: &Chart, slope: &[f64; 6]) -> [f64; 6] {
     let root = &chart.root;
     let mut out: [f64; 6] = std::array::from_fn(|k| if slope[k] > 0.0 { root.lo[k] } else { root.hi[k] });
@@ -239,9 +239,8 @@ fn farthest(chart: &Chart, slope: &[f64; 6]) -> [f64; 6] {
     out
 }
 
-/// What is left of a cell when sides that a positive or negative slope rules out are taken away: the least value over
-/// the workspace is at the end of a side, if that is an end of the workspace, and elsewhere if not. Coordinates of
-/// balls have no such ends.
+/// The rest of a cell after removing sides that a slope of constant sign excludes. The least value over the workspace
+/// lies at the end of a side only if that is an end of the workspace. Coordinates of balls have no such ends.
 fn shrunk(chart: &Chart, cell: &ChartCell, over: &Jet) -> Option<ChartCell> {
     let mut out = *cell;
     for k in (0..chart.coordinates()).filter(|k| !chart.balls.iter().any(|g| g.contains(k))) {

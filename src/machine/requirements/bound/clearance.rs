@@ -11,7 +11,7 @@ use platform::geom::{Chart, ChartCell};
 use platform::manipulator::Body;
 
 impl CellJudge<'_> {
-    /// The gap of a leg and a plate, less the clearance.
+    /// The gap of a leg and a plate, minus the clearance.
     pub(super) fn plate_gap(
         &self,
         chart: &Chart,
@@ -38,7 +38,7 @@ impl CellJudge<'_> {
             bounded.below = (Interval::from(bounded.below) - clearance).lo();
             out.bounded = bounded;
         }
-        // parts at a pose that are more than the leg say nothing by being near
+        // parts at a pose that are larger than the leg give no upper bound
         if !at_is_cut || at.len() != over.len() {
             out.upper = f64::INFINITY;
         }
@@ -50,7 +50,7 @@ impl CellJudge<'_> {
         self.required.hardware.leg_body.map_or_else(Vec::new, |body| gap::leg_parts(frame, self.m, i, &body))
     }
 
-    /// The least gap of the parts of two bodies, each given at `z` and over the cell, less the clearance.
+    /// The least gap of the parts of two bodies, each given at `z` and over the cell, minus the clearance.
     pub(super) fn gaps(
         &self,
         chart: &Chart,
@@ -75,7 +75,7 @@ impl CellJudge<'_> {
             }
             out.bounded = bounded;
         }
-        // a pose whose parts differ from those of the cell says nothing by them
+        // a pose whose parts differ from those of the cell gives no upper bound
         if ours.0.len() != ours.1.len() || theirs.0.len() != theirs.1.len() {
             out.upper = f64::INFINITY;
         }
@@ -83,7 +83,7 @@ impl CellJudge<'_> {
     }
 }
 
-/// Parts at a point with those over the cell; with one part over the cell all of the point belong to it.
+/// Parts at a point paired with those over the cell; a single part over the cell contains all parts of the point.
 fn matched<'h>(at: &'h [gap::Hull], over: &'h [gap::Hull]) -> Vec<(&'h gap::Hull, &'h gap::Hull)> {
     if at.len() == over.len() {
         return at.iter().zip(over).collect();

@@ -1,8 +1,8 @@
-//! How far legs lean from an axis, as functions that are nearly linear in the pose.
+//! Cone angles of legs as functions that are nearly linear in the pose.
 //!
-//! With `k` the axis, `e` a unit vector at a right angle to it and `theta` the angle of the leg vector `n`, of which
-//! the part across the axis has an angle of at most `delta` to `e`, that part is no longer than `n.e / cos(delta)`, so
-//! that for a limit `alpha` below a right angle
+//! Let `k` be the axis, `e` a unit vector across it, and `theta` the angle of the leg vector `n` to the axis. The part
+//! of `n` across the axis has an angle of at most `delta` to `e`. It is then no longer than `n.e / cos(delta)`, so that
+//! for a limit `alpha` below a right angle
 //!
 //! ```text
 //! |n| sin(alpha - theta) = sin(alpha) n.k - cos(alpha) |n across k| >= sin(alpha) n.k - cos(alpha) n.e / cos(delta).
@@ -32,10 +32,10 @@ const SECTORS: usize = 8;
 const OVERLAP: f64 = 1e-12;
 
 impl Sector {
-    /// For functions without directions.
+    /// The sector of functions without directions.
     pub(super) const ALL: Self = Self { middle: 0.0, half: 0.0 };
 
-    /// Sectors that cover all directions, or the one in their place.
+    /// Sectors that cover all directions, or the placeholder if none are needed.
     pub(super) fn all(needed: bool) -> Vec<Self> {
         if !needed {
             return vec![Self::ALL];
@@ -64,7 +64,7 @@ impl Sector {
     }
 }
 
-/// Where a leg may lean.
+/// The allowed cone of directions of a leg.
 pub(super) struct SwingCone<'a> {
     m: &'a Manipulator,
     leg: usize,
@@ -78,19 +78,19 @@ pub(super) struct SwingCone<'a> {
     cosine: Interval,
 }
 
-/// A value over a cell with what turns it into a margin.
+/// A value over a cell, with the quantities that convert it to a margin.
 pub(super) struct Leaning {
     pub(super) value: Jet,
     /// `n.n`.
     pub(super) square: Interval,
     /// `n.k`.
     pub(super) along: Interval,
-    /// By how much the width of the sector lowers the value.
+    /// Amount by which the width of the sector lowers the value.
     pub(super) loose: f64,
 }
 
 impl<'a> SwingCone<'a> {
-    /// `None` for limits of 90 degrees and more, where the directions allowed are not a convex cone.
+    /// `None` for limits of 90 degrees and more, whose allowed directions are not a convex cone.
     pub(super) fn new(
         m: &'a Manipulator,
         leg: usize,
@@ -152,12 +152,12 @@ impl<'a> SwingCone<'a> {
     }
 }
 
-/// The least angle whose sine, times the root of `square`, is at least `below`: a lower bound of the limit less an
-/// angle of which this is known, never below the limit less 180 degrees.
+/// The least angle whose sine, times the root of `square`, is at least `below`. It gives a lower bound of the limit
+/// minus the angle, at least the limit minus 180 degrees.
 pub(super) fn arc_margin(below: f64, over: &Leaning, limit_deg: f64) -> f64 {
     let limit = Interval::from(limit_deg);
     let least = (limit - Interval::from(180.0)).lo();
-    // sines do not tell angles beyond a right angle
+    // sines cannot distinguish angles beyond a right angle
     if !(over.along.lo() > 0.0 && over.square.lo() > 0.0 && below.is_finite()) {
         return least;
     }
@@ -178,7 +178,7 @@ mod tests {
     use num::Rng;
     use platform::geom::{Chart, ChartCell, Pose};
 
-    /// The right side of the sector in which a leg leans gives its angle, and no sector gives less.
+    /// The sector in which a leg leans gives its angle, and no sector gives less.
     #[test]
     fn sectors_give_the_angle_of_the_leg() {
         let mut rng = Rng::new(3);

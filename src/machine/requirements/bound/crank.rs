@@ -1,8 +1,8 @@
-//! Cranks and rods over cells of poses, by the formulas of `requirements/cranks.rs` in jets: every row is a function
-//! whose least value gives the least margin.
+//! Cranks and rods over cells of poses, by the formulas of `requirements/cranks.rs` in jets. The least value of each
+//! row's function gives the least margin.
 //!
-//! Directions are enclosed, so that what is proved holds for the unit vectors along the axis and across it that the
-//! numbers of the design give.
+//! Directions are enclosed, so proofs hold for the unit vectors along and across the axis that the numbers of the
+//! design define.
 
 use super::force::{ForceSolver, System};
 use super::frame::{CellFrame, LegOverCell};
@@ -81,8 +81,7 @@ impl<'c> CrankOverCell<'c> {
         let (r, l) = (crank.length, crank.rod);
         let over = Interval::from(0.5).checked_div(r).unwrap_or(Interval::WHOLE);
         let k = (leg.square + frame.constant(r.square() - l.square())).times(over);
-        // a triangle with the sides r and l: each quantity stands in it once, so that it is enclosed well over wide
-        // cells
+        // a triangle with the sides r and l: each quantity occurs once, so the enclosure is tight over wide cells
         let [rr, ll] = [r.square(), l.square()];
         let across = (leg.square - frame.constant(rr + ll)).times(over);
         let left = frame.constant(ll) - across.square() - along.square();
@@ -133,12 +132,12 @@ impl<'a> CrankFrames<'a> {
         CrankOverCell::new(&self.frames[i], m, i, frame)
     }
 
-    /// The line of a rod.
+    /// The vector along a rod.
     pub(super) fn rod_line(&self, m: &Manipulator, i: usize, frame: &CellFrame<'_>) -> Option<JetVector> {
         Some(self.over(m, i, frame).rod(frame)?.line)
     }
 
-    /// The rods as legs, and what makes torques of their forces over their lengths: `r s`.
+    /// The rods as legs, and the factors `r s` that convert forces over rod lengths to torques.
     pub(super) fn rods(
         &self,
         m: &Manipulator,
@@ -198,7 +197,7 @@ impl<'a> CrankFrames<'a> {
         }
     }
 
-    /// The margin for a value of that function, which it increases with.
+    /// The margin for a value of that function, increasing with it.
     pub(super) fn margin(&self, (kind, i): (TermKind, usize), value: Interval) -> Interval {
         let crank = &self.frames[i];
         let root = |x: Interval| {
@@ -231,7 +230,7 @@ fn degrees_to_radians(angle: Interval) -> Interval {
     angle * radians(1.0)
 }
 
-/// The angle whose sine has this square, degrees; the same with the other sign for negative ones.
+/// The angle whose sine has this square, degrees, odd in its argument.
 fn signed_arc_sine(square: Interval) -> Interval {
     let of = |x: f64| {
         let sine = Interval::from(x.abs().min(1.0)).sqrt().unwrap_or(Interval::WHOLE);
@@ -241,25 +240,25 @@ fn signed_arc_sine(square: Interval) -> Interval {
     Interval::new(of(square.lo()).lo(), of(square.hi()).hi()).unwrap_or(Interval::WHOLE)
 }
 
-/// Whether the lines of the rods are independent at all poses of a workspace.
+/// Regularity of the rods: whether their lines are independent at all poses of a workspace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RodRegularity {
-    /// Proved: they are.
+    /// Proved independent everywhere.
     Regular,
-    /// Proved: at some pose they are not. Their determinant has opposite signs at home, or at the end of a step, and at
-    /// this pose, and the rods close on the way from one to the other.
+    /// Proved dependent at some pose. The determinant has opposite signs here and at home (or at the end of a step),
+    /// and the rods close on the way.
     ChangesSign(Pose),
-    /// Neither is proved; near this pose.
+    /// Undecided, near this pose.
     Undecided(Pose),
 }
 
-/// Poses of each part of the workspace at which a change of sign is looked for.
+/// Number of poses in each part of the workspace that are searched for a change of sign.
 const POINTS: usize = 1500;
 
 /// Cells of the way from home to a pose with the other sign.
 const WAY: usize = 128;
 
-/// What pushes the platform where it is no leg with ideal joints.
+/// The lines that push the platform if they are not legs with ideal joints.
 #[derive(Clone, Copy)]
 enum Pushing<'a> {
     Rods(&'a CrankFrames<'a>),
@@ -283,7 +282,7 @@ impl RodsOverChart<'_> {
             Pushing::Drives(joints) => {
                 let frame = frame.with_joints(Some(joints));
                 let lines = System::of_legs(&frame, self.m)?;
-                // legs that are not determined have lines of which nothing is known
+                // undetermined legs have unknown lines
                 let known = lines.values().iter().flatten().all(|x| x.magnitude().is_finite());
                 known.then_some(lines)
             }
@@ -333,12 +332,11 @@ impl RodsOverChart<'_> {
     }
 }
 
-/// Judges the region, the single poses and the trajectory of a workspace by the lines of the rods, or by the rates of
-/// drives whose joints are not ideal, on at most `cells` cells for each of its parts, and counts them; `None` for other
-/// designs.
+/// Judges the region, the single poses and the trajectory of a workspace, on at most `cells` cells for each part, and
+/// counts them. It uses the lines of the rods, or the rates of drives with joint offsets. `None` for other designs.
 ///
-/// A cell is regular when `|I - K A| <= W` entry by entry for the matrix `A` of its lines, with `W u < u` for a
-/// positive vector `u` (Neumaier 1990, sec. 4.1).
+/// A cell with the lines `A` is regular if `|I - K A| <= W` entry by entry and `W u < u` for a positive vector `u`
+/// (Neumaier 1990, sec. 4.1).
 #[must_use]
 pub fn regular_rods(
     m: &Manipulator,

@@ -1,4 +1,4 @@
-//! Margins that no pose changes: distances of joints, joints in the envelopes of their bodies, holes of plates.
+//! Margins independent of the pose: distances of joints, joints in the envelopes of their bodies, holes of plates.
 
 use super::CellJudge;
 use super::frame::enclosed;
@@ -14,7 +14,7 @@ use platform::geom::enclosed::IntervalVector;
 use platform::manipulator::Body;
 
 impl CellJudge<'_> {
-    /// Holes of a plate, whose margins are known but for rounding.
+    /// Holes of a plate, whose margins are exact up to rounding.
     fn holes(&self, found: Margin) -> MarginBound {
         let rounding = self.terms.rounding(found.term.kind, None);
         let verdict = match found.standing {
@@ -48,7 +48,7 @@ impl CellJudge<'_> {
         MarginBound { found, below, verdict, cells: 0, reserve: None }
     }
 
-    /// Distances of joints, which no pose changes.
+    /// Distances of joints, which are independent of the pose.
     pub(super) fn fixed(&self, found: Margin) -> MarginBound {
         let kind = found.term.kind;
         if matches!(kind, TermKind::BaseEnvelope | TermKind::PlatformEnvelope) {

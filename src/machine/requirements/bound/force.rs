@@ -1,15 +1,15 @@
 //! Bounds of leg forces over a cell.
 //!
 //! With lines that are not divided by the leg lengths, `A G = -(f, t)`, `A = [n_i; R b_i x n_i]` by columns and
-//! `F_i = G_i |n_i|`. `K` near the inverse of `A` at the middle gives `G = K b + (I - K A) G`; where `|I - K A| <= W`
-//! with `W u <= c u`, `c < 1`, `u > 0`, the norm `max |G_i| / u_i` is at most that of `K b` over `1 - c` (Neumaier
-//! 1990, sec. 4.1). The slopes solve the same system with `b_k - A_k G` to the right.
+//! `F_i = G_i |n_i|`. `K` near the inverse of `A` at the middle gives `G = K b + (I - K A) G`. Let `|I - K A| <= W`
+//! with `W u <= c u`, `c < 1`, `u > 0`. Then the norm `max |G_i| / u_i` is at most that of `K b` over `1 - c` (Neumaier
+//! 1990, sec. 4.1). The slopes solve the same system with the right side `b_k - A_k G`.
 //!
-//! What is left of the solution beside its tangent at `z`, `R(h) = G(z + h) - G(z) - sum G_k h_k`, solves `A R = r`
-//! with `r = b - A (G(z) + sum G_k h_k)`, which vanishes at `z` with its slopes, since `G(z)` and `G_k` are the
-//! solution and its slopes there. So `K r = (h^T C h) / 2` with `C_kl = K (b_kl - A_kl (G(z) + sum G_j h_j) - A_k G_l -
-//! A_l G_k)` at a point of the cell (Taylor), and `|R - K r|` is at most `W u` times the norm of `K r` over `1 - c`,
-//! which is of third order. No solution over the cell is needed for it, only `A` and `b` there.
+//! The remainder beside the tangent at `z` is `R(h) = G(z + h) - G(z) - sum G_k h_k`. It solves `A R = r` with
+//! `r = b - A (G(z) + sum G_k h_k)`. Both `r` and its slopes vanish at `z`, since `G(z)` and `G_k` are the solution and
+//! its slopes there. So `K r = (h^T C h) / 2` with `C_kl = K (b_kl - A_kl (G(z) + sum G_j h_j) - A_k G_l - A_l G_k)` at
+//! a point of the cell (Taylor). `|R - K r|` is at most `W u` times the norm of `K r` over `1 - c`, which is of third
+//! order. Only `A` and `b` over the cell are needed, no solution.
 
 use nalgebra::Matrix6;
 
@@ -29,7 +29,7 @@ type Column = [Jet; 6];
 pub(super) struct System {
     rows: [Column; 6],
     right: Column,
-    /// The leg lengths, or for cranks what makes torques of forces over the rod lengths.
+    /// The leg lengths; for cranks, the factors that convert forces over the rod lengths to torques.
     factors: [Option<Jet>; 6],
 }
 
@@ -39,7 +39,7 @@ fn unit_of(m: &Manipulator) -> Interval {
 }
 
 impl System {
-    /// The lines of legs, without a load; `factors` make the answers of them.
+    /// The lines of legs, without a load; `factors` convert the solution to forces or torques.
     pub(super) fn of_lines(
         frame: &CellFrame<'_>,
         m: &Manipulator,
@@ -54,7 +54,7 @@ impl System {
         Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: *factors }
     }
 
-    /// Rates of drives by columns, without a load: what forces along the drives do to the platform.
+    /// Rates of drives by columns, without a load: the effect of drive forces on the platform.
     pub(super) fn of_rates(frame: &CellFrame<'_>, m: &Manipulator, rates: &[[Jet; 6]; 6]) -> Self {
         let unit = unit_of(m);
         let rows = std::array::from_fn(|r| {
@@ -64,8 +64,8 @@ impl System {
         Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: [one; 6] }
     }
 
-    /// The lines of the legs of a frame, or the rates of their drives where screws couple turns to lengths; `None`
-    /// where those may not be determined.
+    /// The lines of the legs of a frame, or the rates of their drives if screws couple rotation and length. `None`
+    /// where these may be undetermined.
     pub(super) fn of_legs(frame: &CellFrame<'_>, m: &Manipulator) -> Option<Self> {
         if let Some(joints) = frame.joints().filter(|joints| joints.have_lead()) {
             let mut rates = Vec::with_capacity(6);
@@ -119,7 +119,7 @@ impl System {
     }
 }
 
-/// A bound of `|I - K A|` with what solves systems by it.
+/// A bound of `|I - K A|` and the approximate inverse `K` that solves systems with it.
 pub(super) struct ForceSolver {
     inverse: Matrix6<f64>,
     defect: IntervalMatrix,
@@ -181,7 +181,7 @@ impl ForceSolver {
         }))
     }
 
-    /// What the forces solve, with slopes, for all that a system encloses.
+    /// The solution of the force system, with slopes, for all enclosed matrices.
     fn solution(&self, system: &System, variables: usize) -> Option<SolvedForces> {
         let value = self.solve(&std::array::from_fn(|r| system.right[r].value))?;
         let mut slopes = Vec::with_capacity(variables);
@@ -194,7 +194,7 @@ impl ForceSolver {
         Some(SolvedForces { value, slopes })
     }
 
-    /// How far the solution over a cell may be from its tangent at `z`, `here` the solution there.
+    /// Distance of the solution over a cell from its tangent at `z`; `here` is the solution there.
     fn bend(&self, here: &SolvedForces, over: &System, cell: &ChartCell, z: &[f64; 6]) -> Option<Bend> {
         let n = here.slopes.len();
         let steps: Vec<Interval> = (0..n).map(|k| cell.side(k) - Interval::from(z[k])).collect();
@@ -214,7 +214,7 @@ impl ForceSolver {
                     })
                 });
                 let curve = apply(&self.inverse, &right);
-                // half the form, in which a product of two steps stands twice
+                // half the quadratic form, in which a product of two steps occurs twice
                 let both = if k == l { steps[k].square().scaled(0.5) } else { steps[k] * steps[l] };
                 rest = std::array::from_fn(|i| rest[i] + curve[i] * both);
                 curves.push(curve);
@@ -258,8 +258,8 @@ struct Bend {
 }
 
 impl Bend {
-    /// `F = G s` in the same way, `s` the factor of a force at `z` and over the cell: values and form of second order
-    /// over the cell, and how far `F` may be from its tangent with that form.
+    /// `F = G s` in the same way, with the factor `s` of a force at `z` and over the cell. It returns value and
+    /// second-order form over the cell, and the remainder of `F` beside its tangent with that form.
     fn force(&self, i: usize, here: &SolvedForces, at: &Jet, over: &Jet) -> (Jet, f64) {
         let n = here.slopes.len();
         let mut out = over.alike(self.value[i] * over.value);
@@ -278,10 +278,10 @@ impl Bend {
 /// A force may push or pull.
 const SIGNS: [f64; 2] = [1.0, -1.0];
 
-/// A lower bound of `greatest - |F_i|` over a cell for all legs, or of the greatest torque less that of each crank, and
-/// an upper bound of the least one at `z`.
+/// A lower bound of `greatest - |F_i|` over a cell for all legs, or of the torque margin of each crank. Also an upper
+/// bound of the least value at `z`.
 ///
-/// Of second order where the frame over the cell is, else by the mean value theorem.
+/// The bound is of second order if the frame over the cell is; otherwise it uses the mean value theorem.
 pub(super) fn force(
     chart: &Chart,
     cell: &ChartCell,
@@ -314,7 +314,7 @@ pub(super) fn force(
             let (near, off) = bend.force(i, &solution, &at.factors[i]?, &over.factors[i]?);
             parts.extend(SIGNS.map(|sign| (room(f, sign), room(&near, sign), off)));
         }
-        // where the values alone show that another is less, the quadratic form is not looked at
+        // skip the quadratic form if the values alone show a lesser part
         parts.sort_by(|a, b| a.1.value.lo().total_cmp(&b.1.value.lo()));
         let mut least: Option<Bounded> = None;
         for (p, o, off) in &parts {

@@ -10,10 +10,10 @@ use num::Rng;
 use platform::geom::{Chart, ChartCell, Pose, Region};
 use platform::manipulator::{Body, Manipulator};
 
-/// What is left of a greatest force, with unit vectors along the legs, by an LU decomposition.
+/// The margin to a greatest force, with unit vectors along the legs, by an LU decomposition.
 ///
-/// The weight of a leg is `(m_2 + k / q) g` at its platform joint, `k = m_1 s_1 - m_2 s_2`, and its drive pushes with
-/// `(k / q) g . u` more: another form of the same statics.
+/// The weight of a leg is `(m_2 + k / q) g` at its platform joint, `k = m_1 s_1 - m_2 s_2`. Its drive pushes with
+/// `(k / q) g . u` more, another form of the same statics.
 fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     let mut a = Matrix6::zeros();
     let (mut weight, mut lengthwise) = (Vector6::zeros(), Vector6::zeros());
@@ -40,15 +40,14 @@ fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     greatest - (a.lu().solve(&right).unwrap() + lengthwise).amax()
 }
 
-/// The room for the greatest force over random cells is nowhere below its bound, which halving a cell brings four times
-/// nearer to the least room, as a bound of second order does, and the bound by slopes alone is as right and farther
-/// away.
+/// The force margin over random cells is nowhere below its bound. Halving a cell brings the bound four times nearer, as
+/// for second order; the bound by slopes alone is correct and farther away.
 #[test]
 fn forces_are_bounded_to_second_order() {
     bounds_hold(23, |_| None);
 }
 
-/// The same with legs that weigh as much as the other loads, most of it at one end or the other.
+/// The same test with legs as heavy as the other loads, most of it at one end or the other.
 #[test]
 fn forces_of_heavy_legs_are_bounded_to_second_order() {
     bounds_hold(29, |rng| {
@@ -80,7 +79,7 @@ fn bounds_hold(seed: u64, legs: impl Fn(&mut Rng) -> Option<LegsWeight>) {
             for c in 0..chart.coordinates() {
                 (cell.lo[c], cell.hi[c]) = (middle[c] - half, middle[c] + half);
             }
-            // not always the middle: a bound may be taken from any point
+            // not always the middle: a bound may expand about any point
             let z = if k % 4 == 0 { cell.lo.map(|x| x.mul_add(0.5, 0.0)) } else { cell.centre() };
             let z: [f64; 6] = std::array::from_fn(|c| z[c].clamp(cell.lo[c], cell.hi[c]));
             let at = CellFrame::over(&chart, &ChartCell::point(z), false);
@@ -109,7 +108,7 @@ fn bounds_hold(seed: u64, legs: impl Fn(&mut Rng) -> Option<LegsWeight>) {
             );
             looked_at += 1;
             better += usize::from(bounded.below > by_slopes.below);
-            // a bound that is higher by a tenth of what the cell changes is found out, where it is tight
+            // a bound raised by a tenth of the variation over the cell fails where it is tight
             tight += usize::from(bounded.below + 0.1 * (upper - bounded.below) > least);
             least - bounded.below
         });

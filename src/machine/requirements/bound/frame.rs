@@ -23,7 +23,7 @@ pub(super) struct CellFrame<'a> {
 }
 
 impl<'a> CellFrame<'a> {
-    /// The frame over a cell, with second derivatives where they are needed.
+    /// The frame over a cell, with second derivatives if needed.
     pub(super) fn over(chart: &'a Chart, cell: &ChartCell, second: bool) -> Self {
         let variables = chart.coordinates();
         let values = combination(&chart.columns, cell);
@@ -51,13 +51,13 @@ impl<'a> CellFrame<'a> {
         }
     }
 
-    /// The same poses for legs whose joints may not be ideal.
+    /// The same poses for legs with possible joint offsets.
     pub(super) fn with_joints(mut self, joints: Option<&'a JointOffsets>) -> Self {
         self.joints = joints;
         self
     }
 
-    /// The joints, where they are not ideal.
+    /// The joint offsets, if there are any.
     pub(super) fn joints(&self) -> Option<&'a JointOffsets> {
         self.joints
     }
@@ -98,8 +98,8 @@ impl<'a> CellFrame<'a> {
         std::array::from_fn(|k| arm[k] + origin[k])
     }
 
-    /// A leg of a manipulator: from joint to joint, or from second axis to second axis where these do not meet the
-    /// first ones. Nothing is known of it where those may not be determined.
+    /// A leg of a manipulator: from joint to joint, or from second axis to second axis for universal joints with
+    /// offsets. The result is unbounded where the axes may be undetermined.
     pub(super) fn leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
         let Some(joints) = self.joints else { return self.bare_leg(m, i) };
         joints.leg(self, m, i).unwrap_or_else(|| {
@@ -138,7 +138,7 @@ pub(super) struct LegOverCell {
 }
 
 impl LegOverCell {
-    /// `cos` of the angle between the leg and a vector whose length is known; `None` where the leg may have no length.
+    /// `cos` of the angle between the leg and a vector of known length; `None` where the leg may have length zero.
     pub(super) fn cosine(&self, axis: &JetVector, length: Interval) -> Option<Jet> {
         let over = Interval::from(1.0).checked_div(length)?;
         Some((dot(&self.line, axis) * self.square.inverse_root()?).times(over))
@@ -149,7 +149,7 @@ impl LegOverCell {
         cross(&self.arm, &self.line)
     }
 
-    /// `|R b x n|^2 / |n|^2`; `None` where the leg may have no length.
+    /// `|R b x n|^2 / |n|^2`; `None` where the leg may have length zero.
     pub(super) fn lever_squared(&self) -> Option<Jet> {
         let inverse = self.square.inverse_root()?;
         Some(norm_squared(&self.moment()) * inverse.square())

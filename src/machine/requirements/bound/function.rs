@@ -1,14 +1,14 @@
-//! What is bounded over cells: the functions whose least values give the least margins of a kind.
+//! The functions bounded over cells; their least values give the least margins of a kind.
 
 use super::CellJudge;
 use crate::requirements::envelope::Envelope;
 use crate::requirements::term::{Term, TermKind};
 use platform::manipulator::Body;
 
-/// What is bounded: one requirement, or those that are computed together.
+/// A bounded function: one requirement, or several that are computed together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum BoundedFunction {
-    /// Length, swing or speed of a leg.
+    /// Length, joint angle or speed of a leg.
     Leg(TermKind, usize),
     /// Two legs.
     Pair(usize, usize),

@@ -1,13 +1,12 @@
 //! Lower bounds of the distance of legs from each other and from bodies.
 //!
-//! The distance of two convex hulls of points is at least `min u . (x - y)` over the points `x` of one and `y` of the
-//! other, for every unit vector `u`. Which `u` is good depends on the pose: for two segments that are nearest inside
-//! both it is normal to both, for an end and the inside of a segment it leaves that segment at a right angle, for two
-//! ends it joins them. As functions of the pose these directions make the bound exact to second order; a constant one
-//! serves where they are not defined.
+//! For every unit vector `u`, the distance of two convex hulls is at least `min u . (x - y)` over their points `x` and
+//! `y`. The best `u` depends on the pose. If two segments are nearest inside both, it is normal to both. For an end and
+//! the inside of a segment it is perpendicular to that segment; for two ends it joins them. As functions of the pose
+//! these directions make the bound exact to second order; a constant one serves where they are not defined.
 //!
-//! A direction is a vector `n` with polynomials as coordinates and is not divided by its length, whose second
-//! derivatives would be known badly ([`along_direction`]).
+//! A direction is a vector `n` with polynomial coordinates. It stays unnormalised, since the second derivatives of its
+//! length have poor enclosures ([`along_direction`]).
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -27,7 +26,7 @@ use platform::manipulator::{Body, Manipulator};
 pub(super) struct Hull {
     points: Vec<JetVector>,
     radius: Interval,
-    /// Of a part of a leg: base joint and line of the leg, which the part lies on.
+    /// For a part of a leg: base joint and line of the leg that contains the part.
     axis: Option<(JetVector, JetVector)>,
 }
 
@@ -44,8 +43,7 @@ fn halved(x: f64) -> Interval {
 
 /// Cylinder and rod of a leg over a frame.
 ///
-/// Where the leg may be shorter or longer than the cylinder, or has no sure length, it is one part with the larger
-/// radius, which holds both.
+/// If the leg may be shorter than the cylinder, or its length is not enclosed, it is one part with the larger radius.
 pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: &LegBody) -> Vec<Hull> {
     let leg = frame.leg(m, i);
     let end: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k]);
@@ -70,8 +68,8 @@ pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: 
     }
 }
 
-/// The parts of a leg without what is nearer than `cut` to the joint at an end, and whether that is what they are: a
-/// leg that may be shorter, or whose part at the end may be, stays whole, which is more than it.
+/// The parts of a leg without the points nearer than `cut` to the joint at an end, and whether the cut is exact. A leg
+/// or part that may be shorter than the cut stays whole, which encloses it.
 pub(super) fn without_end(
     frame: &CellFrame<'_>,
     m: &Manipulator,
@@ -84,8 +82,7 @@ pub(super) fn without_end(
         return (parts, true);
     }
     let leg = frame.leg(m, i);
-    // the part at the end is longer than the cut: the cylinder by itself, the rod and a whole leg by the length of the
-    // leg
+    // the part at the end is longer than the cut: the cylinder always, rod and whole leg according to the leg length
     let (cylinder, two) = (body.rod.map_or(0.0, |r| r.0), parts.len() == 2);
     let longer = match (end, two) {
         (Body::Base, true) => cylinder > cut,
@@ -115,12 +112,12 @@ pub(super) fn without_end(
 /// Rounding of a point of a plate computed in doubles, as a share of the lengths it is computed from.
 const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
-/// A lower bound of the gap of a part of a leg and a plate over a cell, and an upper bound at the point `z`.
+/// Bounds of the gap between a part of a leg and a plate: a lower one over a cell, an upper one at the point `z`.
 ///
-/// The lower one is `min u . x - h(u)` over the ends `x` of the part, with `u` the direction from the nearest point of
-/// the plate at `z`, which turns with the plate, and `h` the support function of the plate:
-/// `max c . u + m |u_across| + max(w u_n)` over the corners `c` of its hull, with the margin `m`, and over its faces
-/// `w`. It is no less than minus the radius of the part.
+/// The lower bound is `min u . x - h(u)` over the ends `x` of the part. `u` is the direction from the nearest point of
+/// the plate at `z`, and rotates with the plate. The support function `h` is `max c . u + m |u_across| + max(w u_n)`
+/// over the corners `c` of its hull and its faces `w`, with the margin `m`. It is at least minus the radius of the
+/// part.
 pub(super) fn plate_gap(
     chart: &Chart,
     cell: &ChartCell,
@@ -133,7 +130,7 @@ pub(super) fn plate_gap(
     let (turn, origin) = pose_of(frames.0, body);
     let local = ends.map(|p| Point3::from(turn.transpose() * (p - origin)));
     let (share, near) = plate.nearest_to_segment([&local[0], &local[1]]);
-    // the pose at z, and with it the point of the plate, are known but for rounding
+    // the pose at z and the point of the plate are known up to rounding
     let place = |frame: &CellFrame<'_>, p: &Point3<f64>| match body {
         Body::Base => frame.fixed(&enclosed(p)),
         Body::Platform => frame.moved(p),
@@ -235,7 +232,7 @@ fn middle(v: &JetVector) -> Vector3<f64> {
     Vector3::from_fn(|k, _| v[k].value.centre_and_radius().0)
 }
 
-/// Weights of the points of two hulls whose combinations are nearest, found by alternating steps, in doubles.
+/// Weights of the nearest points of two hulls, found by alternating steps, in doubles.
 fn nearest(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> (Vec<f64>, Vec<f64>) {
     let unit = |n: usize| -> Vec<f64> { (0..n).map(|k| if k == 0 { 1.0 } else { 0.0 }).collect() };
     let (mut x, mut y) = (unit(a.len()), unit(b.len()));
@@ -270,7 +267,7 @@ fn nearest(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> (Vec<f64>, Vec<f64>) {
     (x, y)
 }
 
-/// Where a nearest point lies on a segment.
+/// The position of a nearest point on a segment.
 #[derive(Clone, Copy, PartialEq)]
 enum On {
     End(usize),
@@ -285,10 +282,10 @@ fn less(a: &JetVector, b: &JetVector) -> JetVector {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// A direction for two segments up to sign and length, and the differences of points whose least part along it is no
-/// more than the gap.
+/// A direction for two segments up to sign and length, and the differences of points whose least part along it bounds
+/// the gap from below.
 fn direction(a: &Hull, b: &Hull, on: (On, On)) -> (JetVector, Vec<JetVector>) {
-    // v less its part along f, times f . f
+    // v minus its part along f, times f . f
     let across = |v: JetVector, f: JetVector| -> JetVector {
         let (square, along) = (norm_squared(&f), dot(&v, &f));
         std::array::from_fn(|k| v[k] * square - f[k] * along)
@@ -313,19 +310,19 @@ fn direction(a: &Hull, b: &Hull, on: (On, On)) -> (JetVector, Vec<JetVector>) {
     }
 }
 
-/// A lower bound of `n . d / |n|` over a cell, from `n` and `d` at its point `z` and over it; `None` where `n` may be
-/// at a right angle to what it is at `z`.
+/// A lower bound of `n . d / |n|` over a cell, from `n` and `d` at its point `z` and over it. `None` where `n` may
+/// become perpendicular to its value at `z`.
 ///
-/// With `e` the direction of `n` at `z`, `r` the value there, `c` a lower bound of `n . e` over the cell that is
-/// positive, and `m = n - e (n . e)`,
+/// With `e` the direction of `n` at `z`, `r` the value there, `c > 0` a lower bound of `n . e` over the cell, and
+/// `m = n - e (n . e)`,
 ///
 /// ```text
 /// |n| <= n . e + |m|^2 / (2 n . e) <= n . e + |m|^2 / (2 c),
 /// n . d / |n| = r + (n . d - r |n|) / |n| >= r + min(K, 0) / c,   K = n . (d - r e) - |m|^2 r / (2 c),
 /// ```
 ///
-/// where the last term of `K` is left out for a negative `r`, since then `-r |n| >= -r n . e`. `K` vanishes at `z`, and
-/// is a polynomial of what `n` and `d` are: its second derivatives are known better than those of the quotient, in
+/// where the last term of `K` is left out for a negative `r`, since then `-r |n| >= -r n . e`. `K` vanishes at `z` and
+/// is polynomial if `n` and `d` are. Its second derivatives have tighter enclosures than those of the quotient, in
 /// which large parts cancel.
 fn along_direction(
     chart: &Chart,
@@ -365,12 +362,13 @@ fn along_direction(
     Some(Bounded { below: (Interval::from(r) + lost).lo(), ..bounded })
 }
 
-/// Where the nearest points lie, and the same with lines in place of segments (`second`: the second body is a segment).
+/// The positions of the nearest points, with lines in place of segments where that is better (`second`: the second body
+/// is a segment).
 ///
-/// The line through a segment is no farther than the segment. Where a nearest point comes to an end of its segment
-/// within the cell, the direction that belongs to the end turns with the pose, by an angle that the whole length of the
-/// segment multiplies, and its bound is exact to first order only; that of the line is exact to second order there,
-/// since a line gets nearer than its segment by the square of how far its nearest point is beyond the end.
+/// The line through a segment is no farther than the segment. If a nearest point reaches an end of its segment within
+/// the cell, the direction of the end rotates with the pose. That rotation is multiplied by the whole segment length,
+/// so the bound is exact to first order only. The direction of the line is exact to second order: the line is nearer
+/// than its segment by the square of the overshoot.
 fn lines_instead((a, b): (On, On), second: bool) -> Vec<(On, On)> {
     let mut out = vec![(a, b)];
     let mut also = |kind: (On, On)| {
@@ -394,7 +392,7 @@ pub(super) fn gap(
     at: (&Hull, &Hull),
     over: (&Hull, &Hull),
 ) -> (Bounded, f64) {
-    // the parts of a point may be thinner than those that hold the leg at all poses of the cell
+    // the parts of a point may be thinner than those that contain the leg at all poses of the cell
     let (radii, radii_over) = (at.0.radius + at.1.radius, over.0.radius + over.1.radius);
     let plain = [at.0, at.1].map(|h| h.points.iter().map(middle).collect::<Vec<_>>());
     let weights = nearest(&plain[0], &plain[1]);
@@ -435,7 +433,7 @@ pub(super) fn gap(
             if middle(&n_at).dot(&apart) < 0.0 {
                 (n_at, n_over) = (n_at.map(|x| -x), n_over.map(|x| -x));
             }
-            // no bound is above the least value at z
+            // no lower bound may exceed the least value at z
             let towards = middle(&n_at);
             let there = d_at.iter().map(|d| towards.dot(&middle(d)) / towards.norm());
             if there.fold(f64::INFINITY, f64::min) <= best.below {
@@ -455,10 +453,10 @@ pub(super) fn gap(
     (best, upper)
 }
 
-/// The distance of two points of the hulls: an upper bound of the distance of the hulls, when weights are as good as
-/// they are rounded.
+/// The distance of two points of the hulls. It is an upper bound of the distance of the hulls for any weights of sum
+/// one.
 fn distance_between(a: (&[JetVector], &[f64]), b: (&[JetVector], &[f64])) -> Interval {
-    // weights that sum to one exactly: the last one is what the others leave
+    // weights that sum to one exactly: the last one is the remainder
     let at = |points: &[JetVector], weights: &[f64]| -> [Interval; 3] {
         let first: Vec<Interval> = weights[1..].iter().map(|w| Interval::from(w.clamp(0.0, 1.0))).collect();
         let rest = first.iter().fold(Interval::from(1.0), |s, w| s - *w);

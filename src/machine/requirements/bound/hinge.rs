@@ -22,7 +22,7 @@ use platform::manipulator::Manipulator;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HingeFrame {
     first: IntervalVector,
-    /// Rest direction and direction across; `None` where the axis of the joint may be its first axis.
+    /// Rest direction and direction across; `None` if the axis of the joint may coincide with its first axis.
     plane: Option<[IntervalVector; 2]>,
 }
 
@@ -59,8 +59,8 @@ impl HingeLimit<'_> {
         if self.platform { frame.turned(v) } else { frame.fixed(v) }
     }
 
-    /// A function of both sides that the margin increases with ([`Self::margin`]): the cosine of the first angle, minus
-    /// the square of the sine of the second one. `None` where the angle may not be determined.
+    /// A function of both sides that increases with the [margin](Self::margin): the cosine of the first angle, or minus
+    /// the squared sine of the second. `None` where the angle may be undetermined.
     pub(super) fn plain(&self, frame: &CellFrame<'_>) -> Option<Jet> {
         let leg = frame.leg(self.m, self.leg);
         match self.angle {
@@ -90,13 +90,13 @@ impl HingeLimit<'_> {
         }
     }
 
-    /// Whether the sides are bounded one by one: not for first angles with limits near a right angle and beyond, where
+    /// Whether the sides are bounded separately. First angles with limits near a right angle or beyond are not, since
     /// neither side is a half space.
     pub(super) fn has_sides(&self) -> bool {
         self.angle == HingeAngle::Second || self.limit_deg < 89.0
     }
 
-    /// The function of a side over a frame; `None` where the leg may have no length.
+    /// The function of a side over a frame; `None` where the leg may have length zero.
     pub(super) fn value(&self, frame: &CellFrame<'_>, side: &Sector) -> Option<Leaning> {
         let leg = frame.leg(self.m, self.leg);
         let positive = side.is_positive();

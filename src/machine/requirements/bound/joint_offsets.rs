@@ -1,11 +1,10 @@
-//! Legs with joints that are not ideal over cells of poses: where their second axes are, with first and second
-//! derivatives.
+//! Legs with joint offsets over cells of poses: positions of their second axes, with first and second derivatives.
 //!
 //! The directions `w`, `w'` to the second axes solve `w = F(w', pose)`, `w' = G(w, pose)` (`docs/theory/joints.md`).
 //! Their values are enclosed by repeated enclosure from the cube. The derivatives of either order are linear in those
-//! of the same order of the other end, `X = T X' + C`, `X' = T' X + C'`, where `C` is what the formulas give with
-//! derivatives of that order left out, and `|T| <= l = d' / r`, `|T'| <= l' = d / r'` with `r`, `r'` the least lengths
-//! of the vectors whose directions are taken. So
+//! of the same order at the other end: `X = T X' + C`, `X' = T' X + C'`. `C` is the formula's value without derivatives
+//! of that order. `|T| <= l = d' / r` and `|T'| <= l' = d / r'`, with the least lengths `r`, `r'` of the vectors before
+//! normalisation. So So
 //!
 //! ```text
 //! |X'| <= (|C'| + l' |C|) / (1 - l l'),      X in C + l |X'| [-1, 1]^3.
@@ -23,7 +22,7 @@ use platform::manipulator::Manipulator;
 /// Rounds of shrinking the enclosures of the directions of a leg.
 const ROUNDS: usize = 8;
 
-/// The joints of a design that are not ideal, enclosed.
+/// The joint offsets of a design, enclosed.
 #[derive(Debug)]
 pub(super) struct JointOffsets {
     /// First axes at base and platform in the frames of their bodies, unit vectors.
@@ -31,7 +30,7 @@ pub(super) struct JointOffsets {
     /// Whether the second axis at an end matters.
     needed: [bool; 2],
     offsets: [f64; 2],
-    /// Per radian.
+    /// Lead of the screws, design units per radian.
     lead: Option<Interval>,
     /// Sines and cosines of the angles between the second axes at home.
     at_home: [[Interval; 2]; 6],
@@ -44,7 +43,7 @@ struct PlacedOverCell {
 }
 
 impl JointOffsets {
-    /// `None` where the joints are ideal, or where nothing can be said of them: no lengths at home.
+    /// `None` for ideal joints, or if the drives have no determined lengths at home.
     pub(super) fn new(m: &Manipulator, required: &Requirements, home: &Chart) -> Option<Self> {
         let hardware = &required.hardware;
         if !hardware.is_coupled() {
@@ -78,12 +77,12 @@ impl JointOffsets {
         Some(out)
     }
 
-    /// Whether screws couple the turns of the legs about themselves to their lengths.
+    /// Whether screws couple the rotation of the legs about themselves to their lengths.
     pub(super) fn have_lead(&self) -> bool {
         self.lead.is_some()
     }
 
-    /// `None` where the second axes may not be determined.
+    /// `None` where the second axes may be undetermined.
     fn placed(&self, frame: &CellFrame<'_>, m: &Manipulator, i: usize) -> Option<PlacedOverCell> {
         let bare = frame.bare_leg(m, i);
         let axes = [frame.fixed(&self.axes[0][i]), frame.turned(&self.axes[1][i])];
@@ -96,7 +95,7 @@ impl JointOffsets {
     fn directions(&self, leg: &PlacedLeg<Jet>) -> Option<[JetVector; 2]> {
         let zero = leg.line[0].alike(Interval::ZERO);
         let mut ends = [[zero; 3]; 2];
-        // an end is explicit where the other one has no offset
+        // an end is explicit if the other one has no offset
         for end in (0..2).filter(|end| self.needed[*end] && self.offsets[1 - *end] == 0.0) {
             ends[end] = leg.direction(end, &ends[1 - end])?;
         }
@@ -112,7 +111,7 @@ impl JointOffsets {
         Some(ends)
     }
 
-    /// The directions where both ends have offsets.
+    /// The directions if both ends have offsets.
     fn both_directions(&self, leg: &PlacedLeg<Jet>) -> Option<[JetVector; 2]> {
         let values = |v: &JetVector| v.map(|x| x.value);
         let plain = PlacedLeg {
@@ -161,7 +160,7 @@ impl JointOffsets {
         Some(ends)
     }
 
-    /// A leg from its second axis at the base to that at the platform; `None` where these may not be determined.
+    /// A leg from its second axis at the base to that at the platform; `None` where these may be undetermined.
     pub(super) fn leg(&self, frame: &CellFrame<'_>, m: &Manipulator, i: usize) -> Option<LegOverCell> {
         let PlacedOverCell { leg, ends } = self.placed(frame, m, i)?;
         let line = leg.between(&ends);
@@ -176,8 +175,8 @@ impl JointOffsets {
         })
     }
 
-    /// The length of the drive of a leg; `None` where it may have none, or where the leg may have turned about itself
-    /// by as much as the angle is counted to.
+    /// The length of the drive of a leg. `None` where it may not exist, or where the leg may rotate about itself to the
+    /// limit of the counted angle.
     pub(super) fn drive(&self, frame: &CellFrame<'_>, m: &Manipulator, i: usize) -> Option<Jet> {
         let PlacedOverCell { leg, ends } = self.placed(frame, m, i)?;
         let length = norm_squared(&leg.between(&ends)).root()?;
@@ -200,8 +199,8 @@ fn met(a: Interval, b: Interval) -> Interval {
     Interval::new(a.lo().max(b.lo()), a.hi().min(b.hi())).unwrap_or(a)
 }
 
-/// The angle with this sine and cosine, between -180 and 180 degrees; `None` where it may be at the ends, or where
-/// enclosures do not tell.
+/// The angle with this sine and cosine, between -180 and 180 degrees. `None` where it may be at the ends, or where the
+/// enclosures do not determine it.
 fn turn(sine: &Jet, cosine: &Jet) -> Option<Jet> {
     let one = Interval::from(1.0);
     // derivatives of the arc sine at x, whose square is below 1

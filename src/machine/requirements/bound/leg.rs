@@ -1,5 +1,5 @@
-//! Functions of one leg, or of a joint at its end, and the margins that they give: lengths, swing, angles of universal
-//! joints, speed, room in the envelope.
+//! Functions of one leg or of a joint at its end, and their margins: lengths, joint angles, universal joints, speed,
+//! space in the envelope.
 
 use super::CellJudge;
 use super::cone::{Sector, SwingCone};
@@ -27,7 +27,7 @@ impl CellJudge<'_> {
         Some(HingeLimit { m: self.m, leg, platform: body == Body::Platform, frame, angle, limit_deg })
     }
 
-    /// What a function is bounded over one by one: the directions in which a leg leans, the sides of an angle.
+    /// The sectors over which a function is bounded separately: directions in which a leg leans, or sides of an angle.
     pub(super) fn sectors(&self, function: BoundedFunction, chart: &Chart) -> Vec<Sector> {
         if let BoundedFunction::Leg(kind, leg) = function
             && self.hinge(kind, leg).is_some_and(|h| chart.coordinates() > 1 && h.has_sides())
@@ -37,8 +37,8 @@ impl CellJudge<'_> {
         Sector::all(self.cone(function, chart).is_some())
     }
 
-    /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine
-    /// is as good.
+    /// The allowed cone of a leg, for limits below 90 degrees and regions; for single poses and steps the cosine is as
+    /// good.
     pub(super) fn cone(&self, function: BoundedFunction, chart: &Chart) -> Option<SwingCone<'_>> {
         let BoundedFunction::Leg(kind, leg) = function else { return None };
         if chart.coordinates() < 2 {
@@ -53,8 +53,8 @@ impl CellJudge<'_> {
         SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limits_deg[leg])
     }
 
-    /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the
-    /// distance from the axis of a cylinder, the distance from a side of a box.
+    /// A function of a joint that increases with its distance inside a side of the envelope. For a cylinder it is the
+    /// negative square of the distance from the axis, for a box the distance from the side.
     pub(super) fn joint_value(
         &self,
         leg: usize,
@@ -76,10 +76,10 @@ impl CellJudge<'_> {
         })
     }
 
-    /// The margin for a value of the function of a joint, which it increases with.
+    /// The margin for a value of the function of a joint, increasing with it.
     pub(super) fn room_left(&self, leg: usize, end: usize, side: Side, value: Interval) -> Interval {
         let housing = self.required.hardware.housing(Body::BOTH[end], leg);
-        // the same double as in the evaluation of a pose; its rounding is part of what the housing is
+        // the same double as in the evaluation of a pose; its rounding belongs to the definition of the housing
         let ball = Interval::from(envelope::ball(housing));
         match (self.required.envelopes.machine, side) {
             (Some(Envelope::Cylinder { radius, .. }), Side::Round) => {
@@ -123,7 +123,7 @@ impl CellJudge<'_> {
         })
     }
 
-    /// Minus the greatest speed of a drive whose screw is turned by its leg: over all velocities and angular velocities
+    /// Minus the greatest speed of a drive whose screw rotates with its leg, over all velocities and angular velocities
     /// up to the greatest.
     fn screw_speed(&self, joints: &JointOffsets, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
         let speed = self.required.platform_speed.unwrap_or_default();
@@ -131,7 +131,7 @@ impl CellJudge<'_> {
         Some(-fastest(&speed, &[x, y, z], &[a, b, c])?)
     }
 
-    /// The margin for a value of the function of a leg, which it increases with.
+    /// The margin for a value of the function of a leg, increasing with it.
     pub(super) fn margin(&self, (kind, leg): (TermKind, usize), value: Interval) -> Interval {
         let hardware = &self.required.hardware;
         if let Some(cranks) = self.cranks {
@@ -176,7 +176,7 @@ impl CellJudge<'_> {
     }
 }
 
-/// [`PlatformSpeed::fastest`] for a drive with the rate `f . v + m . w`; a speed that is 0 makes no root.
+/// [`PlatformSpeed::fastest`] for a drive with the rate `f . v + m . w`; the root is skipped for a speed of 0.
 pub(super) fn fastest(speed: &PlatformSpeed, force: &JetVector, moment: &JetVector) -> Option<Jet> {
     let length = |v: &JetVector, greatest: f64| {
         if greatest == 0.0 { Some(v[0].alike(Interval::ZERO)) } else { norm_squared(v).root() }

@@ -1,23 +1,23 @@
 //! A lower bound of a smooth function over a cell, from its derivatives.
 //!
-//! With `z` a point of the cell, `g` the slopes there and `H` the second derivatives over the cell, Taylor's theorem
+//! Let `z` be a point of the cell with the slopes `g`, and `H` the second derivatives over the cell. Taylor's theorem
 //! gives for all `q` of the cell
 //!
 //! ```text
 //! f(q) >= f(z) + g . (q - z) + (q - z)^T H (q - z) / 2.
 //! ```
 //!
-//! Where `q` has to lie in the unit ball of some coordinates, `f` may be replaced by `f + m (|q|^2 - 1) / 2` with any
-//! `m >= 0`, which is no larger there (Lagrange): with `m = -g . z / |z|^2` the slopes nearly vanish at a worst pose on
-//! the sphere, and the curvature gains `m`. The quadratic form is at least `-sum s_k`, with `s_k` such that the
-//! elimination of `D H D + diag(s)` has positive pivots for all matrices of the interval matrix (`D` the reaches of the
-//! cell), or by Gershgorin's circles.
+//! If `q` lies in the unit ball of some coordinates, `f + m (|q|^2 - 1) / 2` with `m >= 0` may replace `f`, since it is
+//! no larger there (Lagrange). With `m = -g . z / |z|^2` the slopes nearly vanish at a worst pose on the sphere, and
+//! the curvature gains `m`. The quadratic form is at least `-sum s_k` if the elimination of `D H D + diag(s)` has
+//! positive pivots for all matrices of the interval matrix. `D` holds the half widths of the cell. Gershgorin's circles
+//! give the other bound.
 
 use num::interval::Interval;
 use num::jet::Jet;
 use platform::geom::{Chart, ChartCell};
 
-/// A bound, and by how much each coordinate loosens it.
+/// A bound, and the amount by which each coordinate loosens it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounded {
     pub(super) below: f64,
@@ -25,7 +25,7 @@ pub(super) struct Bounded {
 }
 
 impl Bounded {
-    /// Nothing is known.
+    /// The trivial bound.
     pub(super) fn nothing(cell: &ChartCell) -> Self {
         Self { below: f64::NEG_INFINITY, loose: std::array::from_fn(|k| cell.hi[k] - cell.lo[k]) }
     }
@@ -45,7 +45,7 @@ fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
     terms.fold(Interval::ZERO, |s, x| s + x)
 }
 
-/// The multipliers of the balls at `z`; none for balls that hold the whole cell.
+/// The multipliers of the balls at `z`; zero for balls that contain the whole cell.
 fn multipliers(chart: &Chart, cell: &ChartCell, at: &Jet, z: &[f64; 6]) -> Vec<f64> {
     let of = |group: &Vec<usize>| {
         if !(cell.norm_squared(group).hi() > 1.0) {
@@ -59,7 +59,7 @@ fn multipliers(chart: &Chart, cell: &ChartCell, at: &Jet, z: &[f64; 6]) -> Vec<f
     chart.balls.iter().map(of).collect()
 }
 
-/// The multiplier that goes with each coordinate.
+/// The multiplier of each coordinate.
 fn by_coordinate(chart: &Chart, multipliers: &[f64]) -> [f64; 6] {
     let mut out = [0.0; 6];
     for (group, m) in chart.balls.iter().zip(multipliers) {
@@ -142,8 +142,7 @@ pub(super) fn below_first_order(
     best
 }
 
-/// Half the least value of a symmetric form over the cube `|x_k| <= 1`, bounded from below by a number that is not
-/// positive.
+/// Half the least value of a symmetric form over the cube `|x_k| <= 1`, bounded from below by a non-positive number.
 fn form_below(form: Vec<Vec<Interval>>) -> f64 {
     let n = form.len();
     let circles = sum((0..n).map(|k| {
@@ -164,7 +163,7 @@ fn shifts(mut form: Vec<Vec<Interval>>) -> Interval {
         let lowest = form[k][k].lo();
         let mut pivot = form[k][k];
         if !(lowest >= 0.1 * beside) {
-            // a pivot as large as its row keeps the rest of the elimination small
+            // a pivot as large as the rest of its row keeps the rest of the elimination small
             let shift = Interval::from(beside) - Interval::from(lowest);
             let shift = Interval::from(shift.hi().max(0.0));
             total = total + shift;
@@ -195,7 +194,7 @@ mod tests {
     use super::*;
     use num::Rng;
 
-    /// No point of the cube is below the bound, and definite forms are seen to be so.
+    /// No point of the cube is below the bound, and definite forms are recognised.
     #[test]
     fn quadratic_forms_are_nowhere_below_their_bound() {
         let mut rng = Rng::new(9);

@@ -1,10 +1,10 @@
 //! Proved bounds of the least margins over all poses of a workspace.
 //!
 //! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below
-//! over cells of the workspace ([`local`], [`gap`], [`force`], [`stiffness`]) and from above at points of them; the
-//! cell with the least bound is halved next, until the bound decides or a number of cells is used up ([`branch`]).
-//! Cells in which the margin has a slope of one sign across a side of a box hold no least margin but at that side.
-//! Where points of cells come out worse than those found before, a local search goes on from them.
+//! over cells of the workspace ([`local`], [`gap`], [`force`], [`stiffness`]) and from above at points of them. The
+//! cell with the least bound is halved next, until the bound decides or the cells are used up ([`branch`]). If the
+//! slope across a side of a box has one sign over a cell, the least margin can only be at that side. Points of cells
+//! that are worse than those found before start a local search.
 //!
 //! `docs/theory/requirements.md` has the functions and the bounds.
 
@@ -48,8 +48,8 @@ use platform::manipulator::{Body, Manipulator};
 pub use crank::{RodRegularity, regular_rods};
 pub use verdict::{MarginBound, MarginProof, MarginVerdict};
 
-/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by
-/// [`AssessOptions::patient_cells`] more where these leave it undecided and nothing is violated.
+/// [`assess()`], with proved bounds of its margins by at most `cells` cells for each kind.
+/// [`AssessOptions::patient_cells`] adds more if a kind is undecided and nothing is violated.
 ///
 /// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight
 /// motions between those of its trajectory, whatever the number of steps.
@@ -75,10 +75,10 @@ pub enum AssessStage {
         kind: TermKind,
         /// Its number, from 1.
         number: usize,
-        /// How many there are.
+        /// The number of requirements.
         of: usize,
     },
-    /// Bounds `det J`, or what rods have in its place.
+    /// Bounds `det J`, or the corresponding determinant of the rods.
     SingularPoses,
     /// Looks for the worst conditioning.
     Conditioning,
@@ -97,7 +97,7 @@ impl std::fmt::Display for AssessStage {
     }
 }
 
-/// As [`prove`], with `(options, cells)`, and says what it is about to do.
+/// [`prove`] with `(options, cells)`, which also announces each stage.
 pub fn prove_telling(
     m: &Manipulator,
     required: &Requirements,
@@ -117,7 +117,7 @@ pub fn prove_telling(
     let axes = axes(m, required, cranks, joints, &home);
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    // more cells are for what is undecided, and need not come close
+    // additional cells serve undecided kinds only, and need not come close
     let patient = CellJudge {
         m,
         required,
@@ -137,7 +137,7 @@ pub fn prove_telling(
         tell(AssessStage::Bounds { kind: margin.term.kind, number, of });
         bounds.push(judge.proved(*margin, cells, o.seed));
     }
-    // of a design that misses something no more has to be known
+    // once a design misses a requirement, the rest need not be known
     let missed = |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_reserve() == Some(false);
     if o.patient_cells > cells && !bounds.iter().any(missed) {
         for (number, bound) in (1..).zip(&mut bounds) {
@@ -157,8 +157,7 @@ pub fn prove_telling(
     MarginProof { bounds, poses }
 }
 
-/// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and
-/// their lengths.
+/// Axes of joint angles with their lengths: at the base in the base frame, at the platform in the platform frame.
 type Axes = [[(IntervalVector, Interval); 6]; 2];
 
 fn axes(
@@ -202,28 +201,28 @@ struct CellJudge<'a> {
     m: &'a Manipulator,
     required: &'a Requirements,
     terms: &'a Terms<'a>,
-    /// Cranks, where they could be enclosed.
+    /// Cranks, if they could be enclosed.
     cranks: Option<&'a CrankFrames<'a>>,
-    /// Joints that are not ideal, where they could be enclosed.
+    /// Joint offsets, if they could be enclosed.
     joints: Option<&'a JointOffsets>,
     axes: Axes,
     charts: Vec<Chart>,
-    /// Threads among which the cells of a batch are shared; no answer depends on it.
+    /// Threads that share the cells of a batch; the answers do not depend on it.
     threads: usize,
     options: &'a AssessOptions,
-    /// Whether bounds go on when they have decided.
+    /// Whether bounds continue after the decision.
     close: bool,
 }
 
 impl CellJudge<'_> {
-    /// A margin and its reserve by at most so many cells for each.
+    /// Bounds of a margin and its reserve, by at most this many cells each.
     fn proved(&self, found: Margin, cells: usize, seed: u64) -> MarginBound {
         let reserve = self.required.reserve(found.term.kind);
-        // what no pose changes is decided by its enclosure alone
+        // the enclosure alone decides requirements that are independent of the pose
         if found.term.kind.is_fixed() {
             return self.with_reserve(self.fixed(found), reserve);
         }
-        // where bounds need not be close, a reserve that is kept decides both at once
+        // if bounds need not be close, a kept reserve decides both at once
         let may_be_kept = found.value >= reserve - self.rounding(&found);
         if self.close || reserve == 0.0 || !may_be_kept {
             let bound = self.bound(found, cells, seed, 0.0);
@@ -256,7 +255,7 @@ impl CellJudge<'_> {
         self.terms.rounding(found.term.kind, found.pose.as_ref())
     }
 
-    /// The same with what its own bounds say of a reserve.
+    /// The same bound with the decision about a reserve by its own bounds.
     fn with_reserve(&self, bound: MarginBound, reserve: f64) -> MarginBound {
         if reserve == 0.0 {
             return bound;

@@ -1,5 +1,5 @@
-//! Joints that are not ideal over cells: derivatives against differences of doubles, proved margins against samples,
-//! limits to either side of the worst value.
+//! Joint offsets over cells: derivatives against differences of doubles, proved margins against samples, limits on
+//! either side of the worst value.
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
@@ -14,7 +14,7 @@ use crate::requirements::{
 use num::Rng;
 use platform::geom::{ChartCell, Pose, PoseSpace, Region};
 
-/// Joints of every sort that is not ideal: offsets at base and platform, a lead.
+/// Kinds of joints that are not ideal: offsets at base and platform, a lead.
 const SORTS: [([f64; 2], Option<f64>); 4] =
     [([0.6, 0.0], None), ([0.0, 0.5], None), ([0.7, 0.5], None), ([0.6, 0.4], Some(1.5))];
 
@@ -106,7 +106,7 @@ fn derivatives_over_cells_are_those_of_doubles() {
     }
 }
 
-/// All that ideal joints are judged by, and universal joints.
+/// All requirements of ideal joints, and universal joints.
 #[allow(clippy::large_types_passed_by_value, reason = "it goes into the requirements")]
 fn all_of(hardware: Hardware) -> Requirements {
     let all = everything();
@@ -205,7 +205,8 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
     }
 }
 
-/// Upright legs with offsets at the base, the platform above moved along the first axes: lengths and angles by hand.
+/// Upright legs with offsets at the base, and the platform above moved along the first axes: lengths and angles by
+/// hand.
 #[test]
 fn upright_legs_with_offsets_are_those_by_hand() {
     let ring: Vec<_> = (0..6)
@@ -246,7 +247,7 @@ fn upright_legs_with_offsets_are_those_by_hand() {
         assert!((bound.found.value - meant).abs() < 1e-9, "{kind:?}: {bound:?} {meant}");
         assert!(bound.below <= meant + 1e-9 && bound.verdict == MarginVerdict::Met, "{bound:?}");
     }
-    // a leg that lies along its first axis has no drive length: nothing of it is met
+    // a leg along its first axis has no drive length: it meets no requirement
     required.hardware.leg_length = Some(LengthLimits::Range(0.0, 100.0));
     let along = Pose { position: Vector3::new(9.0, 0.0, 0.0), ..home };
     let terms = Terms::new(&m, &required, &home);

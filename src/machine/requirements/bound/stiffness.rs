@@ -8,13 +8,13 @@
 //! ```
 //!
 //! `m_a` the mass that moves along a leg, `T` its moment of inertia about an axis across it through the base joint.
-//! Each requirement says that `K - s B` is positive semidefinite: with `B = diag(I, 0)` and `B = diag(0, I)` for a
-//! least stiffness `s`, since the Schur complement of a block of `K` is the inverse of the compliance, and with `B = M`
-//! for `s = omega^2`. In a basis in which `K` is the identity and `B` diagonal at a point of the cell, the softest
-//! motion last, an elimination of `K - s B` in intervals that finds positive pivots proves it for all poses of the
-//! cell. What the softest motion shares with the others counts by its square, so that the bound is off by the square of
-//! the width of the cell where the softest motion is a single one. Its own entry is bounded by second derivatives where
-//! joints are ideal, the other entries by first ones.
+//! Each requirement states that `K - s B` is positive semidefinite. A least stiffness `s` has `B = diag(I, 0)` or
+//! `B = diag(0, I)`, since the Schur complement of a block of `K` is the inverse of the compliance. A frequency has
+//! `B = M` and `s = omega^2`. At a point of the cell a basis makes `K` the identity and `B` diagonal, with the softest
+//! motion last. An interval elimination of `K - s B` with positive pivots proves the requirement for all poses of the
+//! cell. Coupling of the softest motion with the others enters by its square. The error of the bound is thus quadratic
+//! in the width of the cell if the softest motion is a single one. Its own entry is bounded by second derivatives for
+//! ideal joints, the other entries by first ones.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -30,12 +30,12 @@ use platform::geom::enclosed::{IntervalVector, cross, dot};
 use platform::geom::{Chart, ChartCell, radians};
 use platform::manipulator::Manipulator;
 
-/// What `K` is compared with.
+/// The matrix `B` that `K` is compared with.
 #[derive(Debug, Clone, Copy)]
 enum Compared<'a> {
-    /// Shifts: `diag(I, 0)`.
+    /// Translations: `diag(I, 0)`.
     Shifts,
-    /// Turns: `diag(0, I)`.
+    /// Rotations: `diag(0, I)`.
     Turns,
     /// The mass matrix.
     Masses(&'a VibratingMasses),
@@ -49,7 +49,7 @@ pub(super) struct SoftestMotion<'a> {
     compared: Compared<'a>,
     /// Stiffness of a leg.
     leg: f64,
-    /// What is asked for, in the unit of the margin.
+    /// The required value, in the unit of the margin.
     least: f64,
 }
 
@@ -67,13 +67,12 @@ fn place(i: usize, j: usize) -> usize {
     i * (11 - i) / 2 + j
 }
 
-/// By how much more than the first estimate the value sinks in the attempts of a proof, as a factor, and least of all,
-/// as a share.
+/// Factors by which the value sinks below the first estimate in the attempts of a proof, and the least shares.
 const ATTEMPTS: [(f64, f64); 6] =
     [(1.001, 1e-14), (1.1, 1e-13), (1.6, 1e-12), (3.0, 1e-10), (10.0, 1e-8), (40.0, 1e-6)];
 
-/// Share of the slopes of the softest motion that counts where a cell is halved: what the corner of a cell explains
-/// needs no halving.
+/// Share of the slopes of the softest motion in the choice of the halved side: the corner of a cell already explains
+/// the rest.
 const EXPLAINED: f64 = 0.2;
 
 impl<'a> SoftestMotion<'a> {
@@ -143,10 +142,10 @@ impl<'a> SoftestMotion<'a> {
         (finite && greatest > 0.0 && greatest.is_finite()).then_some((basis, greatest))
     }
 
-    /// `K` and `B` in a basis over the poses of a frame; `None` where a leg may have no length.
+    /// `K` and `B` in a basis over the poses of a frame; `None` where a leg may have length zero.
     fn forms(&self, frame: &CellFrame<'_>, basis: &Basis) -> Option<StiffnessForms> {
         let zero = frame.constant(Interval::ZERO);
-        // second derivatives cost more than all else, and only those of the softest motion count
+        // second derivatives are the greatest cost, and only those of the softest motion count
         let kept = |p: usize, q: usize, x: Jet| if (p, q) == (5, 5) { x } else { x.first_order() };
         let mut k = vec![zero.first_order(); 21];
         k[place(5, 5)] = zero;
@@ -194,7 +193,7 @@ impl<'a> SoftestMotion<'a> {
         Some(StiffnessForms { k, b })
     }
 
-    /// What of `B` no pose changes.
+    /// The part of `B` that is independent of the pose.
     fn fixed_part(&self, columns: &[(IntervalVector, IntervalVector); 6], b: &mut [Jet]) {
         let entry = |p: usize, q: usize| {
             let ((v, w), (v2, w2)) = (&columns[p], &columns[q]);
@@ -268,7 +267,7 @@ impl<'a> SoftestMotion<'a> {
     }
 }
 
-/// By how much a drive with these rates becomes longer for twists `(v, w)` of the platform frame: `r . (R v, R w)`.
+/// Rate at which a drive with these rates becomes longer for twists `(v, w)` of the platform frame: `r . (R v, R w)`.
 fn along_drive(
     rates: &[Jet; 6],
     axes: &[JetVector; 3],
@@ -319,7 +318,8 @@ impl CellMatrix<'_> {
         first.max(local::below(self.chart, self.cell, self.z, &here, &over).below)
     }
 
-    /// By what share `s` sinks over the cell, about, and how each coordinate loosens the bound.
+    /// The approximate share by which `s` sinks over the cell, and the amount by which each coordinate loosens the
+    /// bound.
     fn estimate(&self, s: f64) -> (f64, [f64; 6]) {
         let mut sinks = (-self.least(s, 5)).max(0.0);
         let mut loose = [0.0; 6];

@@ -1,4 +1,4 @@
-//! Proved margins against dense sampling by a formula of its own, planted violations, and margins known by hand.
+//! Proved margins against dense sampling by separate formulas, planted violations, and margins known by hand.
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
@@ -40,7 +40,7 @@ pub(super) fn random_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpa
     PoseSpace { region, translation: half(2.0), rotation_deg: half(18.0), ..PoseSpace::at(home) }
 }
 
-/// Poses of a region, by a formula of their own; every other one on the boundary.
+/// Poses of a region, by separate formulas; every other one on the boundary.
 pub(super) fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Pose> {
     let mut draw = |k: usize, half: &Vector3<f64>| {
         let used = half.map(|h| if h > 0.0 { 1.0 } else { 0.0 });
@@ -93,7 +93,7 @@ pub(super) fn everything() -> Requirements {
         torque: Vector3::new(3.0, 0.0, 1.0),
         at: Point3::new(0.5, 0.0, 2.0),
         fixed_to,
-        // one load has the weight of the legs in it
+        // one load includes the weight of the legs
         legs: (fixed_to == Body::Base).then_some(LegsWeight {
             rod: Vector3::new(0.0, 0.3, -2.0),
             moment: Vector3::new(1.0, 0.0, -9.0),
@@ -164,7 +164,7 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
     assert!(close > all * 3 / 4, "{close} of {all}");
 }
 
-/// A proof whose time is over has looked at hardly any cell, and says no more than the whole one.
+/// A proof without time bounds hardly any cell, and is no stronger than the whole one.
 #[test]
 fn proofs_end_when_their_time_is_over() {
     let mut rng = Rng::new(31);
@@ -181,9 +181,9 @@ fn proofs_end_when_their_time_is_over() {
     }
 }
 
-/// Limits a little short of the worst value are found to be violated without a look at any pose but those of cells, or
-/// at least never called met; limits a little beyond it are never called violated, and lengths are proved to be met by
-/// these few cells: in boxes and ellipsoids.
+/// Limits slightly short of the worst value are proved violated from poses of cells, or at least never called met.
+/// Limits slightly beyond it are never called violated, and a few cells prove lengths to be met, in boxes and
+/// ellipsoids.
 #[test]
 #[ignore = "evidence"]
 fn limits_to_either_side_of_the_worst_value_are_decided() {
@@ -238,7 +238,7 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
     assert!(proved >= 24 && found * 10 >= planted * 9, "{proved} of 48 proved, {found} of {planted} found");
 }
 
-/// What a few cells leave undecided is decided by more, a reserve too, and nothing else changes.
+/// More cells decide the requirements and reserves that a few cells leave undecided, and change nothing else.
 #[test]
 fn patient_cells_are_for_what_is_undecided() {
     let mut rng = Rng::new(33);
@@ -268,7 +268,7 @@ fn patient_cells_are_for_what_is_undecided() {
     let reserves = Reserves { kinds: BTreeMap::from([reserve]), ..Reserves::default() };
     let reserved = Requirements { reserves, ..with(1.0001 * worst) };
     assert_eq!(longest(&prove(&m, &reserved, &space, &patient, 1)).keeps_reserve(), Some(true));
-    // and no number of cells proves what is not so
+    // and no number of cells proves a false statement
     let short = longest(&prove(&m, &with(0.999 * worst), &space, &patient, 1));
     assert_eq!(short.verdict, MarginVerdict::Violated);
 }
@@ -348,7 +348,7 @@ fn gaps_of_housings_are_enclosed() {
     }
 }
 
-/// Six vertical legs again: their platform joints sweep a box, and reserves move the limits.
+/// Six vertical legs: their platform joints sweep a box, and reserves move the limits.
 #[test]
 fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
     let ring = || -> Vec<Point3<f64>> {
@@ -397,7 +397,7 @@ fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
     }
 }
 
-/// One wide joint among narrow ones: it decides spacing, envelopes and where its leg begins beside a plate, and the
+/// One wide joint among narrow ones determines spacing, envelopes and the start of its leg beside a plate, and the
 /// proof agrees.
 #[test]
 fn the_housing_of_a_single_joint_counts_for_that_joint() {
@@ -447,7 +447,7 @@ fn the_housing_of_a_single_joint_counts_for_that_joint() {
     assert!((r.reserve(TermKind::BaseSpacing) - 0.2).abs() < 1e-15, "of the widest");
 }
 
-/// Rooms of joints inside round and square envelopes, enclosed.
+/// Distances of joints inside round and square envelopes, enclosed.
 #[test]
 fn rooms_inside_envelopes_are_enclosed() {
     let mut rng = Rng::new(35);
@@ -492,7 +492,7 @@ fn elastic(linear: f64, angular: f64, natural_frequency: f64) -> Requirements {
     }
 }
 
-/// A small region: no pose is below a bound, and limits to either side of the least value are decided by few cells.
+/// A small region: no pose is below a bound, and a few cells decide limits on either side of the least value.
 #[test]
 fn stiffness_is_bounded_where_it_varies_little() {
     let mut rng = Rng::new(43);
@@ -517,8 +517,8 @@ fn stiffness_is_bounded_where_it_varies_little() {
     assert!(with(worst, 1.05).bounds.iter().all(|b| b.verdict == MarginVerdict::Violated));
 }
 
-/// Over regions of several sizes: the values found and the bounds are on their sides of those at many poses, a limit a
-/// little lower than the least value is met, proved, and one a little higher is violated.
+/// Values found and bounds enclose those at many poses, over regions of several sizes. A limit slightly below the least
+/// value is proved met, one slightly above is violated.
 #[test]
 #[ignore = "evidence"]
 fn stiffness_and_frequency_are_bounded_and_decided() {
@@ -602,7 +602,7 @@ fn angles_of_upright_legs_in_universal_joints_are_those_by_hand() {
             assert_eq!(bound.verdict.is_met(), Some(met), "{bound:?}");
         }
     }
-    // first axes along the legs at home: singular there, which no limit allows and which is no number that is none
+    // first axes along the legs at home: singular there, which violates every limit and gives no invalid number
     let joint = universal([Vector3::z(); 6], [179.0, 89.0]);
     let bounds = angles_of(&m, &space, Hardware { base_universal: Some(joint), ..Hardware::default() }, 200);
     for bound in bounds {
@@ -612,7 +612,7 @@ fn angles_of_upright_legs_in_universal_joints_are_those_by_hand() {
     }
 }
 
-/// Both angles from the definitions: turns about the two axes that take the leg at rest to the leg, found without the
+/// Both angles from the definitions: rotations about the two axes that map the leg at rest to the leg, without the
 /// formulas of the margins.
 #[test]
 fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
@@ -638,7 +638,7 @@ fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
             let line = |p: &Pose| p.transform(&l.platform) - l.base;
             let inside = |p: &Pose| if body == Body::Base { line(p) } else { p.rotation.inverse() * line(p) };
             let first = axes[body.index()][leg].normalize();
-            // across the first axis both lines have a direction, and between them is the first turn
+            // across the first axis both lines have a direction, and the first rotation is between them
             let plane = |v: Vector3<f64>| v - first * v.dot(&first);
             let (rest, there) = (plane(inside(&home)), plane(inside(pose)));
             let second = inside(pose).angle(&there).to_degrees();
@@ -673,9 +673,8 @@ fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
     }
 }
 
-/// The gap of the first parts of two legs over random cells is nowhere below its bound, for legs that cross, and for
-/// those whose nearest points come to an end of a part; halving a cell brings bound and least value four times nearer,
-/// as a bound of second order does.
+/// The gap of the first parts of two legs over random cells is nowhere below its bound. The legs cross, or are nearest
+/// at an end of a part. Halving a cell brings bound and least value four times nearer, as for second order.
 #[test]
 fn gaps_of_legs_are_bounded_to_second_order() {
     let mut rng = Rng::new(17);
@@ -692,7 +691,7 @@ fn gaps_of_legs_are_bounded_to_second_order() {
         let (part, other) = [(0, 0), (0, 1), (1, 0), (1, 1)][k / 4 % 4];
         let middle: [f64; 6] =
             std::array::from_fn(|c| if c < chart.coordinates() { 0.5 * rng.uniform(-1.0, 1.0) } else { 0.0 });
-        // what is lost over cells of two sizes about one point
+        // the loss over cells of two sizes about one point
         let lost = [0.2, 0.1].map(|half| {
             let mut cell = chart.root;
             for c in 0..chart.coordinates() {
@@ -718,7 +717,7 @@ fn gaps_of_legs_are_bounded_to_second_order() {
                     - radius(part)
                     - radius(other)
             };
-            // an upper bound, whose nearest points are as good as they were iterated
+            // an upper bound, with the accuracy of the iterated nearest points
             let above = upper - apart(&z);
             assert!((-1e-12..1e-6).contains(&above), "{k}: {above}");
             let mut least = f64::INFINITY;
@@ -734,7 +733,7 @@ fn gaps_of_legs_are_bounded_to_second_order() {
             }
             assert!(bounded.below <= least, "{k}: {} {least}", bounded.below);
             looked_at += 1;
-            // a bound that is higher by a tenth of what the cell changes is found out, where it is tight
+            // a bound raised by a tenth of the variation over the cell fails where it is tight
             tight += usize::from(bounded.below + 0.1 * (upper - bounded.below) > least);
             upper - bounded.below - (upper - least)
         });

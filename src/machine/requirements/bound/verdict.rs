@@ -1,8 +1,8 @@
-//! What is proved of margins.
+//! Proved bounds of margins.
 
 use crate::requirements::assess::Margin;
 
-/// What is known of the least margin of a kind of requirement over all poses.
+/// The proved state of the least margin of a kind of requirement over all poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -17,12 +17,12 @@ pub enum MarginVerdict {
     AtLimit,
     /// Proved: the margin is negative at the pose given, by more than that.
     Violated,
-    /// Not proved: no violation was found.
+    /// Unproved: no violation was found.
     Searched,
 }
 
 impl MarginVerdict {
-    /// The word for it.
+    /// The verdict as a word.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl MarginVerdict {
         }
     }
 
-    /// `Some` where it is proved.
+    /// `Some` if it is proved.
     #[must_use]
     pub fn is_met(self) -> Option<bool> {
         match self {
@@ -50,49 +50,49 @@ impl std::fmt::Display for MarginVerdict {
     }
 }
 
-/// The least margin of a kind with what is proved of it.
+/// The least margin of a kind with its proved bound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarginBound {
     /// The least margin found.
     pub found: Margin,
-    /// Proved: no pose of the workspace has a smaller margin; minus infinity when nothing is proved.
+    /// Proved: no pose of the workspace has a smaller margin; minus infinity without a proof.
     pub below: f64,
-    /// What follows.
+    /// The verdict.
     pub verdict: MarginVerdict,
     /// Cells bounded.
     pub cells: usize,
-    /// The reserve on this limit and what is known of it; `None` where none is asked for.
+    /// The reserve on this limit and its state; `None` if the design requires none.
     pub reserve: Option<ReserveBound>,
 }
 
 /// A reserve, and whether the margin keeps it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReserveBound {
-    /// What has to remain, in the unit of the margin.
+    /// The required reserve, in the unit of the margin.
     pub reserve: f64,
     /// Proved either way, or `None`.
     pub kept: Option<bool>,
 }
 
 impl MarginBound {
-    /// Whether nothing is left to prove of the margin and of its reserve.
+    /// Whether both the margin and its reserve are decided.
     pub(super) fn is_decided(&self) -> bool {
         self.verdict.is_met().is_some() && self.keeps_reserve().is_some()
     }
 
-    /// Whether the reserve is kept; `Some(true)` where there is none.
+    /// Whether the reserve is kept; `Some(true)` without a reserve.
     #[must_use]
     pub fn keeps_reserve(&self) -> Option<bool> {
         self.reserve.map_or(Some(true), |r| r.kept)
     }
 }
 
-/// The least margins of all kinds with what is proved of them.
+/// The least margins of all kinds with their proved bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarginProof {
     /// By kind.
     pub bounds: Vec<MarginBound>,
-    /// Poses looked at by sampling and searches.
+    /// Number of poses evaluated by sampling and searches.
     pub poses: usize,
 }
 
@@ -107,7 +107,7 @@ impl MarginProof {
         each().all(|x| x == Some(true)).then_some(true)
     }
 
-    /// The same of the reserves.
+    /// The same decision for the reserves.
     #[must_use]
     pub fn all_reserved(&self) -> Option<bool> {
         let each = || self.bounds.iter().map(MarginBound::keeps_reserve);

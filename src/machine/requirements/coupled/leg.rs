@@ -1,11 +1,11 @@
-//! One leg with joints that are not ideal, in doubles, in intervals and in jets by the same formulas.
+//! One leg with joint offsets, by the same formulas in doubles, intervals and jets.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use num::interval::Interval;
 use num::jet::Jet;
 
-/// Numbers that the formulas take.
+/// Number types for the formulas.
 pub trait LegNumber:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -100,15 +100,15 @@ pub struct PlacedLeg<T> {
     pub line: Vec3<T>,
     /// From the platform origin to the platform joint.
     pub arm: Vec3<T>,
-    /// First axes at the base and at the platform, unit vectors; anything where a joint is a ball.
+    /// First axes at the base and at the platform, unit vectors; arbitrary for ball joints.
     pub axes: [Vec3<T>; 2],
     /// From the first axis of a joint to its second one.
     pub offsets: [T; 2],
 }
 
 impl<T: LegNumber> PlacedLeg<T> {
-    /// Where the second axes are seen from the first ones when the other end is where `other` says: unit vectors across
-    /// the first axes, from base to platform.
+    /// The direction from the first axis to the second one at an end, from base to platform: a unit vector across the
+    /// first axis. `other` is the direction at the other end.
     pub fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
         let reach = scaled(other, self.offsets[1 - end]);
         across(&self.axes[end], &minus(&self.line, &reach))
@@ -131,12 +131,12 @@ impl<T: LegNumber> PlacedLeg<T> {
         [0, 1].map(|k| cross(&self.axes[k], &ends[k]))
     }
 
-    /// The rate of the distance of the second axes and that of the twist, for velocities of the platform origin and
-    /// angular velocities. The twist has none without first axes.
+    /// The rates of the distance of the second axes and of the twist, for velocities of the platform origin and angular
+    /// velocities. Without first axes the twist has no rate.
     ///
-    /// With `s` the line between the second axes, `u = s / |s|`, `e = a x w` and `e' = b x w'` the second axes, `m` the
-    /// arm to the second axis of the platform: `|s|' = u . (v + omega x m)`, since `u` is at right angles to both
-    /// second axes. The turns `q` and `q'` about the first axes follow from `u . e = u . e' = 0`:
+    /// With the line `s` between the second axes, `u = s / |s|`, the second axes `e = a x w` and `e' = b x w'`, and the
+    /// arm `m` to the second axis of the platform: `|s|' = u . (v + omega x m)`. This holds since `u` is perpendicular
+    /// to both second axes. The rotations `q` and `q'` about the first axes follow from `u . e = u . e' = 0`:
     ///
     /// ```text
     /// q' (s.w + d) + d' (e.e') q'' = (v + omega x m) . e

@@ -1,9 +1,10 @@
-//! Machines whose drives are not as long as the distances of their joints: universal joints whose two axes do not meet,
-//! and screws that couple the turn of a leg about itself to its length.
+//! Machines whose drive lengths differ from the distances of their joints. Their universal joints have axes that do not
+//! intersect, or screws couple the rotation of a leg about itself to its length.
 //!
-//! The first axis `a` of a joint goes through its centre `A` in the body; the second one, at a right angle to it and to
-//! the leg, is at the distance `d` from it towards the other end, at `A + d w` with the unit vector `w` across `a`; at
-//! the platform `b`, `B`, `d'`, `w'` likewise, at `B - d' w'`. The leg has the line `s = B - d' w' - (A + d w)`, and
+//! The first axis `a` of a joint goes through its centre `A` in the body. The second axis is perpendicular to it and to
+//! the leg, at the distance `d` towards the other end. It passes through `A + d w`, with the unit vector `w` across
+//! `a`. At the platform `b`, `B`, `d'`, `w'` have the same meaning, with the second axis at `B - d' w'`. The leg has
+//! the line `s = B - d' w' - (A + d w)`, and
 //!
 //! ```text
 //! w = part of (B - d' w' - A) across a,   w' = part of (B - A - d w) across b,   as unit vectors,
@@ -27,19 +28,19 @@ pub use self::leg::{LegNumber, PlacedLeg, Vec3, cross, dot, minus, scaled, unit}
 /// Most steps of the fixed point of the two directions of a leg: a factor of a half needs 55.
 const STEPS: usize = 400;
 
-/// Why drives have no lengths at a pose.
+/// Reasons why drives have no lengths at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoDriveLength {
-    /// The line of a leg goes along a first axis, or so near that the offset of the other end decides.
+    /// The line of a leg is along a first axis, or so near that the offset of the other end decides.
     #[error("leg {leg} goes along the first axis of its {body} joint, where the joint is singular")]
     AlongFirstAxis {
-        /// From 1.
+        /// The leg, counted from 1.
         leg: usize,
-        /// Where the joint is.
+        /// The body of the joint.
         body: Body,
     },
-    /// The product of the offsets is not less than that of the distances across the first axes.
+    /// The product of the offsets is at least that of the distances across the first axes.
     #[error(
         "the offsets of leg {0} are too large for its length: where its second axes are is not determined"
     )]
@@ -57,22 +58,21 @@ pub enum NoDriveLength {
 pub struct DriveState {
     /// From the base joint to the second axis there, base frame; zero without an offset.
     pub start: Vector3<f64>,
-    /// What the drive is longer than the distance of the joints; it is exactly 0 without offsets and lead.
+    /// Length of the drive minus the distance of the joints; exactly 0 without offsets and lead.
     pub correction: f64,
-    /// What of that is due to the offsets.
+    /// The part of the correction that the offsets cause.
     pub of_offsets: f64,
-    /// The angle about the leg from the second axis at the base to that at the platform, from home, radians from -pi to
-    /// pi; 0 where the legs have no lead.
+    /// The angle about the leg from the second axis at the base to that at the platform, relative to home, radians from
+    /// -pi to pi. It is 0 for legs without lead.
     pub twist: f64,
-    /// The line of the leg, base frame: from its second axis at the base, or the centre of a ball joint, to that at the
-    /// platform.
+    /// The line of the leg, base frame. It joins the second axes at base and platform, or the centres of ball joints.
     pub line: Vector3<f64>,
-    /// Rates of the length of the drive for unit velocities of the platform origin along x, y, z and unit angular
-    /// velocities about them, base frame.
+    /// Rates of the drive length for unit velocities of the platform origin along x, y, z and unit angular velocities
+    /// about them, base frame.
     pub rates: [f64; 6],
 }
 
-/// The legs of a machine whose joints are not ideal.
+/// The legs of a machine with joint offsets or screw leads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoupledLegs {
     /// The joint centres.
@@ -81,7 +81,7 @@ pub struct CoupledLegs {
     pub axes: [[Vector3<f64>; 6]; 2],
     /// Distances of the two axes of a universal joint, at base and platform.
     pub offsets: [f64; 2],
-    /// Per radian.
+    /// Lead of the screws, design units per radian.
     pub lead: f64,
     /// The pose at which the twists are `at_home`.
     pub home: Pose,
@@ -90,11 +90,11 @@ pub struct CoupledLegs {
 }
 
 impl CoupledLegs {
-    /// Takes joints from a design. Joints that are ideal are balls here; so are universal joints without offset when
-    /// there is no lead.
+    /// Takes joints from a design. Ideal joints are balls here; so are universal joints without offset if there is no
+    /// lead.
     ///
     /// # Errors
-    /// A lead without universal joints, or no length at home, from where twists count.
+    /// A lead without universal joints, or no drive length at home, where twists are zero.
     pub fn new(m: &Manipulator, hardware: &Hardware, home: &Pose) -> Result<Self, NoDriveLength> {
         let lead = hardware.screw_lead.unwrap_or(0.0) / std::f64::consts::TAU;
         let joints = Body::BOTH.map(|body| hardware.universal(body));
@@ -135,7 +135,7 @@ impl CoupledLegs {
         self.offsets
     }
 
-    /// What a leg becomes longer by for each radian that it turns about itself, design units.
+    /// The lengthening of a leg per radian of rotation about itself, design units.
     #[must_use]
     pub fn lead_per_radian(&self) -> f64 {
         self.lead
@@ -151,7 +151,7 @@ impl CoupledLegs {
     fn placed(&self, i: usize, pose: &Pose) -> PlacedLeg<f64> {
         let leg = self.manipulator.legs()[i];
         let arm = pose.rotation * leg.platform.coords;
-        // the same sum as for the distance of the joints
+        // the same sum as in the distance of the joints
         let line = pose.transform(&leg.platform) - leg.base;
         let axes = [self.axes[0][i], pose.rotation * self.axes[1][i]];
         PlacedLeg { line: line.into(), arm: arm.into(), axes: axes.map(Into::into), offsets: self.offsets }
@@ -162,8 +162,8 @@ impl CoupledLegs {
         self.offsets[end] != 0.0 || self.lead != 0.0
     }
 
-    /// The directions to the second axes: the fixed point, which is one since the product of both maps has the factor
-    /// `d d' / (r r')`, `r` the least distances across the first axes.
+    /// The directions to the second axes, by a fixed-point iteration. It converges since the product of both maps has
+    /// the factor `d d' / (r r')`, with the least distances `r` across the first axes.
     fn ends(&self, i: usize, placed: &PlacedLeg<f64>) -> Result<[Vec3<f64>; 2], NoDriveLength> {
         let mut reach = [f64::INFINITY; 2];
         for (end, body) in Body::BOTH.into_iter().enumerate().filter(|(end, _)| self.needs(*end)) {
@@ -190,7 +190,7 @@ impl CoupledLegs {
             }
             let moved = (0..2).flat_map(|e| (0..3).map(move |k| (e, k)));
             let moved = moved.map(|(e, k)| (ends[e][k] - before[e][k]).abs()).fold(0.0, f64::max);
-            // without two offsets the second step changes nothing
+            // with at most one offset the second step changes nothing
             if step > 0 && (product == 0.0 || moved <= 4.0 * f64::EPSILON) {
                 return Ok(ends);
             }
@@ -201,7 +201,7 @@ impl CoupledLegs {
     /// One leg at a pose.
     ///
     /// # Errors
-    /// A pose that the leg does not reach.
+    /// A pose that the leg cannot reach.
     pub fn state_of(&self, i: usize, pose: &Pose) -> Result<DriveState, NoDriveLength> {
         let placed = self.placed(i, pose);
         let ends = self.ends(i, &placed)?;
@@ -231,7 +231,7 @@ impl CoupledLegs {
     /// Every leg at a pose.
     ///
     /// # Errors
-    /// A leg whose drive has no length there.
+    /// A leg whose drive has no length at this pose.
     pub fn states(&self, pose: &Pose) -> Result<[DriveState; 6], NoDriveLength> {
         let mut out = Vec::with_capacity(6);
         for i in 0..6 {
@@ -240,10 +240,10 @@ impl CoupledLegs {
         out.try_into().map_err(|_| NoDriveLength::NotFinite(1))
     }
 
-    /// The lengths that the drives have at a pose, in leg order: what a controller commands.
+    /// The drive lengths at a pose, in leg order: the commands of a controller.
     ///
     /// # Errors
-    /// As [`Self::states`].
+    /// The errors of [`Self::states`].
     pub fn drives(&self, pose: &Pose) -> Result<[f64; 6], NoDriveLength> {
         let states = self.states(pose)?;
         let legs = self.manipulator.legs();

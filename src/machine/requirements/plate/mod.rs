@@ -1,4 +1,4 @@
-//! Plates: what a design says of the two plates that carry the joints, the bodies they are, and how their holes lie.
+//! The two plates that carry the joints: their description in a design, their bodies, and the positions of their holes.
 
 mod moments;
 mod outline;
@@ -17,8 +17,8 @@ pub use outline::{Outline, OutlinePart, OutlineSide};
 pub use solid::{HoleGap, HolePair, PlateHole, PlateSeat, PlateSolid};
 pub use solid::{frame_of, plate_normal};
 
-/// Materials that are known by name, with their densities in kg/m^3: rounded values of tables of engineering materials
-/// at room temperature.
+/// Named materials, with their densities in kg/m^3: rounded values of tables of engineering materials at room
+/// temperature.
 pub const MATERIALS: [(&str, f64); 8] = [
     ("aluminium", 2700.0),
     ("steel", 7850.0),
@@ -30,19 +30,19 @@ pub const MATERIALS: [(&str, f64); 8] = [
     ("plywood", 680.0),
 ];
 
-/// From where the angle of the first bolt of a joint counts.
+/// The reference direction for the angle of the first bolt of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BoltsFrom {
-    /// From the first axis of the plate: all joints have the same pattern.
+    /// The first axis of the plate: all joints have the same pattern.
     #[default]
     Axis,
-    /// From the direction that leads from the origin of the plate to the joint: turns about the origin that take joints
-    /// to joints take patterns to patterns.
+    /// The direction from the origin of the plate to the joint. Rotations about the origin that permute the joints then
+    /// also permute the patterns.
     Centre,
 }
 
 impl BoltsFrom {
-    /// Both.
+    /// Both references.
     pub const ALL: [Self; 2] = [Self::Axis, Self::Centre];
 
     /// Its name in files.
@@ -66,7 +66,7 @@ pub struct BoltPattern {
     pub hole: f64,
     /// Angle of the first hole, degrees, counter-clockwise seen against the normal of the plate.
     pub first_deg: f64,
-    /// From where this angle counts.
+    /// The reference direction of this angle.
     pub from: BoltsFrom,
 }
 
@@ -85,7 +85,7 @@ impl BoltPattern {
     }
 }
 
-/// What a design says of the plate of a body.
+/// The plate of a body, as a design describes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateDesign {
     /// Thickness, design units.
@@ -94,12 +94,12 @@ pub struct PlateDesign {
     pub margin: f64,
     /// Diameter of the hole under each joint, design units.
     pub hole: f64,
-    /// Height of the lowest joint centre above the face that the joints stand on, design units; `None`: that of a ball
+    /// Height of the lowest joint centre above the face that carries the joints, design units. `None`: that of a ball
     /// on the edge of the hole ([`seat_height`]).
     pub height: Option<f64>,
-    /// What it is made of.
+    /// Its material.
     pub material: Option<String>,
-    /// Density, kg/m^3, where it is not that of a [known material](MATERIALS).
+    /// Density, kg/m^3, if it differs from that of a [known material](MATERIALS).
     pub density: Option<f64>,
     /// Least distance of the edge of a hole from the outline, design units.
     pub edge_distance: f64,
@@ -118,15 +118,15 @@ pub fn seat_height(ball: f64, hole: f64) -> f64 {
 }
 
 impl PlateDesign {
-    /// Density in kg/m^3; `None` where neither a density nor a known material is named.
+    /// Density in kg/m^3; `None` without a density or a known material.
     #[must_use]
     pub fn kilograms_per_cubic_metre(&self) -> Option<f64> {
         let known = |name: &String| MATERIALS.iter().find(|(known, _)| known == name).map(|(_, d)| *d);
         self.density.or_else(|| self.material.as_ref().and_then(known))
     }
 
-    /// Height of the lowest joint centre above the face, for the joints of this body: where none is given that of the
-    /// widest one on its hole, since all centres are as high.
+    /// Height of the lowest joint centre above the face, for the joints of this body. Without a given height it is that
+    /// of the widest joint on its hole, since all centres have the same height.
     #[must_use]
     pub fn joint_height(&self, hardware: &Hardware, body: Body) -> f64 {
         let widest = || hardware.joint_widths(body).map_or(0.0, |[_, greatest]| greatest);
@@ -139,7 +139,7 @@ impl PlateDesign {
     }
 }
 
-/// The plates of a design. What is absent requires nothing.
+/// The plates of a design. Absent plates require nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plates {
     /// Under the base joints.
@@ -149,7 +149,7 @@ pub struct Plates {
 }
 
 impl Plates {
-    /// That of a body.
+    /// The plate of a body.
     #[must_use]
     pub fn of(&self, body: Body) -> Option<&PlateDesign> {
         body.of((self.base.as_ref(), self.platform.as_ref()))
@@ -157,9 +157,8 @@ impl Plates {
 }
 
 impl Hardware {
-    /// Distance from the centre of the joint of a leg at this body at which the leg begins to be a body that can meet a
-    /// plate: half the least width of the housing, 0 without one, less the offset of the second axis of a universal
-    /// joint, where its leg begins.
+    /// Distance from the joint centre of a leg at this body to the start of the leg's solid part. It is half the least
+    /// width of the housing, or 0 without one, minus the offset of the second axis of a universal joint.
     #[must_use]
     pub fn joint_reach(&self, body: Body, leg: usize) -> f64 {
         let offset = self.universal(body).map_or(0.0, |joint| joint.offset);

@@ -1,5 +1,5 @@
 //! Area, mass, centre and inertia of a plate, in closed form: hull, strips along its edges and sectors at its corners,
-//! less the holes.
+//! minus the holes.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ impl AreaMoments {
         self.second += other.second;
     }
 
-    /// Of a region whose moments about `centre` are these.
+    /// The moments of a region whose moments about `centre` are these.
     fn about(self, centre: &Point2<f64>) -> Self {
         let c = centre.coords;
         let mixed = self.first * c.transpose();
@@ -34,7 +34,7 @@ impl AreaMoments {
         }
     }
 
-    /// Of a polygon, counter-clockwise: the sum over its edges of the triangles that they make with the origin.
+    /// The moments of a polygon, counter-clockwise: the sum over the triangles of its edges with the origin.
     fn polygon(corners: &[Point2<f64>]) -> Self {
         let mut out = Self::default();
         for (i, p) in corners.iter().enumerate() {
@@ -49,7 +49,7 @@ impl AreaMoments {
         out
     }
 
-    /// Of a sector of a circle about the origin from the angle `start` through `turn`.
+    /// The moments of a sector of a circle about the origin, from the angle `start` through `turn`.
     fn sector(radius: f64, start: f64, turn: f64) -> Self {
         let end = start + turn;
         let (s0, c0) = start.sin_cos();
@@ -65,7 +65,7 @@ impl AreaMoments {
         }
     }
 
-    /// Of what an outline encloses.
+    /// The moments of the region inside an outline.
     pub fn of(outline: &Outline) -> Self {
         let mut out = if outline.hull.len() > 2 { Self::polygon(&outline.hull) } else { Self::default() };
         let n = outline.hull.len();
@@ -85,7 +85,7 @@ impl AreaMoments {
         out
     }
 
-    /// Less a round hole.
+    /// Subtracts a round hole.
     pub(crate) fn without_hole(&mut self, at: &Point2<f64>, diameter: f64) {
         let radius = 0.5 * diameter;
         let round = Self {
@@ -124,7 +124,7 @@ impl PlateSolid {
         out
     }
 
-    /// The plate as a rigid body, where a design unit is so many metres; `None` where its density is not known.
+    /// The plate as a rigid body, with the length of a design unit in metres; `None` without a known density.
     pub fn rigid(&self, plate: &PlateDesign, metres: f64) -> Option<PlateBody> {
         let moments = self.moments(plate);
         let per_unit = plate.kilograms_per_cubic_metre()? * metres.powi(3) * self.thickness;

@@ -11,9 +11,9 @@ use platform::geom::convex_hull;
 pub enum OutlinePart {
     /// A straight edge.
     Line {
-        /// Where it begins.
+        /// Its start.
         from: Point2<f64>,
-        /// Where it ends.
+        /// Its end.
         to: Point2<f64>,
     },
     /// An arc, counter-clockwise.
@@ -22,15 +22,15 @@ pub enum OutlinePart {
         centre: Point2<f64>,
         /// Its radius.
         radius: f64,
-        /// Angle of its beginning from the first axis, radians.
+        /// Angle of its start from the first axis, radians.
         start: f64,
-        /// What it turns through, radians, positive.
+        /// Its angle, radians, positive.
         turn: f64,
     },
 }
 
 /// A closed curve, counter-clockwise: straight edges with arcs at the corners of the hull. One point gives a circle
-/// (two half circles), points on a line a slot.
+/// (two half circles), collinear points a slot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     /// Corners of the convex hull, counter-clockwise.
@@ -39,14 +39,14 @@ pub struct Outline {
     pub margin: f64,
 }
 
-/// An edge of the hull, or its nearest point, and how far a point is inside the outline by it.
+/// An edge of the hull, or its nearest point, and the depth of a point inside the outline relative to it.
 #[derive(Debug, Clone, Copy)]
 pub struct OutlineSide {
-    /// Corners of the hull by number, with the shares that the side moves with: they add up to 1.
+    /// Corners of the hull by number, with their weights in the side, which sum to 1.
     pub corners: [(usize, f64); 2],
-    /// The gradient of the depth by the point; that by a corner is minus its share of it.
+    /// The gradient of the depth by the point; the gradient by a corner is minus its share.
     pub inwards: Vector2<f64>,
-    /// The margin and the depth in the hull, or the margin less the distance from the hull.
+    /// The margin plus the depth in the hull, or the margin minus the distance from the hull.
     pub depth: f64,
     /// Whether it is the line of an edge, for a point in the hull.
     pub is_edge: bool,
@@ -78,7 +78,7 @@ impl Outline {
             for i in 0..n {
                 let (before, after) = (outward((i + n - 1) % n), outward(i));
                 let turn = before.perp(&after).atan2(before.dot(&after));
-                // the two ends of a slot turn by half a circle, whose sign is rounding
+                // the two ends of a slot have half circles, whose sign depends on rounding
                 let turn = if n == 2 { PI } else { turn };
                 parts.push(OutlinePart::Arc {
                     centre: hull[i],
@@ -137,10 +137,10 @@ impl Outline {
         n > 2 && (0..n).all(|i| self.edge(i, p).depth - self.margin >= -tolerance)
     }
 
-    /// The sides that say how far inside the outline a point is: all edges for a point in the hull, or outside by no
-    /// more than `tolerance`, the nearest point of the hull for others.
+    /// The sides that determine the depth of a point inside the outline. They are all edges for a point in the hull or
+    /// outside by at most `tolerance`, otherwise the nearest point of the hull.
     ///
-    /// A point at depth `d` of a convex region is `d + m` deep in all points within `m` of the region.
+    /// A point at depth `d` of a convex region has the depth `d + m` in all points within `m` of the region.
     pub fn sides(&self, p: &Point2<f64>, tolerance: f64, see: &mut impl FnMut(OutlineSide)) {
         if self.is_in_hull(p, tolerance) {
             (0..self.hull.len()).for_each(|i| see(self.edge(i, p)));
@@ -152,7 +152,7 @@ impl Outline {
         see(OutlineSide { corners, inwards, depth: self.margin - away.norm(), is_edge: false });
     }
 
-    /// How far inside the outline a point is, negative outside: the least depth by its [`sides`](Self::sides).
+    /// Depth of a point inside the outline, negative outside: the least depth over its [`sides`](Self::sides).
     #[must_use]
     pub fn depth(&self, p: &Point2<f64>) -> f64 {
         let mut least = f64::INFINITY;

@@ -11,8 +11,8 @@ use platform::manipulator::{Body, Manipulator};
 /// Joints nearer than this share of the size are one seat.
 const SAME: f64 = 1e-9;
 
-/// Normal of the greatest triangle of the joints, towards positive z (then y, then x); the direction across their line
-/// nearest to `along` where they lie on one.
+/// Normal of the greatest triangle of the joints, towards positive z (then y, then x). For collinear joints it is the
+/// direction across their line nearest to `along`.
 pub fn plate_normal(points: &[Point3<f64>], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
     let mut best = Vector3::zeros();
     let mut line = Vector3::zeros();
@@ -23,7 +23,7 @@ pub fn plate_normal(points: &[Point3<f64>], along: &Vector3<f64>, size: f64) -> 
             }
             for r in &points[j + 1..] {
                 let cross = (q - p).cross(&(r - p));
-                // equal triangles are told apart by rounding only: the first one stays
+                // only rounding distinguishes equal triangles: the first one stays
                 if cross.norm() > best.norm() * (1.0 + 1e-9) {
                     best = cross;
                 }
@@ -60,31 +60,31 @@ pub struct PlateSeat {
     pub bolts: Vec<Point2<f64>>,
 }
 
-/// A plate with parallel faces on the far side of its joints from the legs: all points `axes (u, v, w)` with `(u, v)`
-/// within the outline and `w` from [`lower`](Self::lower) to `lower + thickness`.
+/// A plate with parallel faces, on the side of its joints away from the legs. It consists of the points
+/// `axes (u, v, w)` with `(u, v)` within the outline and `w` from [`lower`](Self::lower) to `lower + thickness`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateSolid {
     /// Axes of the plate in the frame of the body, as columns; the third is the normal.
     pub axes: Matrix3<f64>,
     /// `true` when the legs are on the side the normal points to.
     pub legs_above: bool,
-    /// Where the face that the joints stand on is along the normal, design units.
+    /// Position of the joint face along the normal, design units.
     pub face: f64,
     /// Thickness, design units.
     pub thickness: f64,
     /// The outline, plate coordinates.
     pub outline: Outline,
-    /// The feet of all joints of the body, those without a leg included, as the exports draw them.
+    /// The feet of all joints of the body, including joints without a leg, as the exports draw them.
     pub seats: Vec<PlateSeat>,
 }
 
-/// Two holes, or one and the outline, that stand nearest: the joints, and the margin.
+/// The joints of the nearest pair of two holes, or of a hole and the outline, and the margin.
 pub(crate) type HoleMargin = ([usize; 2], f64);
 
 /// A hole of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateHole {
-    /// The seat that it belongs to, by number.
+    /// The number of its seat.
     pub seat: usize,
     /// 0 for the hole under the joint, from 1 on for bolts.
     pub number: usize,
@@ -94,7 +94,7 @@ pub struct PlateHole {
     pub radius: f64,
 }
 
-/// Two things that stand apart on a plate.
+/// Two parts of a plate with a required distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HolePair {
     /// Two holes.
@@ -105,12 +105,12 @@ pub enum HolePair {
     BoltAndFoot(usize),
 }
 
-/// By how much two holes, or feet, are farther apart than they have to be.
+/// Distance of two holes or feet minus the required one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HoleGap {
     /// The holes, or those in the middles of feet.
     pub holes: [PlateHole; 2],
-    /// What stands apart.
+    /// The kind of the pair.
     pub pair: HolePair,
     /// The margin.
     pub margin: f64,
@@ -125,7 +125,7 @@ impl HoleGap {
 }
 
 impl PlateSolid {
-    /// The plate of a body; `home` says on which side the legs are.
+    /// The plate of a body; `home` determines the side of the legs.
     #[must_use]
     pub fn of(plate: &PlateDesign, m: &Manipulator, body: Body, hardware: &Hardware, home: &Pose) -> Self {
         let towards: Vector3<f64> = m.legs().iter().map(|l| home.transform(&l.platform) - l.base).sum();
@@ -142,8 +142,8 @@ impl PlateSolid {
         Self { seats, ..out }
     }
 
-    /// The plate under joints, the lowest of which is so high above it, with a seat for each of them; `towards` leads
-    /// to the legs.
+    /// The plate under joints, with the height of the lowest joint above it and a seat for each; `towards` points to
+    /// the legs.
     #[must_use]
     pub fn under(
         (plate, height): (&PlateDesign, f64),
@@ -174,7 +174,7 @@ impl PlateSolid {
         }
     }
 
-    /// Where the lower face is along the normal.
+    /// Position of the lower face along the normal, design units.
     #[must_use]
     pub fn lower(&self) -> f64 {
         if self.legs_above { self.face - self.thickness } else { self.face }
@@ -190,8 +190,8 @@ impl PlateSolid {
     /// The share of the segment `x y` at which it is nearest to the plate, its holes filled, and the nearest point
     /// there.
     ///
-    /// The distance from a convex body is convex along the segment: where it falls neither at the beginning nor at the
-    /// end, the zero of its slope is enclosed by halving.
+    /// The distance from a convex body is convex along the segment. Unless its minimum is at an end, bisection encloses
+    /// the zero of its slope.
     #[must_use]
     pub fn nearest_to_segment(&self, ends: [&Point3<f64>; 2]) -> (f64, Point3<f64>) {
         let [x, y] = ends.map(|p| self.axes.transpose() * p.coords);
@@ -199,7 +199,7 @@ impl PlateSolid {
         (t, ends[0] + (ends[1] - ends[0]) * t - self.axes * way)
     }
 
-    /// The same in plate coordinates, with the way from the nearest point to that of the segment.
+    /// The same in plate coordinates, with the vector from the nearest point of the plate to that of the segment.
     #[must_use]
     pub fn nearest_to_local(&self, [x, y]: [&Vector3<f64>; 2]) -> (f64, Vector3<f64>) {
         let d = y - x;
@@ -243,8 +243,8 @@ impl PlateSolid {
         all.enumerate().map(|(number, (at, radius))| PlateHole { seat, number, at, radius }).collect()
     }
 
-    /// For each seat by how much its holes are farther from the outline than they have to be:
-    /// `depth - radius - edge_distance`, the least over the holes.
+    /// For each seat the least distance of its holes from the outline minus the required one:
+    /// `depth - radius - edge_distance`.
     pub(crate) fn edge_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
         let of = |(k, seat): (usize, &PlateSeat)| {
             let holes = self.holes_of(plate, k);
@@ -255,8 +255,8 @@ impl PlateSolid {
         self.seats.iter().enumerate().map(of).collect()
     }
 
-    /// For each two seats by how much their holes and feet are farther apart than they have to be, the bolts of one
-    /// from the foot of the other too, and for each seat alone the same of its own holes.
+    /// For each pair of seats the distance of their holes and feet minus the required one, bolts beside the other foot
+    /// included. For each seat alone the same of its own holes.
     pub(crate) fn gap_margins(&self, plate: &PlateDesign) -> Vec<HoleMargin> {
         let least = |gaps: &[HoleGap]| {
             let joints = gaps[0].seats().map(|seat| self.seats[seat].joints[0]);
@@ -294,7 +294,7 @@ impl PlateSolid {
         out
     }
 
-    /// The greatest length that coordinates of its points are computed from.
+    /// The greatest length in the computation of coordinates of its points.
     pub fn extent(&self) -> f64 {
         let far = self.seats.iter().flat_map(|s| s.bolts.iter().chain([&s.at]));
         let far = far.map(|p| p.coords.norm()).fold(0.0, f64::max);

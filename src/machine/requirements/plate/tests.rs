@@ -1,4 +1,4 @@
-//! Plates against values by hand and by other routes: polygons with many corners, dense points, laws of motions and
+//! Plates against values by hand and by separate methods: polygons with many corners, dense points, laws of motions and
 //! scales.
 
 use std::f64::consts::{PI, TAU};
@@ -223,14 +223,14 @@ fn holes_of_a_hexagon_by_hand() {
         all.into_iter().filter(|t| t.0.kind == kind).map(|t| t.1).fold(f64::INFINITY, f64::min)
     };
     let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12, "{x} {y}");
-    // bolts at 45 degrees from the ray: outside the hull, within the fan of the corner for 30 degrees to each side only
+    // bolts at 45 degrees from the ray: outside the hull, in the fan of the corner within 30 degrees of each side only
     let away = 0.7 * (45.0f64 - 30.0).to_radians().cos();
     near(found(&stated(), TermKind::BaseHoleEdge), 2.0 - away - 0.1 - 0.4);
     // straight outwards
     let mut plate = stated();
     plate.bolts.as_mut().unwrap().first_deg = 0.0;
     near(found(&plate, TermKind::PlatformHoleEdge), 2.0 - 0.7 - 0.1 - 0.4);
-    // own holes: 0.7 less both radii; neighbours stand 4 apart, feet 1.8 wide
+    // own holes: 0.7 minus both radii; neighbours are 4 apart, feet 1.8 wide
     near(found(&plate, TermKind::BaseHoleGap), 0.7 - 0.3 - 0.1 - 0.3);
     plate.foot = Some(4.5);
     near(found(&plate, TermKind::BaseHoleGap), -0.5);
@@ -244,7 +244,7 @@ fn holes_of_a_hexagon_by_hand() {
     let expected = (next.xy() - a).norm() - 0.2 - 0.3;
     let seat = (Vector2::new(4.0 * (PI / 3.0).cos(), 4.0 * (PI / 3.0).sin()) - a).norm() - 0.4 - 0.3;
     near(found(&plate, TermKind::BaseHoleGap), expected.min(seat).min(1.5 - 0.4 - 0.3));
-    // exactly at the limit, and by a hair beyond
+    // exactly at the limit, and slightly beyond
     let mut plate = PlateDesign { bolts: None, edge_distance: 1.7, ..stated() };
     let standing = |plate: &PlateDesign| {
         let r = required(plate);
@@ -277,7 +277,7 @@ fn margins_follow_motions_turns_and_scales() {
         }
     };
     let plain = of(&m, &home, &plate, 1.0);
-    // the base in another frame: where the legs are stays the same seen from the plate
+    // the base in another frame: the side of the legs stays the same relative to the plate
     let (turn, shift) = (Rotation3::new(Vector3::new(0.4, -0.7, 1.1)), Vector3::new(3.0, -2.0, 5.0));
     let base = m.base_joints().iter().map(|p| turn * p + shift).collect();
     let moved = Manipulator::try_new(base, m.platform_joints().to_vec(), m.pairs()).unwrap();
@@ -288,7 +288,7 @@ fn margins_follow_motions_turns_and_scales() {
     let a = margins(&Terms::new(&m, &r, &home), &pose(&home, d));
     let b = margins(&Terms::new(&moved, &r, &there), &pose(&there, turn * d));
     same(&a, &b, 1.0);
-    // a turn of both bodies about z takes patterns that count from the centre to each other
+    // a rotation of both bodies about z permutes patterns that count from the centre
     let about = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.8);
     let turned = |list: &[Point3<f64>]| list.iter().map(|p| about * p).collect::<Vec<_>>();
     let spun =
@@ -326,8 +326,8 @@ fn legs_that_lean_come_near_their_own_plates_by_what_trigonometry_says_and_it_is
     let (m, home) = upright();
     let plate = PlateDesign { bolts: None, foot: None, ..stated() };
     let mut r = required(&plate);
-    // legs lean up to 45 degrees: from the housing on, half a unit along the leg, a cylinder of radius 0.5 over a face
-    // 0.6 below the joint
+    // legs lean up to 45 degrees; half a unit along them, beyond the housing, begins a cylinder of radius 0.5; the face
+    // is 0.6 below
     let space = PoseSpace { translation: Vector3::new(10.0, 0.0, 0.0), ..PoseSpace::at(home) };
     let quick = AssessOptions::new().points(60).searches(1);
     let of = |r: &Requirements| {

@@ -8,14 +8,14 @@ use thiserror::Error;
 use super::{Dyadic, IntPoly, squarefree_factors};
 use crate::poly::roots;
 
-/// A disc that holds exactly one distinct root.
+/// A disc with exactly one distinct root.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComplexRoot {
     /// Real part of the centre.
     pub re: Dyadic,
-    /// Imaginary part of the centre, exactly zero when the root is proved to be real.
+    /// Imaginary part of the centre, exactly zero for a root that is proved to be real.
     pub im: Dyadic,
-    /// The radius is at most two to this power.
+    /// The base-2 logarithm of an upper bound of the radius.
     pub radius_log2: f64,
     /// Multiplicity.
     pub multiplicity: usize,
@@ -39,24 +39,24 @@ impl ComplexRoot {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("the roots are not separated with {bits} bits")]
 pub struct NotSeparated {
-    /// Bits after the point in the last attempt, lengths relative to the largest root.
+    /// Bits after the point in the last attempt, for lengths relative to the largest root.
     pub bits: u64,
 }
 
-/// Precision at which is given up.
+/// Greatest precision of an attempt.
 const LAST: u64 = 1 << 15;
-/// Sweeps at one precision; each gains some fifty bits once the roots are told apart.
+/// Greatest number of sweeps at one precision; each gains some fifty bits once the roots are separated.
 const SWEEPS: usize = 60;
-/// Covers the rounding of logarithms in doubles, many times over.
+/// Margin far above the rounding of logarithms in doubles.
 const MARGIN: f64 = 0.01;
 
 /// The roots of `p` with radii at most `2^-bits` times the largest modulus, in order of real and imaginary part.
 ///
-/// Ehrlich-Aberth iteration on each square-free factor. With `z_1, .., z_n` the iterates and `c` the leading
-/// coefficient, the discs of radius `n |p(z_i) / (c prod (z_i - z_j))|` about `z_i` hold all roots, and one that meets
-/// no other holds exactly one (Smith 1970). The values are computed with bounds of their errors and the precision is
-/// doubled until the discs are disjoint, and small enough. A root whose disc meets the real axis is real when its
-/// mirror image meets no other disc.
+/// Ehrlich-Aberth iteration on each square-free factor. Let `z_1, .., z_n` be the iterates and `c` the leading
+/// coefficient. The discs of radius `n |p(z_i) / (c prod (z_i - z_j))|` about `z_i` contain all roots, and a disc that
+/// is disjoint from the others contains exactly one (Smith 1970). The values are computed with error bounds. The
+/// precision is doubled until the discs are disjoint and small enough. A root whose disc meets the real axis is real if
+/// its mirror image is disjoint from the other discs.
 ///
 /// # Errors
 /// [`NotSeparated`] beyond 32768 bits.
@@ -116,7 +116,7 @@ fn of_squarefree(q: &IntPoly, bits: u64, multiplicity: usize) -> Result<Vec<Comp
     }
 }
 
-/// Starting points by floating point, all different and none real alone.
+/// Starting points in floating point, all different and none exactly real.
 fn start(q: &IntPoly) -> Vec<Complex64> {
     let top = q.bits().cast_signed();
     let scaled = |c: &BigInt| Complex64::from(Dyadic::new(c.clone(), -top).to_f64());
@@ -125,7 +125,7 @@ fn start(q: &IntPoly) -> Vec<Complex64> {
     let mut z = roots(&c).unwrap_or_default();
     z.retain(|z| z.is_finite() && z.norm() < 2.0);
     z.resize_with(n, || Complex64::ZERO);
-    // roots that doubles cannot tell apart, or that underflowed, are spread a little
+    // roots that coincide in doubles, or that underflowed, are slightly spread
     for (k, z) in z.iter_mut().enumerate() {
         let spread = (z.norm() + 1e-3) * 1e-9 * (k + 1) as f64;
         *z += Complex64::from_polar(spread, 2.4 * k as f64 + 0.3);
@@ -164,7 +164,7 @@ impl FixedPoint {
         self.re.is_zero() && self.im.is_zero()
     }
 
-    /// `self / other`, both at one precision; `other` is not zero.
+    /// `self / other`, both at one precision; `other` must be nonzero.
     fn over(&self, other: &Self, precision: u64) -> Self {
         let norm = &other.re * &other.re + &other.im * &other.im;
         let re = &self.re * &other.re + &self.im * &other.im;
@@ -172,17 +172,16 @@ impl FixedPoint {
         Self { re: (re << precision) / &norm, im: (im << precision) / &norm }
     }
 
-    /// `log2 |z|` of the integers, between half a bit too small and exact when `up` is false, exact and half a bit too
-    /// large otherwise.
+    /// `log2 |z|` of the integers: a lower bound within half a bit, or an upper one if `up`.
     fn log2(&self, up: bool) -> f64 {
         let larger = self.re.magnitude().max(self.im.magnitude());
         let base = log2(larger);
         if up { base + 0.5 + MARGIN } else { base - MARGIN }
     }
 
-    /// Times `2^-places`, in doubles.
+    /// The number times `2^-places`, in doubles.
     fn scaled(&self, places: u64) -> Complex64 {
-        // far below the smallest double squared there is nothing to see
+        // numbers far below the smallest double squared are negligible
         let (drop, rest) = if places > 600 { (places - 600, 600) } else { (0, places) };
         let unit = 2f64.powi(-(rest as i32));
         let part =
@@ -195,7 +194,7 @@ fn shifted(m: &BigInt, places: i64) -> BigInt {
     if places >= 0 { m << places.unsigned_abs() } else { m >> places.unsigned_abs() }
 }
 
-/// `log2` to about fifteen digits, minus infinity for zero.
+/// `log2` to about fifteen digits; minus infinity for zero.
 fn log2(x: &num_bigint::BigUint) -> f64 {
     let bits = x.bits();
     let drop = bits.saturating_sub(60);
@@ -228,7 +227,7 @@ impl FixedPoly {
         value
     }
 
-    /// One sweep; `true` when every step was at the size of rounding or nothing more can be gained.
+    /// One sweep; `true` if every step was at the size of rounding or no further gain is possible.
     fn sweep(&self, z: &mut [FixedPoint]) -> bool {
         let mut settled = true;
         for k in 0..z.len() {
@@ -252,7 +251,7 @@ impl FixedPoly {
             let mut step = newton.times(&FixedPoint::from_f64(factor, self.precision), self.precision);
             let length = step.log2(true) - self.precision as f64;
             if length > 0.0 {
-                // no step is longer than the disc of the roots
+                // no step exceeds the disc of the roots
                 let places = length.ceil() as i64;
                 step = FixedPoint { re: shifted(&step.re, -places), im: shifted(&step.im, -places) };
             }
@@ -268,7 +267,7 @@ impl FixedPoly {
         let n = z.len();
         let units = self.precision as f64;
         let lead = log2(self.c[n].magnitude());
-        // the leading coefficient itself is rounded by less than one unit
+        // the leading coefficient itself has a rounding error below one unit
         if lead < 8.0 || z.iter().any(|z| z.log2(true) > units + 1.0) {
             return None;
         }
@@ -284,7 +283,7 @@ impl FixedPoly {
             })
             .collect();
         let small = radius.iter().all(|r| *r < -(bits as f64));
-        // distances in units of one; the discs' sum of radii is at most twice the larger one
+        // distances in units of one; the sum of the two radii is at most twice the larger one
         let apart = |a: &FixedPoint, b: &FixedPoint, r: f64, s: f64| {
             a.minus(b).log2(false) - units > r.max(s) + 1.0 + MARGIN
         };

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use num_bigint::{BigInt, Sign};
 use num_traits::{ToPrimitive, Zero};
 
-/// The rational number `mantissa * 2^exponent`, exactly; the mantissa is odd, or zero with exponent zero.
+/// The rational number `mantissa * 2^exponent`, exactly. The mantissa is odd, or zero with exponent zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dyadic {
     mantissa: BigInt,
@@ -90,7 +90,7 @@ impl Dyadic {
         (!self.mantissa.is_zero()).then(|| self.exponent + self.mantissa.bits().cast_signed() - 1)
     }
 
-    /// The nearest double, ties away from zero; infinite where none is finite.
+    /// The nearest double, ties away from zero; infinite on overflow.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         let Some(log) = self.log2_floor() else { return 0.0 };
@@ -108,7 +108,7 @@ impl Dyadic {
             BigInt::from(self.mantissa.magnitude().clone()) << drop.unsigned_abs()
         };
         let value = rounded.to_f64().unwrap_or(f64::INFINITY);
-        // two exact steps: the power alone may be out of range
+        // two exact steps, since the power alone may be out of range
         let (first, second) = (last / 2, last - last / 2);
         let value = value * 2f64.powi(first as i32) * 2f64.powi(second as i32);
         if self.sign() == Sign::Minus { -value } else { value }

@@ -7,7 +7,7 @@ use num_traits::One;
 use super::IntPoly;
 use super::modular::Modulus;
 
-/// A square-free factor with the number of times it divides.
+/// A square-free factor with its multiplicity.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SquarefreeFactor {
     /// Primitive, without multiple roots.
@@ -16,12 +16,12 @@ pub struct SquarefreeFactor {
     pub multiplicity: usize,
 }
 
-/// The greatest common divisor, primitive with positive leading coefficient (contents are ignored); zero when both are
+/// The greatest common divisor, primitive with positive leading coefficient (contents are ignored); zero if both are
 /// zero.
 ///
-/// Computed modulo primes, combined by the Chinese remainder theorem until the candidate divides both, which proves it
-/// (Brown 1971): its degree, that of a greatest common divisor modulo a prime that divides neither leading coefficient,
-/// cannot be too small.
+/// It is computed modulo primes, combined by the Chinese remainder theorem until the candidate divides both, which
+/// proves it (Brown 1971). Its degree cannot be too small, since it comes from a prime that divides neither leading
+/// coefficient.
 #[must_use]
 pub fn gcd(a: &IntPoly, b: &IntPoly) -> IntPoly {
     let (a, b) = (a.primitive(), b.primitive());
@@ -60,11 +60,11 @@ struct Combined {
 }
 
 impl Combined {
-    /// Takes one more image; `true` when it changed nothing.
+    /// Adds one more image; `true` if it changed nothing.
     fn add(&mut self, m: Modulus, image: Vec<u64>) -> bool {
         let p = BigInt::from(m.value());
         if self.coefficients.is_empty() || image.len() < self.coefficients.len() {
-            // earlier primes had common roots of their own
+            // earlier primes had additional common roots
             self.coefficients = image.into_iter().map(|c| centred(&BigInt::from(c), &p)).collect();
             self.product = p;
             return false;
@@ -106,7 +106,7 @@ pub fn squarefree_factors(p: &IntPoly) -> Vec<SquarefreeFactor> {
     }
     let derivative = p.derivative();
     let g = gcd(&p, &derivative);
-    // v = product of the distinct factors, w belongs to it
+    // v = product of the distinct factors, w is its companion
     let (mut v, mut w) = (quotient(&p, &g), quotient(&derivative, &g));
     let mut multiplicity = 1;
     while v.degree() != Some(0) {

@@ -1,4 +1,4 @@
-//! Real roots, isolated with proof.
+//! Isolation of real roots, with proof.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use num_traits::{One, Zero};
 
 use super::{Dyadic, IntPoly, gcd, squarefree_factors, sturm_count};
 
-/// One real root: it is `low` when `low = high`, otherwise the only root of the polynomial with `low < x < high`, and
-/// neither end is a root.
+/// One real root. It is `low` if `low = high`; otherwise it is the only root of the polynomial with `low < x < high`,
+/// and neither end is a root.
 #[derive(Debug, Clone)]
 pub struct RealRoot {
     low: Dyadic,
@@ -32,7 +32,7 @@ impl RealRoot {
         &self.high
     }
 
-    /// Multiplicity as a root of the polynomial that was asked for.
+    /// Multiplicity as a root of the original polynomial.
     #[must_use]
     pub fn multiplicity(&self) -> usize {
         self.multiplicity
@@ -94,13 +94,13 @@ impl RealRoot {
         root.low.midpoint(&root.high).to_f64()
     }
 
-    /// The sign of another polynomial at the root, exactly: zero when they have it in common.
+    /// The exact sign of another polynomial at the root: zero for a common root.
     #[must_use]
     pub fn sign_of(&self, q: &IntPoly) -> Sign {
         let mut root = self.clone();
         if !root.is_exact() {
             let common = gcd(q, &root.factor);
-            // a divisor of the factor has no other root here, and that one is simple
+            // a divisor of the factor has no other root here, and this one is simple
             if common.sign_at(&root.low) != common.sign_at(&root.high) {
                 return Sign::NoSign;
             }
@@ -119,8 +119,8 @@ impl RealRoot {
 /// All distinct real roots, ascending, each isolated from all others, with multiplicities. Constants and zero have
 /// none.
 ///
-/// Square-free factors by Yun's algorithm, then Descartes' rule of signs on halved intervals (Collins, Akritas 1976),
-/// in integers throughout: the number of roots is proved.
+/// Square-free factors come from Yun's algorithm. Descartes' rule of signs on halved intervals (Collins, Akritas 1976)
+/// isolates their roots, in integers throughout, so the number of roots is proved.
 ///
 /// ```
 /// # mod equipod { pub use equipod_num::Cancel; pub mod methods { pub use equipod_num::poly; } }
@@ -222,7 +222,7 @@ fn variations(p: &IntPoly) -> usize {
     signs.windows(2).filter(|w| w[0] != w[1]).count()
 }
 
-/// Bisects intervals of different factors until none meet; they have no common root.
+/// Bisects intervals of different factors until they are disjoint; the factors have no common root.
 fn separate(roots: &mut [RealRoot]) {
     for i in 0..roots.len() {
         for j in 0..i {

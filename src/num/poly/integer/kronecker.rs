@@ -3,7 +3,7 @@
 use num_bigint::{BigInt, BigUint, Sign};
 use num_traits::Zero;
 
-/// Below this length of the shorter factor the plain sum of products is faster.
+/// Below this length of the shorter factor the direct sum of products is faster.
 const SHORT: usize = 4;
 
 /// The coefficients of the product.

@@ -94,7 +94,7 @@ impl IntPoly {
         self.0.iter().map(BigInt::bits).max().unwrap_or(0)
     }
 
-    /// The greatest common divisor of the coefficients, not negative.
+    /// The greatest common divisor of the coefficients, non-negative.
     #[must_use]
     pub fn content(&self) -> BigInt {
         let mut smallest_first: Vec<&BigInt> = self.0.iter().collect();
@@ -104,13 +104,13 @@ impl IntPoly {
             if found.is_one() {
                 break;
             }
-            // the remainder first: the binary algorithm is slow between numbers of very different size
+            // the remainder first, since the binary algorithm is slow for numbers of very different size
             found = if found.is_zero() { found.gcd(c) } else { found.gcd(&(c % &found)) };
         }
         found
     }
 
-    /// Divided by its content, with a positive leading coefficient.
+    /// The polynomial divided by its content, with a positive leading coefficient.
     #[must_use]
     pub fn primitive(&self) -> Self {
         let content = self.content();
@@ -143,7 +143,7 @@ impl IntPoly {
         Self(self.0.iter().enumerate().map(sign).collect())
     }
 
-    /// `self / divisor` when that is a polynomial with integer coefficients, `None` otherwise and for `divisor = 0`.
+    /// `self / divisor` if that is a polynomial with integer coefficients; otherwise `None`, also for `divisor = 0`.
     #[must_use]
     pub fn exact_div(&self, divisor: &Self) -> Option<Self> {
         let n = divisor.degree()?;
@@ -194,7 +194,7 @@ impl IntPoly {
         value
     }
 
-    /// `2^(n k) p(x / 2^k)`, for `k < 0` `p(2^-k x)`: roots multiplied by `2^k`.
+    /// `2^(n k) p(x / 2^k)`, or `p(2^-k x)` for `k < 0`: the roots times `2^k`.
     pub fn stretched(&self, k: i64) -> Self {
         let n = self.0.len().saturating_sub(1);
         let shift = |(i, c): (usize, &BigInt)| {
@@ -222,7 +222,7 @@ impl IntPoly {
         Self::new(self.0.iter().rev().cloned().collect())
     }
 
-    /// The least `k` found with all roots of modulus below `2^k` (Fujiwara 1916, in powers of two).
+    /// A small `k` such that all roots have moduli below `2^k` (Fujiwara 1916, in powers of two).
     fn root_bound(&self) -> i64 {
         let n = self.0.len() - 1;
         let top = self.0[n].bits().cast_signed() - 1;

@@ -12,7 +12,7 @@ pub(super) struct Modulus(Field);
 const MERSENNE: Modulus = Modulus(Field::MERSENNE);
 
 impl Modulus {
-    /// Primes below `2^61`, the largest first, without end for all practical purposes.
+    /// Primes below `2^61`, the largest first, practically without end.
     pub(super) fn primes() -> impl Iterator<Item = Self> {
         all_fields().map(Self)
     }
@@ -93,7 +93,7 @@ fn trim(c: &mut Vec<u64>) {
 /// `false` proves that `divisor` does not divide `p` over the integers.
 pub(super) fn may_divide(divisor: &IntPoly, p: &IntPoly) -> bool {
     let d = MERSENNE.reduce(divisor);
-    // a leading coefficient that vanishes modulo p tells nothing
+    // a leading coefficient that vanishes modulo p gives no information
     d.len() != divisor.coefficients().len() || MERSENNE.remainder(MERSENNE.reduce(p), &d).is_empty()
 }
 

@@ -6,15 +6,15 @@ use super::{Dyadic, IntPoly};
 
 /// The number of distinct real roots `x` with `low < x <= high` (Sturm 1829), for any `low <= high`.
 ///
-/// The chain of signed pseudo-remainders is long-winded beside [`real_roots`](super::real_roots); it is here as a check
-/// that shares nothing with it.
+/// The chain of signed pseudo-remainders is slow compared with [`real_roots`](super::real_roots); it serves as an
+/// independent check.
 #[must_use]
 pub fn sturm_count(p: &IntPoly, low: &Dyadic, high: &Dyadic) -> usize {
     let chain = chain(p);
     changes(&chain, low).saturating_sub(changes(&chain, high))
 }
 
-/// The number of distinct real roots, by the signs of the chain at both ends of the line.
+/// The number of distinct real roots, from the signs of the chain at both ends of the line.
 #[must_use]
 pub fn sturm_count_of_line(p: &IntPoly) -> usize {
     let chain = chain(p);

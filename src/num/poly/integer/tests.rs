@@ -113,7 +113,7 @@ fn close_roots_are_told_apart_and_equal_ones_are_not() {
     assert_eq!(isolates(&p), 3);
     let all = complex_roots(&p, 60).unwrap();
     assert_eq!((all.len(), all.iter().filter(|z| z.is_real()).count()), (31, 3));
-    // the same with the two roots moved together, and apart into the plane
+    // the same with the two roots merged, and moved apart into the plane
     let double = &IntPoly::from_i64(&[1, -2, 1]) * &IntPoly::from_i64(&[1, 0, 1]);
     assert_eq!(real_roots(&double).iter().map(RealRoot::multiplicity).collect::<Vec<_>>(), [2]);
     let tiny = |sign: i64| {
@@ -143,7 +143,7 @@ fn random_products_have_the_roots_they_were_made_of() {
         known.sort_unstable();
         let counted: Vec<i64> =
             real_roots(&p).iter().flat_map(|r| vec![r.to_f64() as i64; r.multiplicity()]).collect();
-        // x^2 + 2x + 1 is the one square among the quadratic factors
+        // x^2 + 2x + 1 is the only square among the quadratic factors
         if !no_root.coefficients()[0].is_one() {
             assert_eq!(counted, known);
         }

@@ -53,13 +53,13 @@ fn problem(kinds: &[VariableKind], objective: Objective) -> DimensionalProblem {
     }
 }
 
-/// Everything that can be required at once.
+/// All requirements at once.
 fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
     let mut p = problem(kinds, Objective::WorstConditioning);
     let h = &mut p.requirements.hardware;
     h.joint_diameter = Some(20.0);
     h.platform_housing = Some(Housing::Box(Vector3::new(30.0, 25.0, 10.0)));
-    // two joints are of their own kind
+    // two joints have individual housings
     h.base_joint_housing[2] = Some(Housing::Sphere(34.0));
     h.platform_joint_housing[4] = Some(Housing::Sphere(26.0));
     h.leg_body = Some(LegBody { diameter: 24.0, rod: Some((150.0, 10.0)) });
@@ -123,7 +123,7 @@ fn tilted(p: &DimensionalProblem, follows: bool) -> HeldPose {
     }
 }
 
-/// Plates whose bolts turn with the joints on the base and not on the platform.
+/// Plates whose bolts rotate with the joints on the base but not on the platform.
 fn plates() -> Plates {
     let plate = PlateDesign {
         thickness: 10.0,
@@ -144,8 +144,8 @@ fn plates() -> Plates {
     }
 }
 
-/// The least item of each kind of plates is the margin that `assess` has, and below zero where that is; its gradient is
-/// that of differences for legs beside and inside plates.
+/// The least item of each kind of plates is the margin of `assess`, and negative if that is. Its gradient agrees with
+/// differences for legs beside and inside plates.
 #[test]
 #[ignore = "evidence"]
 fn holes_and_plates_are_those_of_the_margins() {
@@ -187,7 +187,7 @@ fn holes_and_plates_are_those_of_the_margins() {
             let own = margins.iter().filter(|(t, _)| t.kind == kind).map(|(_, x)| *x);
             let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.reserve(kind);
             let value = found[&kind] * size;
-            // a leg whose line runs into a plate is at no distance from it, and the search says how deep it is
+            // a leg whose line runs into a plate has distance zero, and the search gives its depth
             let meets = kind == TermKind::PlateClearance && margin < 0.0;
             if meets && value < margin - 1e-9 * size {
                 inside += 1;
@@ -272,7 +272,7 @@ fn gradients_are_those_of_differences() {
             };
             let (up, down) = (moved(1.0), moved(-1.0));
             for (k, item) in here.items.iter().enumerate() {
-                // mixtures are of the motions at the point, which differences do not keep
+                // mixtures use the motions at the point, which differences do not keep
                 let own = if item.id.1.0 == TermKind::NaturalFrequency { 6 } else { 3 };
                 if item.id.1.0.is_of_platform() && item.id.1.3 >= own {
                     continue;
@@ -299,7 +299,7 @@ fn gradients_are_those_of_differences() {
     }
 }
 
-/// The least item of each kind at a pose says what the margins of `assess` say, as shares of what is asked for.
+/// The least item of each kind at a pose agrees with the margins of `assess`, as shares of the required value.
 #[test]
 fn stiffness_and_frequency_are_those_of_the_margins() {
     let p = crowded(&[VariableKind::Offsets], JointAxes::Home);
@@ -326,8 +326,8 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
     }
 }
 
-/// The widest joints vibrate more slowly than they need to: a frequency between that and the highest one is met at the
-/// price of room, and more than the highest one is in conflict.
+/// The widest joints give a frequency below the possible one. A frequency between that and the highest one is met at
+/// the cost of joint distance, and more than the highest one gives a conflict.
 #[test]
 #[ignore = "evidence"]
 fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
@@ -365,7 +365,7 @@ fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
     let (greatest, s, space) = best(&fastest);
     assert!((greatest / lowest(&s, &space) - 1.0).abs() < 1e-3, "{greatest} {}", lowest(&s, &space));
     assert!(greatest > 1.02 * without, "{greatest} {without}");
-    // half of what can be gained costs room between joints, and is met
+    // half of the possible gain costs distance between joints, and is met
     let asked = 0.5 * (greatest + without);
     p.requirements.platform_stiffness =
         Some(PlatformStiffness { natural_frequency: Some(asked), ..PlatformStiffness::default() });
@@ -374,7 +374,7 @@ fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
     assert!(less < spacing, "{less} {spacing}");
     let assessment = assess(&s.manipulator, &p.requirements, &space, &AssessOptions::default());
     assert!(assessment.all_met(), "{assessment:?}");
-    // more than the greatest one is refused with the frequency in the conflict
+    // more than the greatest one is refused, with the frequency in the conflict
     p.requirements.platform_stiffness =
         Some(PlatformStiffness { natural_frequency: Some(1.1 * greatest), ..PlatformStiffness::default() });
     let report = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
@@ -413,7 +413,7 @@ fn convex_forms_are_exact_far_from_the_point() {
 
 #[test]
 fn clusters_of_singular_values_bound_the_objective_to_first_order() {
-    // at home of a regular design singular values coincide: the cone has the slope of every direction, a gradient has
+    // at home of a regular design singular values coincide: the cone has the slope of every direction, a gradient does
     // not
     let p = problem(&[VariableKind::Offsets], Objective::SmallestSingularValue);
     let model = Model::new(&p).unwrap();
@@ -432,7 +432,7 @@ fn the_smallest_cap_is_that_of_two_or_three_directions() {
             (0..n).map(|_| (centre + Vector3::from_fn(|_, _| 0.3 * rng.normal())).normalize()).collect();
         let (axis, cos) = smallest_cap(&directions).unwrap();
         assert!(directions.iter().all(|u| axis.dot(u) >= cos - 1e-13));
-        // no axis near does better: the least cosine is concave where it is positive
+        // no nearby axis is better: the least cosine is concave where it is positive
         for _ in 0..200 {
             let other = (axis + Vector3::from_fn(|_, _| 0.01 * rng.normal())).normalize();
             assert!(directions.iter().map(|u| other.dot(u)).fold(f64::INFINITY, f64::min) <= cos + 1e-13);
@@ -448,8 +448,8 @@ fn quick() -> ShapeSearchOptions {
 
 #[test]
 fn height_of_least_stroke_is_the_one_on_paper() {
-    // vertical travel of half width w about a height h over legs of horizontal reach r: the stroke
-    // sqrt(r^2 + (h+w)^2) - sqrt(r^2 + (h-w)^2) grows with h, so that the least length decides
+    // vertical travel of half width w about a height h, over legs of horizontal reach r: the stroke sqrt(r^2 +
+    // (h+w)^2) - sqrt(r^2 + (h-w)^2) grows with h, so the least length decides.
     let mut p = problem(&[VariableKind::HomeHeight], Objective::Stroke);
     p.requirements.min_joint_distance = None;
     p.space.translation = Vector3::new(0.0, 0.0, 20.0);
@@ -544,7 +544,7 @@ fn units_and_frames_do_not_change_the_answer() {
     let home = &mut other.space.home;
     *home = Pose { rotation: turn * home.rotation, position: (turn * home.position + shift) * scale };
     other.space.translation *= scale;
-    // the half widths are along axes of the base frame: only the sphere and rotations about z would turn with it
+    // the half widths are along axes of the base frame: only the sphere and rotations about z rotate with it
     other.space.translation = Vector3::repeat(0.02);
     other.space.rotation_deg = Vector3::zeros();
     let mut same = p.clone();
@@ -593,8 +593,7 @@ fn families_of_an_octahedral_design_are_its_offsets() {
     assert!((own - det).abs() < 1e-9 && det.abs() > 1e-3, "{own} {det}");
 }
 
-/// Distances of joints and room in envelopes, with a housing of its own at every joint, are the margins that `assess`
-/// has.
+/// Distances of joints and in envelopes, with an individual housing at every joint, are the margins of `assess`.
 #[test]
 fn housings_of_single_joints_are_those_of_the_margins() {
     let mut p = crowded(&[VariableKind::Offsets, VariableKind::Triangles], JointAxes::Home);
@@ -638,7 +637,7 @@ fn housings_of_single_joints_are_those_of_the_margins() {
     }
 }
 
-/// The functions of the angles of universal joints have the sign of the margins that `assess` has.
+/// The functions of the angles of universal joints have the sign of the margins of `assess`.
 #[test]
 fn angles_of_universal_joints_are_those_of_the_margins() {
     let first_axes =
@@ -669,7 +668,7 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
                 assert_eq!(item.value > 0.0, margin > 0.0, "{kind:?} {leg}");
                 signs[usize::from(margin > 0.0)] += 1;
             } else {
-                // both sides hold where the margin is positive
+                // both sides hold if the margin is positive
                 assert!(item.value > 0.0 || margin < 0.0, "{kind:?} {leg}");
             }
         });
@@ -677,7 +676,7 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
     assert!(signs[0] > 0 && signs[1] > 0, "{signs:?}");
 }
 
-/// What is computed for one requirement is what it is among all.
+/// A requirement computed alone has the same value as among all.
 #[test]
 fn one_requirement_has_the_value_it_has_among_all() {
     let p = crowded(&[VariableKind::Offsets, VariableKind::HomeHeight], JointAxes::Home);

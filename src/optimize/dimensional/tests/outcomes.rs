@@ -1,4 +1,4 @@
-//! What comes out: conflicts, levels, fronts, refusals.
+//! Outcomes of the search: conflicts, levels, fronts, refusals.
 
 use std::ops::ControlFlow;
 
@@ -18,7 +18,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     p.requirements.min_joint_distance = None;
     p.space.translation = Vector3::new(0.0, 0.0, 20.0);
     p.space.rotation_deg = Vector3::zeros();
-    // a stroke of 10 for a travel of 40; swing takes no part
+    // a stroke of 10 for a travel of 40; joint angles have no influence
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0));
     p.requirements.hardware.base_swing = Some(Swing::of_all(80.0, JointAxes::Home));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
@@ -31,7 +31,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     let excess = (reach * reach + (low + 40.0).powi(2)).sqrt() - 260.0;
     let give = conflict.demands[1].alone.unwrap();
     assert!((give - excess).abs() < 1e-2, "{give} {excess}");
-    // each is in the way of the other, though the least sum lets only some of them give
+    // each conflicts with the other, though the least sum relaxes only some of them
     assert!(conflict.demands.iter().all(|g| g.alone.is_some_and(|x| x > 0.0)), "{conflict:?}");
     assert!(conflict.demands.iter().any(|g| g.together > 0.0), "{conflict:?}");
     for g in &conflict.demands {
@@ -40,7 +40,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
             assert!(g.alone.unwrap() <= g.together, "the least sum shows a smaller amount: {conflict:?}");
         }
     }
-    // negative control: with that much more room there is no conflict
+    // negative control: with this additional stroke there is no conflict
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0 + excess + 0.01));
     assert!(optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap().solution().is_some());
 }
@@ -59,7 +59,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
         crate::dimensional::conflict::proved_empty(&model, &model.first_poses(), &x, &[group], &everything(1))
     };
     assert!(proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
-    // spacing is not convex: nothing is proved about it
+    // spacing is not convex, so nothing is proved about it
     assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseSpacing)));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
@@ -94,11 +94,11 @@ fn an_interrupted_front_says_so_and_has_what_was_found() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
     p.objectives.push((Objective::Stroke, 1.0));
-    // told to end at the given number of calls, counted among those of the sweep when `sweep` is set
+    // stopped at the given number of calls, counted in the sweep if `sweep` is set
     let stopped = |after: usize, sweep: bool| {
         let mut calls = 0;
         let found = pareto(&p, 4, &quick(), &mut |now| {
-            // the searches before polish batches of fewer runs than the sweep has steps
+            // the earlier searches polish batches of fewer runs than the sweep has steps
             calls += usize::from(!sweep || (now.stage == Stage::Polishing && now.total == 4));
             if calls > after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -148,8 +148,8 @@ fn what_cannot_be_asked_is_refused() {
     assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
 }
 
-/// An octahedral hexapod whose legs are longest with the joints near the corners, and must be longer than they are on
-/// the way between.
+/// An octahedral hexagon whose legs are longest with the joints near the corners, and must be longer than they are in
+/// between.
 fn long_struts(limits: LengthLimits) -> DimensionalProblem {
     let corner = |r: f64, k: f64| {
         let (s, c) = (std::f64::consts::TAU * k / 3.0).sin_cos();
@@ -176,8 +176,7 @@ fn long_struts(limits: LengthLimits) -> DimensionalProblem {
 #[ignore = "evidence"]
 fn what_other_starts_can_meet_is_no_conflict() {
     let p = long_struts(LengthLimits::Range(24.0, 33.0));
-    // the compromise of both has joints in the middle of sides, where the least length has a saddle and climbs do not
-    // leave
+    // the compromise has joints in the middle of sides, where the least length has a saddle that climbs do not leave
     let model = Model::new(&p).unwrap();
     let others =
         [TermKind::LegTooLong, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(ConstraintGroup::Term);
@@ -194,7 +193,7 @@ fn what_other_starts_can_meet_is_no_conflict() {
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
     assert_eq!(kinds, [TermKind::LegTooShort, TermKind::LegTooLong].map(Demand::Requirement));
-    // each of them alone can be met
+    // each of them alone is feasible
     for limits in [LengthLimits::Range(24.0, 100.0), LengthLimits::Range(1.0, 33.0)] {
         let found =
             optimize(&long_struts(limits), &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
@@ -202,8 +201,8 @@ fn what_other_starts_can_meet_is_no_conflict() {
     }
 }
 
-/// An end of the search that is asked for while a conflict is looked for leaves no conflict behind: what was not tried
-/// to its end shows nothing.
+/// A search interrupted during the search for a conflict reports no conflict, since an incomplete attempt shows
+/// nothing.
 #[test]
 fn a_search_that_is_told_to_end_names_no_conflict() {
     let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
@@ -214,14 +213,14 @@ fn a_search_that_is_told_to_end_names_no_conflict() {
     });
     let ended = ended.unwrap();
     assert!(ended.interrupted && matches!(ended.outcome, DimensionalOutcome::Undecided(_)), "{ended:?}");
-    // and the least violation found is there
+    // and it returns the least violation found
     assert!(ended.nearest.is_some());
-    // negative control: without an end there is a conflict
+    // negative control: without the interruption there is a conflict
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(matches!(found.outcome, DimensionalOutcome::Infeasible(_)), "{found:?}");
 }
 
-/// Climbs that all lead to one end are enough when there are eight, and never where each leads to an end of its own.
+/// Eight climbs with a single end are enough; climbs with all different ends never are.
 #[test]
 fn climbs_are_enough_when_their_ends_repeat() {
     let first = |ends: usize| (1..1000).find(|n| expects_no_other(*n, ends));

@@ -1,7 +1,7 @@
 //! Functions that are affine in every offset: determinants, whose greatest values on a box are at its corners.
 //!
-//! With rows `N_i(t_i)` (direction and moment of leg `i`, not divided by its length `l_i`) affine in `t_i`,
-//! `J = diag(1 / l_i) N`. For any vectors `x`, `y` by Cramer's rule
+//! The rows `N_i(t_i)` are direction and moment of leg `i`, affine in `t_i` since they are not divided by its length
+//! `l_i`. Then `J = diag(1 / l_i) N`. For any vectors `x`, `y` by Cramer's rule
 //!
 //! ```text
 //! y^T J^-1 x = (1 / det N) sum_i x_i l_i(t_i) C_i,      C_i = det N with row i replaced by y,
@@ -14,11 +14,11 @@
 //! |x| |y| |det N| - g sigma_1 (+-) sum_i x_i l_i C_i >= 0.
 //! ```
 //!
-//! `det N` and `C_i` are affine in every offset; `l_i` is convex: its chord minus at most the greatest distance from
-//! it; `sigma_1` is at least a number on the box. `|det N|` is convex in every offset alone and hence nowhere above the
-//! function that is affine in every offset and agrees with it at the corners. What results is affine in every offset,
-//! and so is every combination with multipliers: its greatest value is at one of the 64 corners, however the functions
-//! share offsets.
+//! `det N` and `C_i` are affine in every offset. `l_i` is convex and at least its chord minus the greatest distance
+//! from it; `sigma_1` has a lower bound on the box. `|det N|` is convex in every offset alone. It is hence nowhere
+//! above the function that is affine in every offset and agrees with it at the corners. The resulting function is
+//! affine in every offset, and so is every combination with multipliers. Its greatest value is at one of the 64
+//! corners, even if the functions share offsets.
 
 use nalgebra::Matrix6;
 
@@ -34,10 +34,10 @@ fn dot(a: &[Real; 6], b: &[Real; 6]) -> Real {
     (1..6).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
 }
 
-/// Corners of a box; bit `i` of the number tells the end of offset `i`.
+/// Corners of a box; bit `i` of the number selects the end of offset `i`.
 pub(super) const CORNERS: usize = 64;
 
-/// Values at the corners of a function that is affine in every offset, and not below 0 at offsets which reach the
+/// Values at the corners of a function that is affine in every offset, and non-negative at offsets that reach the
 /// limit.
 pub(super) type AtCorners = [Real; CORNERS];
 
@@ -50,7 +50,7 @@ struct Vectors {
 }
 
 impl Vectors {
-    /// Singular vectors of the least and of the greatest singular value; `None` when the decomposition fails.
+    /// Singular vectors of the least and of the greatest singular value; `None` if the decomposition fails.
     fn of(j: &Matrix6<f64>) -> Option<Self> {
         let svd = bounded_svd(j)?;
         let (u, v_t) = (svd.u?, svd.v_t?);
@@ -67,7 +67,7 @@ impl Vectors {
 /// Three columns.
 type Triple = [usize; 3];
 
-/// All twenty sets of three columns with those that are left and the sign of the expansion by the first three rows.
+/// All twenty sets of three columns with their complements and the sign of the expansion by the first three rows.
 fn triples() -> [(Triple, Triple, bool); 20] {
     let mut out = [([0; 3], [0; 3], false); 20];
     let mut count = 0;
@@ -112,7 +112,7 @@ fn joined(upper: &[Real; 20], lower: &[Real; 20], triples: &[(Triple, Triple, bo
 /// Minors of one half of the rows for the eight corners of its offsets, and with one row replaced.
 struct Half {
     plain: Vec<[Real; 20]>,
-    /// `[corner][replaced row]`; the end of the replaced row does not matter.
+    /// `[corner][replaced row]`; the end of the replaced row is irrelevant.
     replaced: Vec<[[Real; 20]; 3]>,
 }
 
@@ -138,7 +138,7 @@ impl Half {
     }
 }
 
-/// Length of a leg at both ends of the range and a bound of how far the chord is above it between.
+/// Length of a leg at both ends of the range, and a bound of the chord's height above it in between.
 fn lengths(row: &LegRow, (low, high): (f64, f64)) -> Option<([Real; 2], f64)> {
     let (_, _, q) = row.balls();
     let root = |t: f64| -> Option<Real> {
@@ -156,8 +156,8 @@ fn lengths(row: &LegRow, (low, high): (f64, f64)) -> Option<([Real; 2], f64)> {
     Some(([a, b], by_bend.max(0.0)))
 }
 
-/// A ball of which all numbers are at most the length anywhere in the range: `l >= (l_low + l_high - width |rate|) / 2`
-/// by the triangle inequality, or the least distance of the line.
+/// A ball of lower bounds of the length anywhere in the range. It comes from `l >= (l_low + l_high - width |rate|) / 2`
+/// (triangle inequality), or from the least distance of the line.
 fn least_length(q: &[Real; 3], low: f64, high: f64, a: &Real, b: &Real) -> Option<Real> {
     let width = Real::point(high) - Real::point(low);
     let travel = width * q[2].sqrt()?;
@@ -166,7 +166,7 @@ fn least_length(q: &[Real; 3], low: f64, high: f64, a: &Real, b: &Real) -> Optio
     (floor > 0.0).then(|| Real::point(floor))
 }
 
-/// The function of one pose; `None` where nothing can be said.
+/// The function of one pose; `None` if it gives no bound.
 pub(super) fn at_corners(
     rows: &[LegRow; 6],
     plain: &PoseLegs,
@@ -206,7 +206,7 @@ pub(super) fn at_corners(
         }
     }
     let sign = if sum.iter().map(|s| s.centre).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    // what the chords are above the lengths
+    // the excess of the chords over the lengths
     let mut lost = Real::ZERO;
     for i in 0..6 {
         let greatest = parts.iter().map(|p| sign * p[i].centre + p[i].radius).fold(0.0, f64::max).next_up();
@@ -220,7 +220,7 @@ pub(super) fn at_corners(
     if !(scale > f64::MIN_POSITIVE && scale.is_finite()) {
         return None;
     }
-    // a power of two, so that scaling costs nothing
+    // a power of two, so that scaling has no rounding
     let unit = Real::point(2f64.powi(-(scale.log2().floor() as i32)));
     Some(std::array::from_fn(|k| {
         let size = Real { centre: det[k].centre.abs(), radius: det[k].radius };
@@ -243,11 +243,11 @@ fn greatest_singular_value(rows: &[LegRow; 6], v: &Vectors, bounds: &OffsetRange
     (low > 0.0).then_some(low)
 }
 
-/// Parts into which a range is cut for that.
+/// Number of parts of a range for this bound.
 const PARTS: u32 = 4;
 
-/// A lower bound of `z (row . w) / length` on a range: on each part the value in the middle less the rate over the part
-/// times half its width.
+/// A lower bound of `z (row . w) / length` on a range. On each part it is the value in the middle minus the rate over
+/// the part times half its width.
 fn least_along(row: &LegRow, w: &Row, z: Real, (low, high): (f64, f64)) -> Option<f64> {
     let (constant, rate, q) = row.balls();
     let (a, b) = (dot(constant, w), dot(rate, w));
@@ -276,7 +276,7 @@ fn least_along(row: &LegRow, w: &Row, z: Real, (low, high): (f64, f64)) -> Optio
     Some(least)
 }
 
-/// `true` when a combination of the functions is below 0 at all corners, and so on the whole box: proved.
+/// `true` if a combination of the functions is proved negative at all corners, and so on the whole box.
 pub(super) fn excluded(functions: &[AtCorners]) -> bool {
     let values: Vec<[f64; CORNERS]> = functions.iter().map(|f| f.map(|b| b.centre)).collect();
     let Some(mu) = game(&values) else { return false };

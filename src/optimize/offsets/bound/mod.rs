@@ -1,6 +1,6 @@
 //! A proved upper bound of the worst-case inverse condition number over all offsets: branch and bound.
 //!
-//! A box is left out by a proof that no offsets of it reach the value in question.
+//! A box is excluded by a proof that no offsets in it reach the given value.
 
 mod corners;
 mod multipliers;
@@ -22,71 +22,71 @@ use num::parallel::parallel;
 use num::small::bounded_svd;
 use synthesis::sides;
 
-/// What no offsets can exceed.
+/// The proved upper bound over all offsets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "GlobalBoundRecord", transform = num::nullable))]
 pub struct GlobalBound {
-    /// No offsets within the limits reach more.
+    /// No offsets within the limits reach a greater value.
     // of the worst-case inverse condition number, proved in interval arithmetic
     pub upper: f64,
-    /// By how much that is above the solution, relative.
+    /// Relative distance of the bound above the solution.
     // `upper / value - 1`
     pub gap: f64,
-    /// Boxes of offsets that were looked at.
+    /// Number of searched boxes of offsets.
     pub boxes: usize,
 }
 
 impl GlobalBound {
-    /// The same with the gap to the value that was reached in the end.
+    /// The bound with the gap to the final value.
     pub fn above(self, value: Option<f64>) -> Self {
         Self { gap: value.map_or(self.gap, |v| self.upper / v - 1.0), ..self }
     }
 }
 
-/// How far the bound is to be driven.
+/// Effort of the bound.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BoundOptions {
     /// Relative gap to prove.
     pub gap: f64,
-    /// Boxes after which the gap is widened.
+    /// Number of boxes after which the gap is widened.
     pub boxes: usize,
     pub threads: usize,
 }
 
-/// A box of offsets that may still hold something better.
+/// A box of offsets that may still contain a better solution.
 #[derive(Debug, Clone)]
 struct BoundNode {
     bounds: OffsetRanges,
-    /// Poses to look at, the worst of the parent first.
+    /// Poses to evaluate, the worst of the parent first.
     poses: Vec<usize>,
-    /// Halvings it took.
+    /// Number of halvings.
     depth: usize,
 }
 
-/// Boxes looked at side by side; their results are taken over in order, so that threads change nothing.
+/// Number of boxes per batch; their results are taken in order, so threads have no influence.
 const BATCH: usize = 32;
-/// Poses a part of a box inherits.
+/// Number of poses that a part of a box inherits.
 const INHERITED: usize = 80;
-/// Boxes so many halvings down look at all poses once more.
+/// Number of halvings between evaluations at all poses.
 const REVIEW: usize = 8;
-/// Share of the gap asked for that the proof aims at.
+/// Share of the requested gap that the proof aims at.
 const AIM: f64 = 0.999;
-/// Widening of the gap when the boxes are used up, and the share of them that each wider gap gets.
+/// Widening of the gap when the boxes are used up, and the share of boxes for each wider gap.
 const WIDER: f64 = 2.0;
 const MORE: usize = 8;
-/// A proof that took at most this share of the boxes is tried again with a tenth of the gap and as many boxes more.
+/// A proof with at most this share of the boxes is repeated with a tenth of the gap and as many further boxes.
 const EASY: usize = 10;
-/// No bound is claimed beyond this gap.
+/// Greatest claimed gap.
 const WIDEST: f64 = 64.0;
 
-/// Boxes in whose middles all poses are looked at.
+/// Number of boxes with all poses evaluated at their middles.
 const LOOKS: usize = 24;
 
 fn middle(bounds: &OffsetRanges) -> [f64; 6] {
     bounds.map(|(low, high)| f64::midpoint(low, high))
 }
 
-/// The search tree with what it needs of the problem.
+/// The search tree with its data of the problem.
 pub(super) struct Bounding<'a> {
     model: &'a OffsetModel,
     limits: &'a OffsetLimits,
@@ -94,7 +94,7 @@ pub(super) struct Bounding<'a> {
 }
 
 impl<'a> Bounding<'a> {
-    /// `None` when the data do not make intervals.
+    /// `None` if the data give no intervals.
     pub(super) fn new(
         problem: &OffsetProblem,
         model: &'a OffsetModel,
@@ -110,7 +110,7 @@ impl<'a> Bounding<'a> {
         Some(Self { model, limits, poses: poses? })
     }
 
-    /// The bound for the gap asked for, and for a tenth of it where that was easy; see [`Self::prove_once`].
+    /// The bound for the requested gap, and for a tenth of it if that was easy; see [`Self::prove_once`].
     pub(super) fn prove(
         &self,
         boxes: Vec<OffsetRanges>,
@@ -128,7 +128,7 @@ impl<'a> Bounding<'a> {
         let value = improve(&[]).max(value);
         let done = first.boxes;
         let second = self.prove_once(boxes, value, finer, improve, &mut |boxes, open, best| {
-            // a wider gap than the first is no use
+            // a wider gap than the first is useless
             if boxes > easy { ControlFlow::Break(()) } else { tick(done + boxes, open, best) }
         });
         Some(
@@ -138,9 +138,8 @@ impl<'a> Bounding<'a> {
         )
     }
 
-    /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box
-    /// that is kept and answers with the best value known from then on. `None` when `tick` breaks off, or when nothing
-    /// could be proved.
+    /// Lowers the bound to `value (1 + gap)` over the given boxes. `improve` gets the middle of every kept box and
+    /// returns the best known value from then on. `None` if `tick` stops, or if nothing could be proved.
     fn prove_once(
         &self,
         boxes: Vec<OffsetRanges>,
@@ -152,7 +151,7 @@ impl<'a> Bounding<'a> {
         let first = self.telling_poses(&boxes);
         let mut open: Vec<BoundNode> =
             boxes.into_iter().map(|bounds| BoundNode { bounds, poses: first.clone(), depth: 0 }).collect();
-        // a little below, so that rounding does not carry the last step across the gap asked for
+        // slightly below, so that rounding cannot carry the last step across the requested gap
         let (mut gap, mut done, mut budget) = (o.gap * AIM, 0, o.boxes);
         while !open.is_empty() {
             if done >= budget {
@@ -181,7 +180,7 @@ impl<'a> Bounding<'a> {
         Some(GlobalBound { upper, gap: upper / value - 1.0, boxes: done })
     }
 
-    /// The poses to go on with, `None` when the box is excluded.
+    /// The poses to continue with; `None` if the box is excluded.
     fn look(&self, node: &BoundNode, limit: f64) -> Option<Vec<usize>> {
         if self.limits.is_empty(&node.bounds) {
             return None;
@@ -193,7 +192,7 @@ impl<'a> Bounding<'a> {
         if self.poses.len() > INHERITED && (node.depth + 1).is_multiple_of(REVIEW) {
             return Some(self.worst_at(&middle(&node.bounds)));
         }
-        // a pose that refutes the middle belongs into the proofs for the parts
+        // a pose that refutes the middle belongs in the proofs of the parts
         let hint = order.first().copied().unwrap_or(0);
         if let Err((_, pose)) = worst_case_above(&self.model.poses, &middle(&node.bounds), limit, hint)
             && !order.contains(&pose)
@@ -211,7 +210,7 @@ impl<'a> Bounding<'a> {
         order.into_iter().map(|x| x.1).collect()
     }
 
-    /// Poses that are worst in the middles of some of the boxes, most frequent first: a start for the proofs.
+    /// Poses that are worst in the middles of some boxes, most frequent first: a start for the proofs.
     fn telling_poses(&self, boxes: &[OffsetRanges]) -> Vec<usize> {
         let count = self.model.poses.len();
         let mut hits: Vec<(usize, usize)> = (0..count).map(|k| (0, k)).collect();
@@ -240,8 +239,8 @@ impl<'a> Bounding<'a> {
     }
 }
 
-/// Attempts at a proof: poses that are looked at, those of them that take part, those for which vectors are mixed, and
-/// those that take part with determinants. Most boxes need the first only, which costs little.
+/// Attempts at a proof, by numbers of poses: those evaluated, those in the combination, those with mixed vectors, and
+/// those with determinants. Most boxes need only the first, cheap attempt.
 const ATTEMPTS: [(usize, usize, usize, usize); 2] = [(10, 6, 3, 8), (usize::MAX, 30, 20, 14)];
 
 /// The poses of the problem as rows in intervals and the singular vectors that bound the singular values.
@@ -252,9 +251,9 @@ struct EnclosedPose {
 
 /// Vectors that bound the smallest and the largest singular value, and the quotient of these.
 ///
-/// The first of each is the right singular vector. Where another singular value is near, the eigenvectors turn quickly
-/// with the offsets, and one vector bounds to first order only: then the other vector and the two halfway directions
-/// are added, so that the multipliers can mix them.
+/// The first of each is the right singular vector. If another singular value is near, the eigenvectors rotate quickly
+/// with the offsets, and one vector bounds to first order only. The other vector and the two half-way directions are
+/// then added, so that the multipliers can mix them.
 struct Direction {
     ratio: f64,
     low: Vec<[f64; 6]>,
@@ -265,7 +264,7 @@ struct Direction {
 const NEAR: f64 = 1.6;
 
 impl Direction {
-    /// `None` when the decomposition fails.
+    /// `None` if the decomposition fails.
     fn of(j: &Matrix6<f64>) -> Option<Self> {
         let svd = bounded_svd(j)?;
         let v = svd.v_t?;
@@ -291,30 +290,30 @@ impl Direction {
     }
 }
 
-/// What was found out about a box.
+/// The result for a box.
 #[derive(Debug)]
 enum Test {
     /// No offsets of the box reach the limit at all poses: proved.
     Excluded,
-    /// Not shown; the poses worst in the middle come first, for the parts of the box.
+    /// Not proved; the poses that are worst in the middle come first, for the parts of the box.
     Kept(Vec<usize>),
 }
 
-/// A function that is not negative at offsets which reach the limit: pose and the two vectors.
+/// A function that is non-negative at offsets that reach the limit: pose and the two vectors.
 struct Function<'a> {
     pose: usize,
     low: &'a [f64; 6],
     high: &'a [f64; 6],
 }
 
-/// Tries to prove that no offsets in `bounds` have an inverse condition number of `limit` or more at all poses.
+/// Tries to prove that no offsets in `bounds` have an inverse condition number of at least `limit` at all poses.
 ///
 /// For every pose `k` and all vectors, `sigma_6 <= |J v| / |v|` and `sigma_1 >= |J w| / |w|`. If offsets `t` reached
 /// the limit, then `|J_k v_k|^2 / |v_k|^2 - limit^2 |J_k w_k|^2 / |w_k|^2 >= 0` for all `k`. Row `i` of `J_k` depends
-/// on `t_i` alone, so for any multipliers `mu_k >= 0` the sum over `k` is a sum of six functions of one offset each,
-/// and the box is excluded when their greatest values add up to less than 0. `v_k`, `w_k` are the singular vectors in
-/// the middle of the box; the multipliers come from a linear program over samples; both only decide how sharp the proof
-/// is.
+/// only on `t_i`. For any multipliers `mu_k >= 0` the sum over `k` is then a sum of six functions of one offset each.
+/// The box is excluded if their greatest values sum to less than 0. `v_k`, `w_k` are the singular vectors in the middle
+/// of the box, and the multipliers come from a linear program over samples. Both only determine the sharpness of the
+/// proof.
 fn test(
     poses: &[EnclosedPose],
     plain: &[PoseLegs],
@@ -353,7 +352,7 @@ fn excluded(
 ) -> bool {
     let mut functions: Vec<Function<'_>> = Vec::new();
     for (place, (pose, d)) in found.iter().enumerate() {
-        // the first vectors with each of the others; for the worst poses only
+        // the first vectors with each of the others, for the worst poses only
         let more = |list: &[[f64; 6]]| if place < mixed { list.len() } else { 1 };
         let pairs = (0..more(&d.low)).map(|i| (i, 0)).chain((1..more(&d.high)).map(|j| (0, j)));
         functions.extend(pairs.map(|(i, j)| Function { pose: *pose, low: &d.low[i], high: &d.high[j] }));
@@ -375,7 +374,7 @@ fn excluded(
     })
 }
 
-/// In intervals: the greatest values of the sum of the functions with their multipliers add up to less than 0.
+/// Whether the greatest values of the weighted sum of the functions sum to less than 0, in intervals.
 fn proved(poses: &[EnclosedPose], terms: &[(f64, &Function<'_>)], bounds: &OffsetRanges, limit: f64) -> bool {
     let limit = point(limit).square();
     let greatest_of = |i: usize| -> f64 {

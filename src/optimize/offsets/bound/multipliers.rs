@@ -1,28 +1,27 @@
-//! The multipliers that make a sum of greatest values least: a small linear program, by the simplex method on a dense
+//! The multipliers that minimise a sum of greatest values: a small linear program, by the simplex method on a dense
 //! tableau.
 
-/// Offsets at which functions are sampled, for each coordinate.
+/// Number of sampled offsets of each coordinate.
 pub(super) const SAMPLES: usize = 7;
 /// Values of one function of six offsets, a sum of functions of one offset each, at the samples.
 pub(super) type Sampled = [[f64; SAMPLES]; 6];
 
 /// Multipliers below this share of the largest are dropped; any set of multipliers is valid.
 const NEGLIGIBLE: f64 = 1e-4;
-/// Rows of the tableau: every sample but the first of each coordinate, and the bound on the sum.
+/// Rows of the tableau: every sample but the first of each coordinate, and the bound of the sum.
 const ROWS: usize = 6 * (SAMPLES - 1) + 1;
-/// Share of the largest entry by which the right-hand sides are set apart, so that the method does not stall.
+/// Perturbation of the right-hand sides, as a share of the largest entry, so that the method does not stall.
 const APART: f64 = 1e-9;
-/// Share of the largest entry below which an entry is not a pivot, and a cost is not a gain.
+/// Share of the largest entry below which an entry is no pivot, and a cost no gain.
 const SMALL: f64 = 1e-12;
-/// Pivots after which the multipliers reached are taken: any bound is valid, the best one only tighter.
+/// Greatest number of pivots: any multipliers give a valid bound, the best ones only a tighter one.
 const MOST_PIVOTS: usize = 600;
 
-/// Multipliers `mu >= 0`, `sum mu <= 1`, that minimise `sum_i max_j sum_k mu_k samples[k][i][j]`; `None` when the least
+/// Multipliers `mu >= 0`, `sum mu <= 1`, that minimise `sum_i max_j sum_k mu_k samples[k][i][j]`; `None` if the least
 /// value is not below 0.
 ///
-/// With `m_i` for the greatest values and slacks `s_ij = m_i - sum_k mu_k S_kij >= 0` the `m_i` are eliminated by the
-/// first sample of each coordinate, `m_i = s_i0 + sum_k mu_k S_ki0`. What is left has the feasible start `mu = 0`,
-/// `s = 0`.
+/// The greatest values `m_i` have slacks `s_ij = m_i - sum_k mu_k S_kij >= 0`. The first sample of each coordinate
+/// eliminates them by `m_i = s_i0 + sum_k mu_k S_ki0`. The reduced program has the feasible start `mu = 0`, `s = 0`.
 pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
     let n = samples.len();
     let scale = samples.iter().flatten().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -53,10 +52,10 @@ pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
     Some(mu.into_iter().map(|m| if m < NEGLIGIBLE * largest { 0.0 } else { m }).collect())
 }
 
-/// Multipliers `mu >= 0`, `sum mu = 1`, that minimise the greatest of the values `sum_k mu_k values[k][j]`; `None` when
+/// Multipliers `mu >= 0`, `sum mu = 1`, that minimise the greatest of the values `sum_k mu_k values[k][j]`; `None` if
 /// that is not below 0.
 ///
-/// A matrix game (von Neumann 1928): with all values raised above 0, `p = mu / value` maximises `sum p` under
+/// It is a matrix game (von Neumann 1928). With all values raised above 0, `p = mu / value` maximises `sum p` under
 /// `sum_k p_k values[k][j] <= 1`.
 pub(super) fn game<const N: usize>(values: &[[f64; N]]) -> Option<Vec<f64>> {
     let n = values.len();
@@ -103,7 +102,7 @@ pub(super) fn game<const N: usize>(values: &[[f64; N]]) -> Option<Vec<f64>> {
 /// row.
 struct Tableau {
     rows: usize,
-    /// Without the right-hand side, which is one more.
+    /// Number of columns without the right-hand side.
     columns: usize,
     entries: Vec<f64>,
     /// Numbers of the variables: multipliers, then the six first slacks, then the other slacks.

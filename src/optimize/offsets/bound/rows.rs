@@ -19,8 +19,8 @@ fn turned(r: &Matrix3<f64>, v: &Vector) -> Vector {
 
 /// Row `i` of the Jacobian at a pose: `(constant + t rate) / sqrt(q0 + q1 t + q2 t^2)`.
 ///
-/// With `arm = R b` and `line = R b + p - a` affine in `t`, the direction of the row is `line`, its moment
-/// `arm x line / L = arm x (p - a) / L`: one of `arm`, `a` does not depend on `t`, so that the moment is affine too.
+/// `arm = R b` and `line = R b + p - a` are affine in `t`. The direction of the row is `line`, its moment
+/// `arm x line / L = arm x (p - a) / L`. One of `arm` and `a` is independent of `t`, so the moment is affine too.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LegRow {
     constant: [Interval; 6],
@@ -31,10 +31,10 @@ pub(super) struct LegRow {
     balls: Balls,
 }
 
-/// Constant, rate and squared length once more.
+/// Constant, rate and squared length as balls.
 type Balls = ([Real; 6], [Real; 6], [Real; 3]);
 
-/// The same in plain arithmetic, for choices that prove nothing.
+/// The same in plain arithmetic, for choices without proofs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlainRow {
     constant: [f64; 6],
@@ -56,7 +56,7 @@ impl PlainRow {
 }
 
 impl LegRow {
-    /// Everything in design units; `None` when `L` cannot divide.
+    /// The row from data in design units; `None` if `L` is no divisor.
     pub(super) fn new(side: &HexagonSide, pose: &Pose, characteristic_length: f64) -> Option<Self> {
         let r = pose.rotation.matrix();
         let edge = difference(&side.end, &vector(&side.start.coords));
@@ -143,11 +143,11 @@ impl QuadraticQuotient {
     }
 }
 
-/// Parts into which a range of an offset is cut.
+/// Number of parts of a range of an offset.
 const PARTS: u32 = 8;
 
-/// An upper bound of `sum mu f(t)` over `low <= t <= high`: on each part the value in the middle plus the derivative
-/// over the part times half its width (mean value form), in intervals.
+/// An upper bound of `sum mu f(t)` over `low <= t <= high`, in intervals. On each part it is the value in the middle
+/// plus the derivative over the part times half its width (mean value form).
 pub(super) fn greatest(terms: &[(f64, QuadraticQuotient)], (low, high): (f64, f64)) -> f64 {
     let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
     let part = |k: u32| -> Option<f64> {

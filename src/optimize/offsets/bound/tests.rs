@@ -1,4 +1,4 @@
-//! Bounds are never below what is reached, and not far above it.
+//! Bounds are never below reached values, and not far above them.
 
 use std::ops::ControlFlow;
 
@@ -19,7 +19,7 @@ fn offsets(rng: &mut Rng) -> [f64; 6] {
     std::array::from_fn(|_| rng.uniform(-1.0, 2.0))
 }
 
-/// Ranges of a width around offsets, which are not in their middles.
+/// Ranges of a width around offsets, which are off centre.
 fn around(t: &[f64; 6], width: f64, rng: &mut Rng) -> OffsetRanges {
     t.map(|x| {
         let low = x - width * rng.unit();
@@ -51,7 +51,7 @@ fn rows_in_intervals_hold_the_rows_of_the_model() {
             let plain = (constant + t[i] * rate).powi(2) / row.plain().square_at(t[i]);
             let dot: f64 = (0..6).map(|c| j[(i, c)] * v[c]).sum();
             assert!((plain - dot * dot).abs() < 1e-12 * (1.0 + plain));
-            // the range is bounded by a value that is reached nearly
+            // a nearly reached value bounds the range
             let range = (t[i] - 0.05, t[i] + 0.05);
             let top = greatest(&[(2.0, f)], range);
             let seen =
@@ -61,7 +61,7 @@ fn rows_in_intervals_hold_the_rows_of_the_model() {
     }
 }
 
-/// Soundness and sharpness of one test, on boxes that hold offsets with a known value.
+/// Soundness and sharpness of one test, on boxes that contain offsets with a known value.
 #[test]
 fn a_box_that_holds_something_better_is_never_excluded_and_small_ones_below_the_limit_are() {
     let p = problem();
@@ -93,7 +93,7 @@ fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
     let o = OffsetSearchOptions { threads: 2, boxes: 8000, ..OffsetSearchOptions::default() };
     let r = optimize(&p, &o, &mut |_| ControlFlow::Continue(())).unwrap();
     let (bound, value) = (r.bound.unwrap(), r.solution().unwrap().recheck.objective);
-    // few poses leave wide plateaus: the gap asked for is not always reached within the boxes allowed
+    // few poses leave wide plateaus: the requested gap is not always reached within the allowed boxes
     assert!(bound.upper >= value && bound.upper <= value * 1.04, "{bound:?} {value}");
     assert_eq!(matches!(r.outcome, OffsetOutcome::Optimal(_)), bound.gap <= o.gap);
     let m = OffsetModel::new(&p);
@@ -104,13 +104,13 @@ fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
             assert!(worst_case(&m.poses, &t).0 <= bound.upper);
         }
     }
-    // the same, whatever the number of threads
+    // the same for any number of threads
     let one =
         optimize(&p, &OffsetSearchOptions { threads: 1, ..o }, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!((one.bound, one.outcome), (r.bound, r.outcome));
 }
 
-/// From a value that is too low the tree must come upon something better.
+/// From a value that is too low the tree must find a better one.
 #[test]
 fn better_offsets_than_the_value_given_are_come_upon() {
     let p = problem();
@@ -131,8 +131,8 @@ fn better_offsets_than_the_value_given_are_come_upon() {
     assert!(best > start && bound.upper >= best && bound.upper < best * 1.06, "{best} {bound:?}");
 }
 
-/// What the corners say of a function holds between them: at offsets drawn in the box, the function of the theory page
-/// by plain arithmetic is not above the one that is affine in every offset.
+/// Bounds from the corners hold in between. At random offsets in the box, the function of the theory page by plain
+/// arithmetic is at most the affine one.
 #[test]
 fn functions_at_the_corners_are_above_what_they_bound() {
     use super::corners::{CORNERS, at_corners};
@@ -147,7 +147,7 @@ fn functions_at_the_corners_are_above_what_they_bound() {
         let bounds = around(&t, [0.3, 0.05, 1e-3][n % 3], &mut rng);
         let k = n % p.poses.len();
         let reached = m.poses[k].inverse_condition(&t);
-        // offsets that reach the limit have values that are not negative
+        // offsets that reach the limit have non-negative values
         let Some(f) = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * (1.0 - 1e-9)) else {
             continue;
         };
@@ -157,7 +157,7 @@ fn functions_at_the_corners_are_above_what_they_bound() {
         };
         let value: f64 = (0..CORNERS).map(|c| weight(c) * (f[c].centre + f[c].radius)).sum();
         assert!(value >= 0.0, "{n}: {value}");
-        // and a limit well above makes small boxes negative
+        // and a limit well above gives small boxes negative values
         let above = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * 1.05).unwrap();
         sharp += usize::from(n % 3 == 2 && above.iter().all(|b| b.centre + b.radius < 0.0));
     }

@@ -1,4 +1,4 @@
-//! Every topology that can hold a platform, enumerated.
+//! Enumeration of every topology that can hold a platform.
 
 use std::collections::BTreeSet;
 
@@ -7,8 +7,8 @@ use crate::manipulator::Manipulator;
 
 /// A topology with its place in [`catalogue`].
 ///
-/// The number is the place, counted from 1, printed as `T01`; topologies are counted up to exchange of the bodies and
-/// stand here with at least as many base joints as platform joints.
+/// The number is the place, counted from 1, printed as `T01`. Topologies are counted up to exchange of the bodies, and
+/// have at least as many base joints as platform joints here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct NamedTopology {
     number: u8,
@@ -16,7 +16,7 @@ pub struct NamedTopology {
     topology: Topology,
 }
 
-/// What a design is, see [`recognise`].
+/// The result of [`recognise`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recognised {
     /// The topology.
@@ -38,7 +38,7 @@ impl NamedTopology {
         format!("T{:02}", self.number)
     }
 
-    /// Numbers of base and platform joints, with a letter where several topologies share them: `6-5`, `5-4c`.
+    /// Numbers of base and platform joints, with a letter if several topologies share them: `6-5`, `5-4c`.
     #[must_use]
     pub fn name(self) -> String {
         let letter = self.variant.map_or(String::new(), |v| char::from(b'a' + v).to_string());
@@ -53,9 +53,9 @@ impl NamedTopology {
 }
 
 /// All topologies of six legs that are not [always singular](Topology::always_singular), up to relabelling and exchange
-/// of base and platform, the one without shared joints first, those with fewest joints last.
+/// of base and platform. The one without shared joints is first, those with fewest joints are last.
 ///
-/// Takes milliseconds; the order never changes. Porta and Thomas count 34.
+/// The enumeration takes milliseconds, in a fixed order. Porta and Thomas count 34.
 #[must_use]
 pub fn catalogue() -> Vec<NamedTopology> {
     let mut found = BTreeSet::new();
@@ -63,7 +63,7 @@ pub fn catalogue() -> Vec<NamedTopology> {
         each_partition(&mut [0; 6], 1, 1, &mut |platform| {
             let wide = (base, platform.map(usize::from));
             let joints = |x: &[usize; 6]| 1 + x.iter().max().copied().unwrap_or(0);
-            // exchange puts the body with more joints on the base
+            // the exchange puts the body with more joints on the base
             if joints(&wide.0) >= joints(&wide.1) && holds(wide.0, wide.1) {
                 let topology = Topology::of_legs(wide.0, wide.1);
                 found.insert(standing(topology));
@@ -82,10 +82,10 @@ pub fn catalogue() -> Vec<NamedTopology> {
     found.iter().enumerate().map(name).collect()
 }
 
-/// Which of the [`catalogue`] a design is.
+/// The entry of a design in the [`catalogue`].
 ///
 /// # Errors
-/// [`AlwaysSingular`] when it is none, for the reason given.
+/// [`AlwaysSingular`] with the reason, if it is not in the catalogue.
 pub fn recognise(m: &Manipulator) -> Result<Recognised, AlwaysSingular> {
     let topology = Topology::of_manipulator(m);
     if let Some(why) = topology.always_singular() {
@@ -98,19 +98,19 @@ pub fn recognise(m: &Manipulator) -> Result<Recognised, AlwaysSingular> {
     Ok(Recognised { topology: named, exchanged: upright != topology })
 }
 
-/// The orientation of the catalogue: more joints on the base, else the lesser graph.
+/// The orientation of the catalogue: more joints on the base, otherwise the lesser graph.
 fn standing(t: Topology) -> Topology {
     let other = t.exchanged();
     let key = |t: &Topology| (t.platform_joints(), *t);
     if key(&other) < key(&t) { other } else { t }
 }
 
-/// Asked before the graph is brought into its least form, which takes longer.
+/// Tested before the graph is reduced to its least form, which takes longer.
 fn holds(base: [usize; 6], platform: [usize; 6]) -> bool {
     Topology::unordered(base, platform).always_singular().is_none()
 }
 
-/// One way to share joints on one body for every partition of the number six.
+/// One pattern of shared joints on one body for every partition of the number six.
 fn shapes() -> Vec<[usize; 6]> {
     let mut out: Vec<[usize; 6]> = Vec::new();
     each_partition(&mut [0; 6], 1, 1, &mut |p| {
@@ -123,7 +123,7 @@ fn shapes() -> Vec<[usize; 6]> {
     out
 }
 
-/// Visits every partition of six legs into joints, joints numbered as they appear.
+/// Visits every partition of six legs into joints, numbered in order of appearance.
 fn each_partition(joint: &mut [u8; 6], leg: usize, used: u8, visit: &mut impl FnMut([u8; 6])) {
     if leg == 6 {
         visit(*joint);

@@ -1,4 +1,4 @@
-//! The catalogue against exact ranks.
+//! The catalogue compared with exact ranks.
 
 use super::*;
 use nalgebra::Point3;
@@ -8,7 +8,7 @@ const PRIME: i128 = (1 << 61) - 1;
 
 /// Rank of the six leg lines modulo a prime, joints at random integer points, all in one frame.
 ///
-/// Six modulo a prime is six over the rationals.
+/// Rank six modulo a prime implies rank six over the rationals.
 fn rank_of_lines(base: [usize; 6], platform: [usize; 6], seed: u64) -> usize {
     let rng = &mut Rng::new(seed);
     let mut joints = || [(); 6].map(|()| [(); 3].map(|()| i128::from(rng.next_u64() >> 44)));
@@ -53,7 +53,7 @@ fn there_are_34_topologies_that_can_hold_a_platform() {
     }
 }
 
-/// The conditions are exactly those under which the leg lines have rank six somewhere.
+/// The conditions hold exactly if the leg lines have rank six somewhere.
 #[test]
 fn topologies_are_in_the_catalogue_if_and_only_if_some_platform_is_not_singular() {
     let known: BTreeSet<Topology> = catalogue().into_iter().map(NamedTopology::topology).collect();

@@ -1,4 +1,4 @@
-//! A platform the search ends with: its margins, and the climb of the worst of them.
+//! A platform from the search: its margins, and the ascent of the worst of them.
 //!
 //! The worst margin is not smooth where two margins are equal.
 
@@ -24,7 +24,7 @@ pub(super) struct Scorer<'a> {
 }
 
 impl Scorer<'_> {
-    /// The smallest slack at the parameters; `-infinity` where a leg does not exist.
+    /// The smallest slack at the parameters; `-infinity` if a leg does not exist.
     pub(super) fn worst(&self, x: &[f64]) -> Result<f64, LinalgError> {
         let Some(legs) = self.pool.legs(self.pattern, x)? else { return Ok(f64::NEG_INFINITY) };
         Ok(worst(&self.margins(&legs)))
@@ -56,8 +56,8 @@ impl Scorer<'_> {
         (0..6).flat_map(|j| (0..j).map(move |i| (i, j)))
     }
 
-    /// Smallest distance of two joints of one body; joints that are one in the whole pattern are left out unless none
-    /// may be shared.
+    /// Smallest distance of two joints of one body. Joints shared in the whole pattern are left out unless sharing is
+    /// forbidden.
     fn spacing(&self, legs: &[Leg; 6]) -> f64 {
         let all = self.wishes.no_shared_joints && self.pattern.shared == 0;
         let mut least = f64::MAX;
@@ -72,7 +72,7 @@ impl Scorer<'_> {
         least
     }
 
-    /// Smallest distance of two legs that share no joint, at all poses.
+    /// Smallest distance of two legs without a shared joint, at all poses.
     fn clearance(&self, legs: &[Leg; 6]) -> f64 {
         let mut least = f64::MAX;
         for pose in &self.wishes.poses {
@@ -101,20 +101,19 @@ impl Scorer<'_> {
     }
 }
 
-/// The smallest slack. The reach is a limit, nothing that is better the larger it is: it counts only where it is
-/// missed.
+/// The smallest slack. The reach is a limit and not an objective: it counts only if it is exceeded.
 pub(super) fn worst(margins: &[WishMargin]) -> f64 {
     let counts = |m: &&WishMargin| m.wish != Wish::Reach || m.slack < 0.0;
     margins.iter().filter(counts).map(|m| m.slack).fold(f64::INFINITY, f64::min)
 }
 
-/// First step in every parameter; the families are written so that joints are parameters 0 and 1 apart.
+/// First step in every parameter; the families are parametrised so that joints are at the parameters 0 and 1.
 const FIRST_STEP: f64 = 0.25;
 /// The climb ends below this step.
 const LAST_STEP: f64 = 1e-6;
 
-/// Compass search: steps along the parameters and along random directions, halved when none helps. The value never
-/// falls.
+/// Compass search: steps along the parameters and along random directions, halved if none improves the value. The value
+/// never falls.
 pub(super) fn climb(
     scorer: &Scorer,
     start: Vec<f64>,
@@ -130,7 +129,7 @@ pub(super) fn climb(
             let direction: Vec<f64> = if k < n {
                 (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect()
             } else {
-                // at a ridge, where two margins are equal, the parameters one by one do not climb
+                // at a ridge of two equal margins, steps in single parameters do not improve the worst one
                 (0..n).map(|_| rng.normal() / (n as f64).sqrt()).collect()
             };
             for sign in [1.0, -1.0] {
@@ -151,7 +150,7 @@ pub(super) fn climb(
     Ok(best)
 }
 
-/// Where a leg comes from.
+/// The origin of a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LegSource {
     /// It is a leg of the given platform.
@@ -169,7 +168,7 @@ pub enum LegSource {
 pub struct Placement {
     /// The leg it replaces, whose number it has.
     pub leg: LegIndex,
-    /// Where it comes from; never `Kept`.
+    /// Its origin; never `Kept`.
     pub source: LegSource,
     /// Its parameters there.
     pub parameters: Vec<f64>,
@@ -182,22 +181,22 @@ pub struct Candidate {
     pub assembled: Assembled,
     /// The map from the given platform.
     pub map: LegMapOutcome,
-    /// The legs that are not where they were.
+    /// The legs at other places.
     pub placements: Vec<Placement>,
-    /// Every wish with its number, recomputed on the joints as they are written.
+    /// Every requirement with its number, recomputed on the joints as written.
     pub margins: Vec<WishMargin>,
     /// The smallest slack.
     pub worst: f64,
-    /// Whether every wish is fulfilled.
+    /// Whether every requirement is met.
     pub fulfilled: bool,
     /// Joints that carry two legs or more.
     pub shared_joints: usize,
 }
 
 impl Candidate {
-    /// Whether the other one is not worth a place beside this one: the same legs within a thousandth of the size or,
-    /// where no hole tells the places of a body apart, a platform with the same distances between joints and the same
-    /// lengths at home (a symmetry of the design takes one to the other).
+    /// Whether the other platform repeats this one: it has the same legs within a thousandth of the size. Without holes
+    /// that distinguish the places of a body, equal distances between joints and equal home lengths suffice (a symmetry
+    /// of the design).
     pub(super) fn repeats(&self, other: &Self, wishes: &Wishes, size: f64) -> bool {
         let limit = 1e-3 * size;
         let near = |a: &Leg, b: &Leg| (a.base - b.base).norm().max((a.platform - b.platform).norm()) <= limit;
@@ -224,7 +223,7 @@ fn distances(legs: &[Leg; 6], pose: &Pose) -> Vec<f64> {
     lists.concat()
 }
 
-/// The platform at the parameters; `None` when it is none, or singular.
+/// The platform at the parameters; `None` if it does not exist or is singular.
 pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>, LinalgError> {
     let Some(legs) = scorer.pool.legs(scorer.pattern, x)? else { return Ok(None) };
     let rows = legs.map(|l| scorer.found.span.coefficients(&l));
@@ -261,9 +260,9 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
     Ok(Some(Candidate { assembled, map, placements, margins, worst: least, fulfilled, shared_joints }))
 }
 
-/// A number for each row: kept legs have theirs, the others those that make the product of `|A_ri|` as large as
-/// possible, legs for named joints among theirs. A regular matrix has a product that is not zero (Leibniz' formula), so
-/// that each leg can replace the one whose number it gets.
+/// A number for each row. Kept legs have theirs; the others get those with the greatest product of `|A_ri|`, and legs
+/// for named joints choose among theirs. A regular matrix has a nonzero product (Leibniz' formula), so each leg can
+/// replace the one with its number.
 fn numbering(scorer: &Scorer, a: &Matrix6<f64>) -> Option<[LegIndex; 6]> {
     let allowed = |row: usize, leg: LegIndex| match scorer.pool.places[scorer.pattern.places[row]].source {
         LegSource::Kept(own) => own == leg,

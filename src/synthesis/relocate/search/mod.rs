@@ -1,15 +1,15 @@
-//! Equivalent platforms that fulfil wishes.
+//! Equivalent platforms that meet requirements.
 //!
-//! A platform equivalent to `m` is six independent replaceable legs. Each is a leg of `m` that stays, a leg of a
-//! family, or a leg through a hole. Which of them can stand together is decided once for every *pattern* (how many legs
-//! from where) at generic parameters; in the patterns left the parameters are chosen so that the worst margin of all
-//! wishes is as large as possible, from several starts.
+//! A platform equivalent to `m` is six independent replaceable legs. Each is a kept leg of `m`, a leg of a family, or a
+//! leg through a hole. A *pattern* states the number of legs from each origin. Generic parameters decide once which
+//! patterns are independent. In these the parameters maximise the worst margin of all requirements, from several
+//! starts.
 //!
-//! What is proved, by ranks of rational numbers and by counting the legs whose vectors span a family: that no
-//! replaceable leg ends at a hole, that all its partners are at infinity, that legs there replace none of those named,
-//! and, when every replaceable leg and every pattern is known exactly, the least number of shared joints. Floating
-//! point chooses what to look at; where it alone leaves something out the verdict is `Undecided`. That no platform with
-//! a spacing or clearance was found proves nothing.
+//! Proofs use ranks of rational numbers and counts of legs whose vectors span a family. They show that no replaceable
+//! leg ends at a hole, all its partners are at infinity, or legs there replace none of the named ones. If every
+//! replaceable leg and every pattern is known exactly, they also show the least number of shared joints. Floating point
+//! chooses the search; if it alone excludes something, the verdict is `Undecided`. A search without a result for a
+//! spacing or clearance proves nothing.
 
 mod candidate;
 mod pool;
@@ -31,18 +31,18 @@ use num::linalg::LinalgError;
 use platform::manipulator::Manipulator;
 use pool::LegPool;
 
-/// How long to search.
+/// Effort of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MoveSearchOptions {
     /// Seed of all random numbers.
     pub seed: u64,
     /// Random parameters tried in every pattern.
     pub samples: usize,
-    /// Starts from which the worst margin is climbed.
+    /// Starts of ascents of the worst margin.
     pub starts: usize,
-    /// Evaluations of the margins in every climb.
+    /// Evaluations of the margins in every ascent.
     pub evaluations: usize,
-    /// Platforms listed.
+    /// Number of listed platforms.
     pub count: usize,
 }
 
@@ -53,7 +53,7 @@ impl Default for MoveSearchOptions {
     }
 }
 
-/// Why there is nothing to search.
+/// Reasons why there is nothing to search.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SearchError {
@@ -62,18 +62,18 @@ pub enum SearchError {
         "the leg vectors have rank {0}: the platform is architecturally singular, and so is every one made of its legs"
     )]
     Dependent(usize),
-    /// The exact leg vectors are independent, and dependent within the tolerance of the search.
+    /// The exact leg vectors are independent, but dependent within the tolerance of the search.
     #[error(
         "the platform is regular, but its leg vectors have rank {0} within the tolerance: the search does not tell it from a singular one"
     )]
     NearlyDependent(usize),
-    /// No pose to look at.
+    /// There is no pose.
     #[error("no pose is given at which the legs are looked at")]
     NoPoses,
     /// A limit is negative or not finite.
     #[error("{what} is {value}, not a number of 0 or more")]
     Limit {
-        /// `"spacing"` and so on.
+        /// The name, for instance `"spacing"`.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -83,14 +83,14 @@ pub enum SearchError {
     Linalg(#[from] LinalgError),
 }
 
-/// Why no equivalent platform fulfils the wishes.
+/// The reason why no equivalent platform meets the requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Impossibility {
     /// No replaceable leg ends at the hole (index): exactly, and not within the tolerance either.
     NoLegAtHole(usize),
     /// The partners of the hole are all at infinity.
     PartnersAtInfinity(usize),
-    /// The squared length of a leg at the hole (index) does not depend on any of the legs that were named for it.
+    /// The squared length of a leg at the hole (index) does not depend on any of the legs named for it.
     NotByThoseLegs(usize),
     /// Six independent replaceable legs have at least this many shared joints.
     SharedJoints(usize),
@@ -112,12 +112,12 @@ impl Impossibility {
     }
 }
 
-/// What the search came to.
+/// The verdict of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SearchVerdict {
-    /// At least one platform fulfils every wish.
+    /// At least one platform meets every requirement.
     Found,
-    /// None does: proved.
+    /// Proved: no platform does.
     Impossible(Impossibility),
     /// None was found.
     Undecided,
@@ -128,23 +128,23 @@ pub enum SearchVerdict {
 pub struct SearchOutcome {
     /// The verdict.
     pub verdict: SearchVerdict,
-    /// The best platforms, best first; with another verdict than `Found` they miss a wish.
+    /// The best platforms, best first; without the verdict `Found` they miss a requirement.
     pub candidates: Vec<Candidate>,
-    /// What can end at each hole.
+    /// The possible legs at each hole.
     pub holes: Vec<JudgedHole>,
     /// Patterns that are independent at generic parameters and reach all holes.
     pub patterns: usize,
-    /// Those among them that were searched.
+    /// The searched patterns among them.
     pub searched: usize,
-    /// The fewest shared joints of a pattern; `None` when there is no pattern.
+    /// The fewest shared joints of a pattern; `None` without a pattern.
     pub least_shared: Option<usize>,
     /// Whether every replaceable leg is known, so that counts over the patterns are proofs.
     pub complete: bool,
-    /// The wishes with the limits used.
+    /// The requirements with the limits used.
     pub wishes: Wishes,
 }
 
-/// Looks for platforms equivalent to `m` that fulfil the wishes; `found` are its families.
+/// Searches for platforms equivalent to `m` that meet the requirements; `found` are its families.
 ///
 /// # Errors
 /// [`SearchError`].
@@ -183,7 +183,7 @@ pub fn search(
         }
         return Ok(outcome);
     }
-    // a family no leg of which could be drawn, one far out for instance, is missing in the patterns
+    // if no leg of a family could be drawn, for instance of a distant one, the patterns lack it
     outcome.complete &= pool.drawn;
     let pool::Patterns { mut list, exhaustive } = patterns(&pool, wishes, m.size());
     outcome.complete &= exhaustive;
@@ -210,7 +210,7 @@ pub fn search(
     Ok(outcome)
 }
 
-/// Samples every pattern, climbs from the best samples, and ranks what comes out.
+/// Samples every pattern, starts ascents from the best samples, and ranks the results.
 fn climb_all(
     pool: &LegPool,
     found: &Components,
@@ -233,7 +233,7 @@ fn climb_all(
             }
         }
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
-        // two starts from a pattern, so that one of them may be poor
+        // two starts per pattern, since one of them may be poor
         starts.extend(best.into_iter().take(2));
     }
     starts.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -263,11 +263,11 @@ fn climb_all(
     Ok(kept)
 }
 
-/// Whether the families and the six legs are all replaceable legs there are.
+/// Whether the families and the six legs include every replaceable leg.
 ///
-/// Between a point or a line and any flat every partner is a leg of `m` or in a family that is listed, for two planes
-/// with six legs too, unless the curve has an isolated real point. Five legs between planes and six between a plane and
-/// space can have further single ones.
+/// Between a point or a line and any flat, every partner is a leg of `m` or in a listed family. The same holds for two
+/// planes with six legs, unless the curve has an isolated real point. Five legs between planes and six between a plane
+/// and space can have further single ones.
 fn all_legs_known(found: &Components) -> bool {
     let pairs = found.pairs.iter().enumerate().all(|(k, p)| {
         let low = p.base.min(p.platform);

@@ -1,4 +1,4 @@
-//! The places a leg of an equivalent platform can come from, and the patterns: how many legs come from where, so that
+//! The possible origins of legs of an equivalent platform, and the patterns: numbers of legs from each origin such that
 //! six generic legs are independent.
 
 use super::candidate::LegSource;
@@ -8,24 +8,24 @@ use num::Rng;
 use num::linalg::LinalgError;
 use platform::manipulator::{Body, Leg, LegIndex, Manipulator};
 
-/// A place, with generic legs from it.
+/// An origin, with generic legs from it.
 #[derive(Debug)]
 pub(super) struct LegOrigin {
     pub(super) source: LegSource,
     pub(super) formulas: Parametrisation,
-    /// Holes its legs have an end in.
+    /// Holes that contain an end of its legs.
     fills: Vec<usize>,
-    /// The legs whose vectors span those of its legs, exactly; `None` where that is known within a tolerance only.
+    /// The legs whose vectors span those of its legs, exactly; `None` if known only within a tolerance.
     support: Option<Vec<LegIndex>>,
-    /// Generic legs, as many as the pattern may take from here.
+    /// Generic legs, as many as the pattern may take from this origin.
     pub(super) generic: Vec<(Leg, [f64; 6])>,
 }
 
-/// All of them: the six legs, the largest families, the legs through holes.
+/// All origins: the six legs, the largest families, the legs through holes.
 #[derive(Debug)]
 pub(super) struct LegPool<'a> {
     pub(super) places: Vec<LegOrigin>,
-    /// Whether generic legs of every family were had.
+    /// Whether generic legs of every family could be drawn.
     pub(super) drawn: bool,
     found: &'a Components,
 }
@@ -77,7 +77,7 @@ impl<'a> LegPool<'a> {
                 pool.add(LegSource::Hole(k), formulas.clone(), vec![k], 1, rng)?;
             }
         }
-        // one leg in two holes
+        // one leg with both ends in holes
         for (k, l) in (0..records.len()).flat_map(|k| (0..records.len()).map(move |l| (k, l))) {
             let (a, b) = (&wishes.holes[k], &wishes.holes[l]);
             if a.body != Body::Base || b.body != Body::Platform {
@@ -124,7 +124,7 @@ impl<'a> LegPool<'a> {
         Ok(())
     }
 
-    /// The first hole of which no leg can replace one of those that are named for it.
+    /// The first hole whose legs cannot replace any of the legs named for it.
     pub(super) fn not_by_those_legs(&self, holes: &[Hole]) -> Option<usize> {
         let replaces = |place: &LegOrigin, hole: &Hole| {
             let generic = place.generic.iter();
@@ -148,7 +148,7 @@ impl<'a> LegPool<'a> {
         Ok((0..place.formulas.parameters()).map(|_| rng.uniform(-1.5, 1.5)).collect())
     }
 
-    /// Random parameters of all legs of a pattern, one after another.
+    /// Random parameters of all legs of a pattern, in order.
     pub(super) fn draw(&self, pattern: &JointPattern, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
         let mut x = Vec::new();
         for k in pattern.places {
@@ -165,7 +165,7 @@ impl<'a> LegPool<'a> {
         pattern.places.iter().map(|k| self.places[*k].formulas.parameters()).sum()
     }
 
-    /// The six legs at the parameters; `None` where one of them does not exist.
+    /// The six legs at the parameters; `None` if one of them does not exist.
     pub(super) fn legs(&self, pattern: &JointPattern, x: &[f64]) -> Result<Option<[Leg; 6]>, LinalgError> {
         let mut out = Vec::with_capacity(6);
         let mut at = 0;
@@ -182,34 +182,33 @@ impl<'a> LegPool<'a> {
     }
 }
 
-/// Six places, in the order of the pool.
+/// Six origins, in the order of the pool.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JointPattern {
-    /// Indices of places.
+    /// Indices of origins.
     pub(super) places: [usize; 6],
-    /// Legs that have one base joint whatever the parameters.
+    /// Legs that share a base joint for all parameters.
     pub(super) same_base: [[bool; 6]; 6],
-    /// Likewise on the platform.
+    /// Legs that share a platform joint for all parameters.
     pub(super) same_platform: [[bool; 6]; 6],
     /// Number of joints with two legs or more.
     pub(super) shared: usize,
 }
 
-/// Patterns beyond this number are not looked at, and then nothing is called impossible; no platform known has a tenth
-/// of them.
+/// Greatest number of patterns; beyond it nothing is proved impossible. No known platform has a tenth of it.
 const MOST: usize = 50_000;
-/// A generic leg less than this out of the span of others, of vectors of unit length, depends on them.
+/// Greatest distance of a generic leg from the span of others that counts as dependent, for unit vectors.
 const INDEPENDENT: f64 = 1e-7;
-/// Ends of generic legs nearer than this, relative to the size, are one joint.
+/// Ends of generic legs within this distance, relative to the size, are one joint.
 const SAME: f64 = 1e-8;
 
-/// What was found of the patterns.
+/// The patterns found.
 #[derive(Debug)]
 pub(super) struct Patterns {
-    /// Those that fill every hole.
+    /// Patterns that fill every hole.
     pub(super) list: Vec<JointPattern>,
-    /// Whether there are no others: none was left out by the limit or by floating point alone, and no two joints were
-    /// taken for one by nearness alone.
+    /// Whether the list is complete: neither the limit nor floating point alone excluded a pattern, and no two joints
+    /// were identified by distance alone.
     pub(super) exhaustive: bool,
 }
 
@@ -229,9 +228,9 @@ pub(super) fn patterns(pool: &LegPool, wishes: &Wishes, size: f64) -> Patterns {
     Patterns { list: growing.list, exhaustive: growing.exhaustive }
 }
 
-/// Whether no legs from these places are independent, whatever their parameters: some of them have their vectors in the
-/// span of fewer legs of the platform (the easy half of Rado's theorem on independent transversals, 1942). Exact: no
-/// number is looked at.
+/// Whether legs from these origins are dependent for all parameters: some of them have their vectors in the span of
+/// fewer legs of the platform. This is the easy half of Rado's theorem on independent transversals (1942). The test is
+/// exact, without any numbers.
 fn always_dependent(supports: &[Option<&Vec<LegIndex>>]) -> bool {
     (1..1_u32 << supports.len()).any(|mask| {
         let part: Vec<_> = (0..supports.len()).filter(|i| mask >> i & 1 == 1).map(|i| supports[i]).collect();
@@ -241,7 +240,7 @@ fn always_dependent(supports: &[Option<&Vec<LegIndex>>]) -> bool {
 }
 
 impl Growing<'_> {
-    /// Adds legs from the places `from..` to those chosen; `basis` is orthonormal and spans their coefficient vectors.
+    /// Adds legs from the origins `from..` to those chosen; `basis` is orthonormal and spans their coefficient vectors.
     fn grow(&mut self, from: usize, chosen: &mut Vec<(usize, Leg)>, basis: &mut Vec<[f64; 6]>) {
         if self.list.len() >= MOST {
             self.exhaustive = false;
@@ -290,12 +289,12 @@ impl Growing<'_> {
     }
 }
 
-/// Joints that carry two legs or more: legs that have a later, but no earlier partner.
+/// Joints with two legs or more: legs with a later, but no earlier partner.
 pub(super) fn shared(same: &[[bool; 6]; 6]) -> usize {
     (0..6).filter(|i| same[*i][..*i].iter().all(|x| !x) && same[*i][*i + 1..].iter().any(|x| *x)).count()
 }
 
-/// The unit vector along what sticks out of the span of the basis.
+/// The unit vector of the part outside the span of the basis.
 fn outside(c: &[f64; 6], basis: &[[f64; 6]]) -> Option<[f64; 6]> {
     let norm = |v: &[f64; 6]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let length = norm(c);

@@ -9,7 +9,7 @@ use crate::{LegMapTolerances, leg_map};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Leg, LegIndex, Manipulator, default_home};
 
-/// Four legs in pairs at two platform joints, two others: nothing but the two pairs can be moved.
+/// Four legs in pairs at two platform joints, two others: only the two pairs can be moved.
 fn six_four() -> Manipulator {
     let at = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
     let base = [
@@ -52,7 +52,7 @@ fn asked(m: &Manipulator, wishes: &Wishes) -> SearchOutcome {
     search(m, &found, wishes, &quick()).unwrap()
 }
 
-/// Every candidate is equivalent, by the leg map of the platforms as they are.
+/// Every candidate is equivalent, by the leg map of the platforms as written.
 fn equivalent(m: &Manipulator, outcome: &SearchOutcome) {
     assert!(!outcome.candidates.is_empty());
     for c in &outcome.candidates {
@@ -92,7 +92,7 @@ fn a_joint_free_platform_is_found_and_has_what_it_says() {
     }
     let spacing = best.margins.iter().find(|x| x.wish == Wish::Spacing).unwrap();
     assert!((spacing.value - least).abs() < 1e-12 && least >= w.spacing);
-    // the climb is worth something: the worst margin of a random platform is a fraction of it
+    // the ascent is effective: the worst margin of a random platform is a fraction of it
     assert!(best.worst > 0.02, "{}", best.worst);
 }
 
@@ -146,16 +146,16 @@ fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
     let m = octahedral();
     let mut w = wishes(&m);
     let edge = corner(2.0, 0) + (corner(2.0, 1) - corner(2.0, 0)) * 0.3;
-    // legs 1 and 2 are those of the edge: the new leg can replace leg 1 of them, or leg 2
+    // legs 1 and 2 belong to the edge: the new leg can replace leg 1 or leg 2
     for leg in [0, 1] {
         w.holes = vec![Hole { body: Body::Base, point: edge, legs: vec![LegIndex::new(leg).unwrap()] }];
         let outcome = asked(&m, &w);
         assert_eq!(outcome.verdict, SearchVerdict::Found);
         assert!(outcome.candidates.iter().all(|c| c.assembled.legs[leg].base == edge));
     }
-    // leg 4 has no part in it
+    // leg 4 has no share in it
     w.holes = vec![Hole { body: Body::Base, point: edge, legs: vec![LegIndex::new(3).unwrap()] }];
-    // the hole is on the edge within rounding only: then that is no proof
+    // the hole is on the edge only within rounding, so there is no proof
     assert_eq!(asked(&m, &w).verdict, SearchVerdict::Undecided);
     let whole = |size: f64| vec![Point3::origin(), Point3::new(size, 0.0, 0.0), Point3::new(0.0, size, 1.0)];
     let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
@@ -172,8 +172,7 @@ fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
 
 #[test]
 fn nothing_is_impossible_by_a_tolerance() {
-    // turned by angles that doubles round, the families exist within the tolerance only: what was proved before is
-    // proved no more
+    // rotated by angles that doubles round, the families exist only within the tolerance, and the earlier proofs fail
     let mut rng = num::Rng::new(8);
     for _ in 0..6 {
         let turn = platform::geom::random_rotation(&mut rng);
@@ -221,8 +220,8 @@ fn a_hole_on_a_cubic_has_one_leg() {
 
 #[test]
 fn legs_that_cross_are_moved_apart() {
-    // legs 1 and 4 of a platform without shared joints, moved along the edges until they meet at home, then searched
-    // from there
+    // legs 1 and 4 of a platform without shared joints move along the edges until they meet at home; the search starts
+    // there
     let m = octahedral();
     let mut w = wishes(&m);
     w.clearance = Some(0.05 * m.size());
@@ -233,7 +232,7 @@ fn legs_that_cross_are_moved_apart() {
     let best = &outcome.candidates[0];
     let clearance = best.margins.iter().find(|x| x.wish == Wish::Clearance).unwrap();
     assert!(clearance.value >= w.clearance.unwrap() || outcome.verdict == SearchVerdict::Undecided);
-    // more than there is room for: nothing is claimed
+    // more than there is space for: no claim is made
     w.clearance = Some(100.0 * m.size());
     let outcome = asked(&m, &w);
     assert_eq!(outcome.verdict, SearchVerdict::Undecided);

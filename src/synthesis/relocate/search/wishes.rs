@@ -1,4 +1,4 @@
-//! What is asked of an equivalent platform, and which replaceable legs end at a hole that is asked for.
+//! Requirements of an equivalent platform, and the replaceable legs at a requested hole.
 
 use nalgebra::{Point3, Vector3};
 
@@ -10,25 +10,25 @@ use num::linalg::LinalgError;
 use platform::geom::Pose;
 use platform::manipulator::{Body, LegIndex, Manipulator};
 
-/// A place where a joint has to be.
+/// A required place of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole {
     /// The body it is drilled into.
     pub body: Body,
-    /// Frame of the body, design units.
+    /// Its place, frame of the body, design units.
     pub point: Point3<f64>,
-    /// The new leg there has to be able to replace one of these legs, and is given its number; empty: any leg.
+    /// The new leg there must be able to replace one of these legs, and gets its number; empty: any leg.
     pub legs: Vec<LegIndex>,
 }
 
-/// The wishes. Lengths are in design units.
+/// The requirements of the search. Lengths are in design units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wishes {
     /// Every joint carries one leg.
     pub no_shared_joints: bool,
     /// Smallest distance of two joints of one body.
     pub spacing: f64,
-    /// `Some(d)`: legs that share no joint keep the distance `d` at all poses, as straight segments.
+    /// `Some(d)`: legs without a shared joint keep the distance `d` at all poses, as straight segments.
     pub clearance: Option<f64>,
     /// Places for joints.
     pub holes: Vec<Hole>,
@@ -58,16 +58,16 @@ impl Wishes {
     }
 }
 
-/// One of the wishes.
+/// A requirement of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wish {
-    /// Distance of joints; those that the pattern makes one joint count only when none may be shared.
+    /// Distance of joints; joints shared in the pattern count only if sharing is forbidden.
     Spacing,
     /// Distance of legs.
     Clearance,
     /// Condition of the Jacobian.
     Conditioning,
-    /// How far out the joints are.
+    /// Greatest distance of the joints from the centre.
     Reach,
 }
 
@@ -87,25 +87,25 @@ impl Wish {
     }
 }
 
-/// By how much a wish is fulfilled.
+/// The margin of a requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "WishMarginRecord", transform = num::nullable))]
 pub struct WishMargin {
-    /// Which.
+    /// The requirement.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["spacing", "clearance", "conditioning", "reach"])))]
     pub wish: Wish,
-    /// What the platform has.
+    /// The value of the platform.
     // design units, a ratio for the conditioning
     pub value: f64,
-    /// What is wished.
+    /// The required value.
     // the greatest value for the reach, the least one for the others
     pub required: f64,
-    /// The difference over the size.
-    // of the conditioning as it is; negative where the wish is missed
+    /// The slack: the difference over the size.
+    // for the conditioning the difference itself; negative for a miss
     pub slack: f64,
 }
 
-/// What can end at a hole.
+/// The possible legs at a hole.
 #[derive(Debug, Clone, PartialEq)]
 pub enum HoleAnswer {
     /// Replaceable legs with the other end in a flat of this dimension.
@@ -117,12 +117,12 @@ pub enum HoleAnswer {
     },
     /// All partners are at infinity.
     AtInfinity,
-    /// None.
+    /// There is no replaceable leg.
     None,
 }
 
 impl HoleAnswer {
-    /// The word for it.
+    /// The answer as a word.
     #[must_use]
     pub fn word(&self) -> HoleWord {
         match self {
@@ -133,7 +133,7 @@ impl HoleAnswer {
     }
 }
 
-/// Which legs of equivalent platforms end at a hole.
+/// The legs of equivalent platforms at a hole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -141,37 +141,37 @@ impl HoleAnswer {
     serde(rename_all = "snake_case")
 )]
 pub enum HoleWord {
-    /// Some.
+    /// There are replaceable legs.
     Legs,
-    /// Those with the other end at infinity.
+    /// The other ends are all at infinity.
     AtInfinity,
-    /// None.
+    /// There is no replaceable leg.
     None,
 }
 
-/// A hole and what was decided about it.
+/// A hole with the decision about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JudgedHole {
     /// The hole.
     pub hole: Hole,
     /// The answer within the tolerance.
     pub answer: HoleAnswer,
-    /// The smallest singular value of the equations of the partners (unit equations, unit point); zero when there are
+    /// The smallest singular value of the equations of the partners (unit equations, unit point); zero if there are
     /// partners.
     pub singular_value: f64,
     /// Dimension of the space of homogeneous partners of the hole as written, by exact arithmetic.
     pub exact: Option<usize>,
-    /// Whether all of these are at infinity.
+    /// Whether all of these partners are at infinity.
     exactly_at_infinity: bool,
-    /// Whether they are the partners in combinations of the legs that were not named for the hole: a leg there then
-    /// replaces none of those named. `false` where there are not exact partners.
+    /// Whether they are the partners in combinations of the legs that were not named for the hole. A leg there then
+    /// replaces none of the named ones. `false` without exact partners.
     pub(super) exactly_by_others: bool,
-    /// What counted as zero.
+    /// Threshold for zero.
     pub tolerance: f64,
 }
 
 impl JudgedHole {
-    /// The proof that the wish cannot be fulfilled, if there is one.
+    /// The proof that the requirement cannot be met, if there is one.
     pub(super) fn impossible(&self, index: usize) -> Option<Impossibility> {
         match self.answer {
             HoleAnswer::None if self.exact == Some(0) => Some(Impossibility::NoLegAtHole(index)),
@@ -212,8 +212,8 @@ pub(super) fn records(
     Ok(out)
 }
 
-/// The kernel of the equations `<n_r, alpha (x) beta> = 0`, `n_r` an orthonormal basis of the complement of the span,
-/// `alpha` the hole.
+/// The kernel of the equations `<n_r, alpha (x) beta> = 0`, with an orthonormal basis `n_r` of the complement of the
+/// span and the hole `alpha`.
 fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, f64), LinalgError> {
     let n = span.normalisation();
     let on_base = hole.body == Body::Base;
@@ -235,8 +235,8 @@ fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, 
     if kernel.is_empty() {
         return Ok((HoleAnswer::None, smallest));
     }
-    // the kernel vector that is farthest from infinity, and an orthonormal basis of what is orthogonal to it: its
-    // vectors are directions
+    // the kernel vector farthest from infinity, and an orthonormal basis of its complement, whose vectors are
+    // directions
     let first: Vec<f64> = (0..4).map(|q| kernel.iter().map(|k| k[0] * k[q]).sum()).collect();
     if first[0] <= 1e-12 {
         return Ok((HoleAnswer::AtInfinity, smallest));

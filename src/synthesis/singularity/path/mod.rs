@@ -1,21 +1,20 @@
-//! Joins poses by paths without a singular pose: `det J` along paths, and paths that keep its sign.
+//! Joins poses by paths without singular poses: the sign of `det J` along paths, and paths of constant sign.
 //!
-//! The *straight path* from one pose to another: `p` linear, the quaternion linear (and normalised), that is, the
-//! rotation about the fixed axis of the relative rotation, the short way. On it `det J` is a polynomial of degree 18
-//! over a positive function, so that its sign is proved piece by piece in interval arithmetic. Poses of the same sign
-//! may be joined by other paths ([`join()`]).
+//! The *straight path* between two poses has a linear `p` and a linear, normalised quaternion. It rotates about the
+//! fixed axis of the relative rotation, the short way. On it `det J` is a polynomial of degree 18 over a positive
+//! function, so interval arithmetic proves its sign piece by piece. Poses of the same sign may be joined by other paths
+//! ([`join()`]).
 //!
-//! For the polynomial, with the quaternion `e(u) = (1 - u) e_0 + u e_1` (not normalised) and
-//! `p(u) = (1 - u) p_0 + u p_1` the vectors `N n_i = N R(e) b_i + N (p - a_i)`, `N = e.e`, are cubic forms in
-//! `(1 - u, u)`, and `N^6 det J` is one of degree 18. It is kept by its coefficients `c_k` of `(1 - u)^{18 - k} u^k`,
-//! which multiply like those of ordinary polynomials; `c_k` over the binomial coefficient is the Bernstein coefficient:
-//! when all have one sign the form has it on `[0, 1]`.
+//! Along the path the quaternion is `e(u) = (1 - u) e_0 + u e_1` (unnormalised) and `p(u) = (1 - u) p_0 + u p_1`. With
+//! `N = e.e` the vectors `N n_i = N R(e) b_i + N (p - a_i)` are cubic forms in `(1 - u, u)`. `N^6 det J` is a form of
+//! degree 18. The form is stored by its coefficients `c_k` of `(1 - u)^{18 - k} u^k`, which multiply like those of
+//! ordinary polynomials. `c_k` over the binomial coefficient is the Bernstein coefficient; if all of these have one
+//! sign, the form has it on `[0, 1]`.
 //!
-//! A *curved path* is given by the control points of a Bezier curve of positions and quaternions; of degree `n` it has
-//! a form of degree `18 n`
-//! ([`signs_on_curve`]).
+//! A *curved path* has the control points of a Bezier curve of positions and quaternions. For degree `n` its form has
+//! degree `18 n` ([`signs_on_curve`]).
 //!
-//! [`join()`] looks for a chain of straight paths on a random roadmap, whose edges are proved.
+//! [`join()`] searches a random roadmap for a chain of straight paths with proved edges.
 
 #[cfg(test)]
 mod tests;
@@ -27,7 +26,7 @@ use num::interval::Interval;
 use platform::geom::{Pose, random_rotation};
 use platform::manipulator::{Manipulator, plucker_matrix};
 
-/// Pieces are halved this often before they are left open.
+/// Greatest number of halvings before a piece stays open.
 const DEPTH: u32 = 40;
 
 /// A part `[from, to]` of a path.
@@ -37,19 +36,19 @@ pub struct PathPiece {
     pub from: f64,
     /// Parameter of its end.
     pub to: f64,
-    /// The sign of `det J` proved for all of it; `None` when a zero is there or nearly so.
+    /// The proved sign of `det J` on all of it; `None` near or at a zero.
     pub sign: Option<Sign>,
 }
 
 /// The signs of `det J` along a straight path, in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignsAlong {
-    /// Pieces that follow each other from 0 to 1; neighbours differ in sign, or one is open.
+    /// Successive pieces from 0 to 1; neighbours differ in sign, or one is open.
     pub pieces: Vec<PathPiece>,
 }
 
 impl SignsAlong {
-    /// The sign proved for the whole path: no pose on it is singular.
+    /// The proved sign of the whole path, which then has no singular pose.
     #[must_use]
     pub fn kept(&self) -> Option<Sign> {
         match self.pieces[..] {
@@ -65,12 +64,12 @@ impl SignsAlong {
         [sign(self.pieces.first()), sign(self.pieces.last())]
     }
 
-    /// Open pieces between opposite signs: each holds a singular pose.
+    /// Open pieces between opposite signs: each contains a singular pose.
     pub fn changes(&self) -> impl Iterator<Item = PathPiece> + '_ {
         self.open().filter(|w| w.1).map(|w| w.0)
     }
 
-    /// Open pieces not between opposite signs: `det J` vanishes there, twice or more, or nearly does.
+    /// Open pieces that are not between opposite signs: `det J` has a multiple zero there or nearly vanishes.
     pub fn doubtful(&self) -> impl Iterator<Item = PathPiece> + '_ {
         self.open().filter(|w| !w.1).map(|w| w.0)
     }
@@ -94,9 +93,9 @@ pub fn between(from: &Pose, to: &Pose, u: f64) -> Pose {
     Pose { rotation, position: from.position * (1.0 - u) + to.position * u }
 }
 
-/// Where `det J` is proved to have which sign on the straight path from `from` to `to`.
+/// The proved signs of `det J` on the straight path from `from` to `to`.
 ///
-/// Rotations are those of the rounded quaternions of the poses, exactly; the poses of the path are exact functions of
+/// Rotations are exactly those of the rounded quaternions of the poses. The poses of the path are exact functions of
 /// these and of the positions.
 #[must_use]
 pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
@@ -117,7 +116,7 @@ pub fn straight(from: &Pose, to: &Pose) -> [ControlPoint; 2] {
     [point(from, e0), point(to, e1)]
 }
 
-/// The same on the Bezier curve of positions and quaternions that has these control points, one or more.
+/// The same on the Bezier curve of positions and quaternions with these control points, one or more.
 #[must_use]
 pub fn signs_on_curve(m: &Manipulator, control: &[ControlPoint]) -> SignsAlong {
     signs(determinant(m, &Curve::of(control)))
@@ -143,7 +142,7 @@ fn signs(coefficients: Vec<Interval>) -> SignsAlong {
     SignsAlong { pieces }
 }
 
-/// No coefficient has a sign: rounding hides everything, halving helps no more.
+/// Whether no coefficient has a sign: rounding dominates, so halving is useless.
 fn hopeless(c: &[Interval]) -> bool {
     c.iter().all(|x| x.lo() <= 0.0 && x.hi() >= 0.0)
 }
@@ -260,7 +259,7 @@ fn rows(m: &Manipulator, curve: &Curve) -> Vec<[Form; 6]> {
             let from_joint = minus(&curve.position[k], &scaled(&one, offset));
             let line: Form =
                 from_joint.iter().map(|x| x.checked_div(unit).unwrap_or(Interval::WHOLE)).collect();
-            // the form of the rotation times the constant 1 of the degree of the path
+            // the form of the rotation times the constant 1 in the degree of the path
             plus(&times(&turned[k], &one), &times(&norm, &line))
         });
         let moment =
@@ -285,7 +284,7 @@ fn turned(e: &[Form; 4], difference: &Form, b: &[Interval; 3]) -> [Form; 3] {
     })
 }
 
-/// The quaternions of two poses, the second with the sign that makes the way short.
+/// The quaternions of two poses, the second with the sign of the shorter way.
 fn quaternions(from: &Pose, to: &Pose) -> ([f64; 4], [f64; 4]) {
     let q = [from, to].map(|pose| {
         let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
@@ -295,7 +294,7 @@ fn quaternions(from: &Pose, to: &Pose) -> ([f64; 4], [f64; 4]) {
     (q[0], if dot < 0.0 { q[1].map(|x| -x) } else { q[1] })
 }
 
-/// The sign all numbers share, if they do.
+/// The common sign of all numbers, if there is one.
 fn common_sign(c: &[Interval]) -> Option<Sign> {
     if c.iter().all(|x| x.lo() > 0.0) {
         Some(Sign::Positive)
@@ -339,12 +338,12 @@ impl Sign {
     }
 }
 
-/// Neighbours of a pose of the roadmap.
+/// Number of neighbours of a pose of the roadmap.
 const NEIGHBOURS: usize = 12;
-/// Poses looked at on an edge before it is proved.
+/// Number of poses tested on an edge before its proof.
 const PROBES: usize = 12;
 
-/// How hard to search.
+/// Effort of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JoinOptions {
     /// Random poses drawn for each sign.
@@ -358,29 +357,28 @@ pub struct JoinOptions {
 pub struct Way {
     /// Index of the pose it starts from.
     pub from: usize,
-    /// Index of the pose it leads to.
+    /// Index of the pose at its end.
     pub to: usize,
-    /// All poses of the chain, both ends included; `det J` is proved to keep its sign on every straight path from one
+    /// All poses of the chain, both ends included. `det J` is proved to keep its sign on every straight path from one
     /// to the next.
     pub poses: Vec<Pose>,
 }
 
-/// Which of some poses are proved to be joined without a singular pose between them.
+/// The poses that are proved to be joined without a singular pose between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joined {
-    /// Sign of `det J` at each pose, `None` where it is not proved.
+    /// Sign of `det J` at each pose; `None` if unproved.
     pub signs: Vec<Option<Sign>>,
     /// Poses proved to be joined, each pose in one group. Poses of different groups and opposite signs cannot be
-    /// joined; those of equal signs were not joined by the search.
+    /// joined; for equal signs the search found no path.
     pub groups: Vec<Vec<usize>>,
-    /// Ways inside the groups: every pose of a group is reached from its first.
+    /// Ways inside the groups, from the first pose of a group to every other.
     pub ways: Vec<Way>,
 }
 
 /// Joins poses by chains of straight paths without a singular pose.
 ///
-/// Two poses in different regions of `det J != 0` are never joined, whatever the effort; two in one region may be
-/// missed.
+/// Two poses in different regions of `det J != 0` are never joined, with any effort; two in one region may be missed.
 #[must_use]
 pub fn join(m: &Manipulator, poses: &[Pose], options: &JoinOptions) -> Joined {
     let signs: Vec<Option<Sign>> = poses.iter().map(|p| signs_along(m, p, p).kept()).collect();
@@ -410,13 +408,13 @@ pub fn join(m: &Manipulator, poses: &[Pose], options: &JoinOptions) -> Joined {
     joined
 }
 
-/// Poses of one sign with edges that seem to keep it.
+/// Poses of one sign, with edges that apparently keep it.
 struct Roadmap<'a> {
     m: &'a Manipulator,
     sign: Sign,
     poses: Vec<Pose>,
     edges: Vec<Vec<usize>>,
-    /// Edges proved, smaller index first.
+    /// Proved edges, smaller index first.
     proved: Vec<(usize, usize)>,
 }
 
@@ -452,7 +450,7 @@ impl<'a> Roadmap<'a> {
         signs_along(self.m, &self.poses[k], &self.poses[l]).kept() == Some(self.sign)
     }
 
-    /// A proved way between two poses; edges that turn out not to be free are dropped on the way.
+    /// A proved way between two poses; edges that fail the proof are removed.
     fn way(&mut self, from: usize, to: usize) -> Option<Vec<Pose>> {
         loop {
             let chain = self.shortest(from, to)?;
@@ -478,7 +476,7 @@ impl<'a> Roadmap<'a> {
         true
     }
 
-    /// Fewest edges, breadth first.
+    /// The path with the fewest edges, by breadth-first search.
     fn shortest(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         let mut before: Vec<Option<usize>> = vec![None; self.poses.len()];
         before[from] = Some(from);
@@ -504,7 +502,7 @@ impl<'a> Roadmap<'a> {
         None
     }
 
-    /// Leaves out poses that a proved straight path passes by.
+    /// Leaves out poses that a proved straight path bypasses.
     fn shortened(&self, chain: &[usize]) -> Vec<usize> {
         let (mut out, mut at) = (vec![chain[0]], 0);
         while at + 1 < chain.len() {

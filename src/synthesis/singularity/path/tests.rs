@@ -106,7 +106,7 @@ fn ways_keep_the_sign_and_opposite_signs_are_never_joined() {
 
 #[test]
 fn a_singular_pose_has_no_proved_sign_and_stands_alone() {
-    // all legs meet the line x = y = 0: turning about it is free
+    // all legs meet the line x = y = 0, so the rotation about it is free
     let legs = std::array::from_fn(|k| {
         let (s, c) = (k as f64).sin_cos();
         Leg { base: Point3::new(2.0 * c, 2.0 * s, 0.1 * k as f64), platform: Point3::new(c, s, 0.0) }
@@ -117,7 +117,7 @@ fn a_singular_pose_has_no_proved_sign_and_stands_alone() {
     assert_eq!((joined.signs, joined.groups), (vec![None], vec![vec![0]]));
 }
 
-/// A straight path as a curve of degree three has the signs of the straight path, and a cubic curve those at its poses.
+/// A straight path as a cubic curve has the signs of the straight path, and a cubic curve those at its poses.
 #[test]
 fn signs_on_curves_are_those_at_their_poses() {
     let mut rng = Rng::new(9);

@@ -1,23 +1,23 @@
-//! Sets of poses in which the Jacobian is proved to be regular: the largest box about a pose, and a workspace.
+//! Sets of poses with a Jacobian proved to be regular: the largest box about a pose, and a workspace.
 //!
 //! Poses are those of a workspace, `R = exp([w]x) R_0`, `p = p_0 + d`, and the set of scale `t` is `|d_k| <= t D_k`,
 //! `|w_k| <= t theta_k`, or the two ellipsoids with these half axes. From below: cells in which `det J != 0` is proved
-//! by interval arithmetic, shell by shell. From above: a pose at which `det J` has the other sign; the segment in
-//! `(d, w)` from home to it stays in the set and holds a singular pose.
+//! by interval arithmetic, shell by shell. From above: a pose with the other sign of `det J`. The segment in `(d, w)`
+//! from home to it stays in the set and contains a singular pose.
 //!
-//! `J` is the matrix of leg lines that are not divided by the leg lengths, so that for a leg map `det J' = det A det J`
-//! at every pose: the sets are those of all equivalent platforms.
+//! `J` is the matrix of leg lines without division by the leg lengths. For a leg map, `det J' = det A det J` at every
+//! pose, so the sets are those of all equivalent platforms.
 //!
-//! The leg lines over a box of poses are independent at all of them by this test. With `K` near the inverse of `J` at
-//! the centre and `J_k` an enclosure of `dJ / dq_k` over the box, the mean value theorem gives
+//! This test shows that the leg lines are independent at all poses of a box. With `K` near the inverse of `J` at the
+//! centre and `J_k` an enclosure of `dJ / dq_k` over the box, the mean value theorem gives
 //!
 //! ```text
 //! |I - K J(q)| <= W = |I - K J(centre)| + sum_k |K J_k| half_k      entry by entry, for every q of the box.
 //! ```
 //!
-//! When `W u < u` for some positive vector `u` the spectral radius of `I - K J(q)` is below 1 and `J(q)` is regular
-//! (Neumaier, Interval methods for systems of equations, 1990, sec. 4.1). Rows are `[n, a x n]`, `n = R b + p - a`,
-//! about the mean base joint, in units of the size.
+//! If `W u < u` for some positive vector `u`, the spectral radius of `I - K J(q)` is below 1 and `J(q)` is regular.
+//! Source: Neumaier, *Interval methods for systems of equations*, 1990, sec. 4.1. Rows are `[n, a x n]`,
+//! `n = R b + p - a`, about the mean base joint, in units of the size.
 
 #[cfg(test)]
 mod tests;
@@ -34,7 +34,7 @@ use platform::geom::{
 };
 use platform::manipulator::{Manipulator, leg_determinant};
 
-/// What set is sought, and how hard.
+/// Shape of the set, and effort of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxOptions {
     /// A box, or ellipsoids with the half widths as half axes.
@@ -43,9 +43,9 @@ pub struct BoxOptions {
     pub translation: [f64; 3],
     /// Half widths `theta_k` of the components of the rotation vector at `t = 1`, base frame, degrees; not negative.
     pub rotation_deg: [f64; 3],
-    /// Most cells to test.
+    /// Greatest number of tested cells.
     pub regions: usize,
-    /// Stop when the proved scale is at least this part of the refuted one, below 1.
+    /// The search stops if the proved scale is at least this share of the refuted one, below 1.
     pub enough: f64,
     /// Seed of the search for singular poses.
     pub seed: u64,
@@ -54,23 +54,23 @@ pub struct BoxOptions {
 /// The largest set found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegularBox {
-    /// Proved: no singular pose for scales up to this; 0 when not even home is proved regular.
+    /// Proved: no singular pose for scales up to this; 0 if not even home is proved regular.
     pub proved: f64,
-    /// Proved: a singular pose at this scale or below; `None` when none was found up to [`RegularBox::searched`].
+    /// Proved: a singular pose at this scale or below; `None` if none was found up to [`RegularBox::searched`].
     pub refuted: Option<SingularSegment>,
-    /// Scale up to which singular poses were looked for: where a component of the rotation vector is a half-turn, or a
+    /// Greatest scale of the search for singular poses: a component of the rotation vector is a half-turn, or a
     /// translation 16 times the size.
     pub searched: f64,
     /// Cells tested.
     pub regions: usize,
 }
 
-/// A segment of poses with a singular one on it.
+/// A segment of poses that contains a singular one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SingularSegment {
-    /// Scale of the smallest set that holds the segment, rounded up.
+    /// Scale of the smallest set that contains the segment, rounded up.
     pub scale: f64,
-    /// The pose of the far end, rounded; home is the other end, `det J` has opposite signs at the two.
+    /// The pose of the far end, rounded; home is the other end, and `det J` has opposite signs at the two.
     pub pose: Pose,
 }
 
@@ -95,7 +95,7 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
     let refuted = nearest_change(&lines, sign, searched, options.seed);
     let mut state = Search { lines: &lines, sign, left: options.regions, searched, refuted };
     let mut proved = 0.0;
-    // shells thin out towards the singular pose, where cells get small
+    // shells become thinner towards the singular pose, where cells are small
     let mut part = 0.5;
     while part < 1.0 && proved < options.enough * state.limit() {
         let next = part * state.limit();
@@ -120,11 +120,11 @@ pub enum Regularity {
     /// Proved: `det J` vanishes at some pose. It has opposite signs at the home pose and at this one, of the same
     /// connected part of the workspace.
     ChangesSign(Pose),
-    /// The leg lines at this pose are not proved to be independent, or cells ran out near it.
+    /// The independence of the leg lines at this pose is unproved, or cells ran out near it.
     Undecided(Pose),
 }
 
-/// What is known of the sign of det J.
+/// The sign of det J over the poses, as a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -141,7 +141,7 @@ pub enum RegularityWord {
 }
 
 impl Regularity {
-    /// The word for it.
+    /// The result as a word.
     #[must_use]
     pub fn word(&self) -> RegularityWord {
         match self {
@@ -151,7 +151,7 @@ impl Regularity {
         }
     }
 
-    /// The pose with the other sign, or the one in doubt.
+    /// The pose with the other sign, or the undecided one.
     #[must_use]
     pub fn pose(&self) -> Option<&Pose> {
         match self {
@@ -160,7 +160,7 @@ impl Regularity {
         }
     }
 
-    /// `Some` where it is proved.
+    /// `Some` if proved.
     #[must_use]
     pub fn is_regular(&self) -> Option<bool> {
         match self {
@@ -184,7 +184,7 @@ pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed:
             doubt = doubt.or(Some(chart.pose(&starts[0])));
             continue;
         };
-        // shallow changes of sign are found by rays, where cells would have to be small
+        // rays find shallow changes of sign, for which cells would have to be small
         let whole = chart.root.lo.iter().any(|x| *x < 0.0);
         let refuted = if whole { nearest_change(&lines, sign, 1.0, seed) } else { None };
         if let Some((_, x)) = refuted {
@@ -205,7 +205,7 @@ pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed:
     (doubt.map_or(Regularity::Regular, Regularity::Undecided), tested)
 }
 
-/// Scale up to which singular poses are looked for.
+/// Greatest scale of the search for singular poses.
 fn largest_scale(size: f64, space: &PoseSpace) -> f64 {
     let ratio = |limit: f64, widths: &Vector3<f64>| limit / widths.amax();
     ratio(16.0 * size, &space.translation).min(ratio(180.0, &space.rotation_deg))
@@ -213,14 +213,14 @@ fn largest_scale(size: f64, space: &PoseSpace) -> f64 {
 
 enum Shell {
     Regular,
-    /// A cell has a pose with the other sign: the limit is lower now.
+    /// A cell has a pose with the other sign, so the limit is lower.
     Singular,
     Undecided,
 }
 
 struct Search<'a> {
     lines: &'a LegsOverChart<'a>,
-    /// Of `det J` at home.
+    /// Sign of `det J` at home.
     sign: f64,
     left: usize,
     searched: f64,
@@ -233,7 +233,7 @@ impl Search<'_> {
         self.refuted.map_or(self.searched, |r| r.0)
     }
 
-    /// Decides the set of scale `to` less that of scale `from`, by slabs and halving.
+    /// Decides the set of scale `to` minus that of scale `from`, by slabs and halving.
     fn shell(&mut self, from: f64, to: f64) -> Shell {
         let chart = self.lines.chart;
         let mut waiting = slabs(chart, from, to);
@@ -263,14 +263,14 @@ impl Search<'_> {
     }
 }
 
-/// The scale of the smallest set that holds a cell, rounded up.
+/// The scale of the smallest set that contains a cell, rounded up.
 fn reach(chart: &Chart, cell: &ChartCell) -> f64 {
     let corner: [f64; 6] = std::array::from_fn(|k| cell.side(k).magnitude());
     chart.scale_of(&corner)
 }
 
-/// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all
-/// where the sets are not boxes.
+/// Twelve cells that cover the outer box minus the inner one, fewer for axes without width. If the sets are no boxes,
+/// it is one cell that covers all.
 fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<ChartCell> {
     let axes = chart.coordinates();
     let cube = |half: f64| {
@@ -308,7 +308,7 @@ struct LegsOverChart<'a> {
     base: [IntervalVector; 6],
     /// `R_0 b`.
     arm: [IntervalVector; 6],
-    /// `p_0` less the mean base joint.
+    /// `p_0` minus the mean base joint.
     home: IntervalVector,
     /// Columns of the chart, lengths over the size.
     columns: Vec<[Interval; 6]>,
@@ -318,7 +318,7 @@ impl<'a> LegsOverChart<'a> {
     fn new(manipulator: &'a Manipulator, chart: &'a Chart) -> Self {
         let [mean, _] = manipulator.mean_leg_ends();
         let unit = Interval::from(manipulator.size());
-        // rounded away before anything is proved: the origin of moments is free
+        // rounding here precedes every proof: the origin of moments is arbitrary
         let over = |x: Interval| x.checked_div(unit).unwrap_or(Interval::WHOLE);
         let ends: [[IntervalVector; 2]; 6] = std::array::from_fn(|i| manipulator.enclosed_ends(i));
         let base = ends.map(|[a, _]| std::array::from_fn(|k| over(a[k] - Interval::from(mean[k]))));
@@ -387,7 +387,7 @@ impl<'a> LegsOverChart<'a> {
         };
         let there = self.over(&ChartCell::point(centre));
         let plain = Matrix6::from_fn(|i, k| there[i][k].centre_and_radius().0);
-        // a centre that is singular itself: the axis is found without an inverse
+        // a singular centre: the axis is found without an inverse
         let Some(inverse) = plain.try_inverse() else { return Err(steepest(&slopes)) };
         let changes: Vec<IntervalMatrix> = slopes.iter().map(|s| times(&inverse, s)).collect();
         let mut w = times(&inverse, &there);
@@ -413,18 +413,18 @@ impl<'a> LegsOverChart<'a> {
     }
 }
 
-/// Rays tried at random.
+/// Number of random rays.
 const RAYS: usize = 1500;
 
 /// Steps of a ray up to the nearest change found so far.
 const STEPS: usize = 60;
 
-/// Rays by which the best ones are improved.
+/// Number of rays that improve the best ones.
 const IMPROVEMENTS: usize = 1500;
 
 /// The smallest scale found up to `limit`, and the point there, with a proved change of sign between home and it.
 ///
-/// Proves nothing about what it does not find.
+/// A negative result proves nothing.
 fn nearest_change(
     lines: &LegsOverChart<'_>,
     sign: f64,
@@ -443,7 +443,7 @@ fn nearest_change(
         }
         if k >= RAYS {
             let Some(u) = direction_of else { break };
-            // steps that shrink: the nearest point is usually on edges of the box
+            // shrinking steps, since the nearest point is usually on edges of the box
             let width = 0.5 * (1.0 - (k - RAYS) as f64 / IMPROVEMENTS as f64).powi(2) + 1e-3;
             let near: [f64; 6] = u;
             for (x, y) in direction.iter_mut().zip(near).take(chart.coordinates()) {

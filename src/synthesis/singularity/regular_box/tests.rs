@@ -19,8 +19,7 @@ const OPTIONS: BoxOptions = BoxOptions {
     seed: 1,
 };
 
-/// Poses of the set of a scale, by a rotation formula of their own; every other one with all components at the
-/// boundary.
+/// Poses of the set of a scale, by a separate rotation formula; every other one with all components at the boundary.
 fn poses_within(home: &Pose, o: &BoxOptions, scale: f64, count: usize, rng: &mut Rng) -> Vec<Pose> {
     let mut draw = |k: usize, half: [f64; 3]| {
         let u = Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0));
@@ -57,7 +56,7 @@ fn no_pose_of_the_proved_box_has_the_other_sign_and_the_segment_has_both() {
     for pose in poses_within(&home, &OPTIONS, found.proved, 10_000, &mut rng) {
         assert!(sign(&pose) * here > 0.0);
     }
-    // the negative control: poses of a set that is little larger than the refuted one
+    // the negative control: poses of a set slightly larger than the refuted one
     let mut poses = poses_within(&home, &OPTIONS, 1.05 * segment.scale, 100_000, &mut rng).into_iter();
     assert!(poses.any(|pose| sign(&pose) * here < 0.0));
 }
@@ -134,8 +133,8 @@ fn random_platform(rng: &mut Rng, octahedral: bool) -> Manipulator {
     Manipulator::try_new(joints(n, 1.0), joints(n, 0.7), pairs).unwrap()
 }
 
-/// Workspaces of wide rotations, where a component of the rotation vector is far from the tangent of a half angle:
-/// version 0.1.0 proved a set in the wrong coordinates.
+/// Workspaces of wide rotations, with a component of the rotation vector far from the tangent of a half angle. Version
+/// 0.1.0 proved a set in the wrong coordinates.
 #[test]
 #[ignore = "evidence"]
 fn wide_rotations_never_contradict_the_proved_set() {
@@ -169,8 +168,8 @@ fn wide_rotations_never_contradict_the_proved_set() {
     assert!(proved >= 14 && reached >= 4, "{proved} {reached}");
 }
 
-/// The set of scale 1 of `regular_box` and the region of a workspace are one: the two agree at scales to either side of
-/// the singular surface.
+/// The set of scale 1 of `regular_box` is the region of a workspace. The two agree at scales on either side of the
+/// singular surface.
 #[test]
 #[ignore = "evidence"]
 fn a_workspace_is_judged_as_its_scale_is() {
@@ -205,7 +204,7 @@ fn a_workspace_is_judged_as_its_scale_is() {
     assert!(regular >= 5 && singular >= 3, "{regular} {singular}");
 }
 
-/// The half turn between two poses of a trajectory passes a singular pose that neither end shows.
+/// The half turn between two poses of a trajectory passes a singular pose that neither end reveals.
 #[test]
 fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
     let m = symmetric_hexapod(200.0, 120.0);
@@ -230,7 +229,7 @@ fn joints_known_between_bounds_leave_less_that_is_proved() {
     let plain = proved(&m);
     assert!(scales[0] > 0.9 * plain && scales[0] <= plain, "{scales:?} {plain}");
     assert!(scales[1] < scales[0] && scales[2] <= 0.0, "{scales:?}");
-    // what is proved holds for joints anywhere between the bounds
+    // the proof holds for all joints within the bounds
     let mut rng = Rng::new(77);
     for _ in 0..20 {
         let mut moved = |p: Point3<f64>| p.map(|x| x + rng.uniform(-5.0, 5.0));

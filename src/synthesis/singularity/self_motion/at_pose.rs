@@ -1,4 +1,4 @@
-//! Decides whether a platform with locked legs can leave a pose: proved not to, or a motion found by tracing, or
+//! Decides whether a platform with locked legs can leave a pose: proved isolated, moving by a traced path, or
 //! undecided.
 //!
 //! Displacements of the pose are `x = (t, c)`: the quaternion `(1, c)` and the dual part `(-c.t, t)`, lengths in units
@@ -25,27 +25,27 @@ use platform::manipulator::Manipulator;
 const ZERO: f64 = 1e-9;
 /// Largest residual of a pose of a motion, relative to the squared distances of the joints.
 const RESIDUAL: f64 = 2e-14;
-/// The first distance from the pose at which a motion is looked for, and the factor from one distance to the next.
+/// The first distance from the pose in the search for a motion, and the factor between successive distances.
 const FIRST: f64 = 1e-3;
-/// Distances at which a motion is looked for, each twice the one before.
+/// Number of distances in the search for a motion, each twice the last.
 const RUNGS: usize = 9;
-/// Distances that a motion has to reach: 32 times the first one.
+/// Number of distances that a motion must reach: 32 times the first one.
 const REQUIRED: usize = 6;
-/// Motions after which no more are looked for: on surfaces every direction has one.
+/// Greatest number of motions in the search: on surfaces every direction has one.
 const ARCS: usize = 12;
-/// Distance of the poses from which the dimension of a motion is sampled.
+/// Distance of the poses that sample the dimension of a motion.
 const NEARBY: f64 = 3e-5;
-/// Part of the sampled differences beyond which a direction belongs to the motion.
+/// Share of the sampled differences above which a direction belongs to the motion.
 const SPANNED: f64 = 0.1;
-/// Boxes of directions looked at before a proof of second order is given up.
+/// Greatest number of boxes of directions in a proof of second order.
 const BOXES: usize = 100_000;
-/// A proof has to leave the pose a ball this much smaller than the one that it clears.
+/// Greatest ratio of the ball that a proof leaves around the pose to the one that it clears.
 const CLEAR: f64 = 1e-3;
 
-/// What the legs allow at a pose when they are locked.
+/// The mobility of the platform at a pose with locked legs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtPose {
-    /// Freedoms of first order: six less the rank of the leg lines, by singular values.
+    /// Freedoms of first order: six minus the rank of the leg lines, by singular values.
     pub tangent_dimension: usize,
     /// Singular values of the leg lines, largest first.
     pub singular_values: [f64; 6],
@@ -56,41 +56,40 @@ pub struct AtPose {
 /// Whether the platform can leave a pose with locked legs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PoseVerdict {
-    /// Proved: every pose with these lengths within `radius` lies within `within`, in `(t / size, c)` of the
+    /// Proved: every pose with these lengths within `radius` is within `within`, in `(t / size, c)` of the
     /// displacement.
     Isolated {
         /// 1: the leg lines are independent; 2: no freedom of first order can be continued.
         order: u8,
-        /// Radius of the ball cleared.
+        /// Radius of the cleared ball.
         radius: f64,
-        /// Radius left by the rounding of the numbers; 0 for the order 1.
+        /// Radius left by rounding; 0 for the order 1.
         within: f64,
     },
-    /// The pose is no isolated one.
+    /// The pose is not isolated.
     Moves {
         /// Dimension of the set of poses with these lengths near the pose.
         dimension: usize,
         /// Length of the stretch of poses found from the pose, in `(t / size, c)`.
         reach: f64,
-        /// What shows it.
+        /// The evidence.
         evidence: MotionEvidence,
     },
     /// Neither.
     Undecided,
 }
 
-/// What shows that a platform moves with locked legs.
+/// The evidence that a platform moves with locked legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MotionEvidence {
-    /// Proved: the leg lines have the rank of this pose at all poses nearby, so that the poses with these lengths are
-    /// a manifold.
+    /// Proved: the leg lines have the same rank at all nearby poses, so the poses with these lengths are a manifold.
     ConstantRank,
     /// Found by tracing: poses with equal lengths, to rounding, along a stretch; the dimension is sampled.
     Traced,
 }
 
 impl PoseVerdict {
-    /// Dimension of the self-motion through the pose, where it is known.
+    /// Dimension of the self-motion through the pose, if known.
     #[must_use]
     pub fn dimension(&self) -> Option<usize> {
         match self {
@@ -101,20 +100,20 @@ impl PoseVerdict {
     }
 }
 
-/// A motion that leaves the pose: a pose on it, and the pose a little further on.
+/// A motion that leaves the pose: one of its poses, and the pose slightly further on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Departure {
     pub(super) from: Pose,
     pub(super) to: Pose,
 }
 
-/// Whether the platform can leave the pose with the lengths that its legs have there.
+/// Whether the platform can leave the pose with its leg lengths there.
 #[must_use]
 pub fn motion_at(m: &Manipulator, pose: &Pose, seed: u64) -> AtPose {
     leaving(m, pose, seed).0
 }
 
-/// The same, with the motions found.
+/// The result with the motions found.
 pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<Departure>) {
     let local = LegsAtPose::new(m, pose);
     let undecided = |values: [f64; 6], tangent_dimension: usize| AtPose {
@@ -132,7 +131,7 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     let search = MotionSearch::new(&local);
     let arcs = search.arcs(&split, k.max(1), &mut Rng::new(seed));
     let sampled = arcs.iter().map(|arc| search.dimension(arc, &mut Rng::new(seed))).max().unwrap_or(0);
-    // no motion has more freedoms than there are of first order at the pose
+    // no motion has more freedoms than the first order at the pose
     let sampled = sampled.min(k);
     let reach = arcs.iter().map(Arc::reach).fold(0.0, f64::max);
     if has_generic_rank(m, &local, &split) {
@@ -147,11 +146,10 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     (at, arcs.iter().map(departure).collect())
 }
 
-/// Whether the leg lines are proved to have the same rank at the pose and at all poses around it, and this is below
-/// six.
+/// Whether the leg lines are proved to have the same rank, below six, at the pose and at all poses around it.
 ///
-/// No pose has a greater rank than almost all poses have, and the rank does not fall near a pose. The rank at the pose
-/// is proved for all joints between their bounds, that of almost all poses about the exact joints.
+/// The generic rank is the greatest, and the rank does not fall near a pose. The rank at the pose is proved for all
+/// joints between their bounds, the generic rank for the exact joints.
 fn has_generic_rank(m: &Manipulator, local: &LegsAtPose, split: &LineVectors) -> bool {
     let k = split.corank();
     if k == 0 || Inverted::of(&local.rows(), split, k).is_none() {
@@ -299,11 +297,9 @@ impl LineVectors {
 
 /// The proof that the pose is isolated, with the last `k` singular values taken as zeros.
 ///
-/// With the parts `a` (along the `k` right vectors `K`) and `b` (along the others, `N`) of a displacement in the ball,
-/// the rows along the left vectors
-/// of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give `c |a|^2 <= rest |a|^2 + error |a|`, where `c`
-/// is the least
-/// norm of the forms `W Q(K a)` for `|a| = 1`.
+/// Let `a` be the part of a displacement in the ball along the `k` right vectors `K`, and `b` the part along the
+/// others, `N`. The rows along the left vectors of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give
+/// `c |a|^2 <= rest |a|^2 + error |a|`, with the least norm `c` of the forms `W Q(K a)` for `|a| = 1`.
 fn isolated(local: &LegsAtPose, split: &LineVectors, k: usize) -> Option<PoseVerdict> {
     let rank = 6 - k;
     let (u, w) = (columns(&split.left, 0, rank), columns(&split.left, rank, 6));
@@ -435,10 +431,10 @@ impl SecondOrderForms {
         self.matrices.iter().map(value).collect()
     }
 
-    /// A lower bound of their norm on the unit sphere; `None` unless one above zero is proved.
+    /// A lower bound of their norm on the unit sphere; `None` unless a positive one is proved.
     ///
-    /// The sphere is covered by the faces of a cube, whose boxes are halved. On a box the combination that is greatest
-    /// at its middle is bounded.
+    /// The faces of a cube cover the sphere; their boxes are halved. On each box the bound is that of the combination
+    /// with the greatest value at its middle.
     fn least(&self) -> Option<f64> {
         let k = self.k;
         let size = norm(self.matrices.iter().flatten().copied());
@@ -455,7 +451,7 @@ impl SecondOrderForms {
             let middle: Vec<f64> = cell.iter().map(|x| 0.5 * (x[0] + x[1])).collect();
             let values = self.at(&middle);
             let length = values.iter().map(|x| x * x).sum::<f64>().sqrt();
-            // a zero of the forms, as far as doubles can tell: there is nothing to prove
+            // a zero of the forms within the accuracy of doubles: nothing can be proved
             if !(length > 1e-7 * size) {
                 return None;
             }
@@ -498,7 +494,7 @@ impl SecondOrderForms {
     }
 }
 
-/// Poses found along a motion, by their displacement, each about twice as far as the one before.
+/// Poses found along a motion, by their displacement, each about twice as far as the last.
 struct Arc {
     points: Vec<Vector6<f64>>,
 }
@@ -514,7 +510,7 @@ impl Arc {
     }
 }
 
-/// Looks for motions in doubles.
+/// Search for motions in doubles.
 struct MotionSearch<'a> {
     local: &'a LegsAtPose,
     along: [Vector3<f64>; 6],
@@ -554,7 +550,7 @@ impl<'a> MotionSearch<'a> {
         (f, j)
     }
 
-    /// The nearest zero by Gauss-Newton steps, at the distance `h` along `n` where that is given.
+    /// The nearest zero by Gauss-Newton steps, at the distance `h` along `n` if given.
     ///
     /// On sets of poses that are zeros of higher multiplicity every step halves the error.
     fn corrected(&self, start: &Vector6<f64>, plane: Option<(&Vector6<f64>, f64)>) -> Option<Vector6<f64>> {
@@ -627,7 +623,7 @@ impl<'a> MotionSearch<'a> {
         arcs
     }
 
-    /// Directions of first order to try: zeros of the forms of second order, and random ones.
+    /// First-order directions for the search: zeros of the forms of second order, and random ones.
     fn directions(&self, split: &LineVectors, k: usize, rng: &mut Rng) -> Vec<Vector6<f64>> {
         let kernel = columns(&split.right, 6 - k, 6);
         let in_space = |a: &[f64]| -> Vector6<f64> {
@@ -656,15 +652,14 @@ impl<'a> MotionSearch<'a> {
         out
     }
 
-    /// Dimension of the set of poses at the end of an arc: the span of the nearest poses of the set to random poses
-    /// nearby.
+    /// Dimension of the set of poses at the end of an arc: the span of its poses nearest to random nearby poses.
     fn dimension(&self, arc: &Arc, rng: &mut Rng) -> usize {
         const SAMPLES: usize = 18;
         let [_, at] = arc.last_two();
         let mut rows: Vec<f64> = Vec::new();
         for _ in 0..SAMPLES {
             let aside = Vector6::from_fn(|_, _| rng.normal()).normalize() * NEARBY;
-            // a correction that goes far says nothing about this place
+            // a large correction gives no information about this place
             let near = |on: &Vector6<f64>| (on - at).norm() < 5.0 * NEARBY;
             if let Some(on) = self.corrected(&(at + aside), None).filter(near) {
                 rows.extend((on - at).iter().map(|x| x / NEARBY));
@@ -678,8 +673,8 @@ impl<'a> MotionSearch<'a> {
 }
 
 impl SecondOrderForms {
-    /// Goes from `a` to a zero of the forms on the unit sphere, by Gauss-Newton steps; where there is none, to a small
-    /// value.
+    /// Moves from `a` to a zero of the forms on the unit sphere by Gauss-Newton steps, or to a small value if there is
+    /// none.
     fn towards_zero(&self, a: &mut [f64]) {
         let k = self.k;
         for _ in 0..40 {

@@ -1,16 +1,16 @@
 //! A pose on every real component of the curves of poses: critical points of a linear function.
 //!
-//! Leg lengths bound the position, so that the real poses `(e, g)`, `|e| = 1`, form closed loops (and single points),
-//! and on each of them a linear function `c.(e, g)` takes its largest and its smallest value. There the derivatives of
-//! the equations, `(e, 0)` and `c` are dependent:
+//! Leg lengths bound the position, so the real poses `(e, g)`, `|e| = 1`, form closed loops (and single points). On
+//! each loop a linear function `c.(e, g)` has a maximum and a minimum. There the derivatives of the equations, `(e, 0)`
+//! and `c` are dependent:
 //!
 //! ```text
 //! D(y) = det (six combinations of the rows of J(y); (e, 0); c) = 0,   of degree 7 in y.
 //! ```
 //!
-//! On a curve of degree `d` in projective 7-space the zeros of `D` are limits of the `7 d` zeros of a product of seven
-//! linear forms under the homotopy `(1 - t) gamma L_1 .. L_7 + t D` (Sommese, Wampler 2005). The zeros of a linear form
-//! are the points by which the degree is found.
+//! On a curve of degree `d` in projective 7-space, the zeros of `D` are limits under the homotopy
+//! `(1 - t) gamma L_1 .. L_7 + t D`. They start at the `7 d` zeros of a product of seven linear forms (Sommese, Wampler
+//! 2005). The points of the degree computation are the zeros of a linear form.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -25,42 +25,41 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Degree of `D`.
 const FORMS: usize = 7;
-/// Homotopies with other random numbers while paths are given up.
+/// Greatest number of homotopies with new random numbers while paths are lost.
 const ATTEMPTS: usize = 4;
-/// Imaginary parts below this, relative, are those of a real point known to rounding.
+/// Relative imaginary parts below this belong to a real point within rounding.
 const REAL: f64 = 1e-7;
-/// The same for a point where curves meet, which is reached slowly.
+/// The same for a point where curves intersect, to which convergence is slow.
 const NEARLY_REAL: f64 = 1e-2;
-/// `|e.e| / |y|^2` below which an end is not a pose; ends of multiplicity are reached slowly.
+/// `|e.e| / |y|^2` below which an end is not a pose; multiple ends converge slowly.
 const NO_POSE: f64 = 1e-2;
-/// Parameter beyond which a path that cannot be followed has come to a singular end.
+/// Parameter beyond which a lost path counts as ending at a singular point.
 const NEAR_THE_END: f64 = 0.999;
 
-/// Real poses from the critical points, and what became of all of them.
+/// Real poses from the critical points, and the counts of all paths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CriticalPoses {
-    /// Irreducible curves over the complex numbers, as far as the poses given lie on different ones.
+    /// Irreducible curves over the complex numbers through the given poses, one for each distinct curve.
     pub components: Vec<CurveDegree>,
-    /// Real critical points, and ends that are nearly real where curves meet.
+    /// Real critical points, and ends that are nearly real where curves intersect.
     pub poses: Vec<Pose>,
-    /// Paths followed in the last homotopy: seven times the sum of the degrees. Paths that are given up lead to another
-    /// homotopy, of four at most.
+    /// Paths followed in the last homotopy: seven times the sum of the degrees. Lost paths lead to another homotopy, at
+    /// most four in total.
     pub paths: usize,
     /// Ends that are regular critical points, real or not.
     pub regular: usize,
-    /// Ends where curves meet or critical points coincide, known less well.
+    /// Ends at intersections of curves or coincident critical points, of lower accuracy.
     pub singular: usize,
     /// Ends with `e.e = 0`: no poses.
     pub no_pose: usize,
-    /// Paths that were given up on the way.
+    /// Lost paths.
     pub lost: usize,
-    /// Poses given that lie on no curve, or at a crossing of curves.
+    /// Given poses that lie on no curve, or at a crossing of curves.
     pub unused: usize,
 }
 
 impl CriticalPoses {
-    /// Whether, numerically, nothing is missing on the curves of the poses given: all trace tests hold and no path was
-    /// given up.
+    /// Whether the curves of the given poses are numerically complete: all trace tests hold and no path was lost.
     #[must_use]
     pub fn is_accounted(&self) -> bool {
         !self.components.is_empty()
@@ -97,7 +96,7 @@ pub fn critical_poses(
     for pose in on {
         let y = dual_quaternion(pose, m.size());
         let y = y / slicer.chart.dot(&y);
-        // a hyperplane through the point, carried to the first form
+        // a hyperplane through the point, moved to the first form
         let mut own = draw(&mut rng);
         own -= slicer.chart * own.dot(&y);
         let start =
@@ -116,7 +115,7 @@ pub fn critical_poses(
         }
     }
     for _ in 0..ATTEMPTS {
-        // another linear function and another gamma: what is real is kept from all attempts
+        // another linear function and another gamma: real points of all attempts are kept
         let critical = Critical::new(&slicer, &forms, &points, &mut rng);
         (out.paths, out.regular, out.singular, out.no_pose, out.lost) = (0, 0, 0, 0, 0);
         for y in &points {
@@ -137,11 +136,11 @@ pub fn critical_poses(
 }
 
 impl CriticalPoses {
-    /// Follows one path and files its end.
+    /// Follows one path and classifies its end.
     fn end(&mut self, slicer: &Slicer<'_>, critical: &Critical, start: Plane, size: f64) {
         let (y, limit) = match slicer.carry(start, critical) {
             Ok(y) => (y, REAL),
-            // the end is near: a singular one
+            // the end is near, and singular
             Err(lost) if lost.t > NEAR_THE_END => (lost.y, NEARLY_REAL),
             Err(_) => {
                 self.lost += 1;
@@ -172,7 +171,7 @@ struct Critical {
     forms: [Plane; FORMS],
     gamma: Z,
     scale: f64,
-    /// The matrix of `D` at the unit vectors, less the constant row.
+    /// The matrix of `D` at the unit vectors, without the constant row.
     linear: [System; 8],
     constant: System,
 }
@@ -199,7 +198,7 @@ impl Critical {
             linear,
             constant,
         };
-        // both parts of one size where the paths begin
+        // both parts of equal size at the starts of the paths
         let ratio = |y: &Plane| {
             let product: f64 = forms[1..].iter().map(|l| l.dot(y).norm()).product();
             product * forms[0].norm() * y.norm() / out.matrix(y).determinant().norm()

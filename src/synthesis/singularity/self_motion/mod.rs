@@ -1,15 +1,15 @@
 //! Follows self-motions: curves of poses with the same leg lengths.
 //!
 //! Poses are dual quaternions `y = (e, g)`, `g = p e`, `|e| = 1`, lengths in units of the size; `y` and `-y` are one
-//! pose. On a curve of poses the equations (six legs, `e.g = 0`, `|e| = 1`) have rank 7 of 8; the curve is followed
-//! along its tangent, the null vector, with Gauss-Newton corrections ([`trace`]). Where it crosses itself or another
-//! curve the rank is 6 and the tangents are the real zeros of a quadratic form; every branch is followed. Leg lengths
-//! bound the position, so that every real curve is a closed loop.
+//! pose. On a curve of poses the equations (six legs, `e.g = 0`, `|e| = 1`) have rank 7 of 8. The curve is followed
+//! along its tangent, the null vector, with Gauss-Newton corrections ([`trace`]). At a crossing with itself or another
+//! curve the rank is 6, and the tangents are the real zeros of a quadratic form. Every branch is followed. Leg lengths
+//! bound the position, so every real curve is a closed loop.
 //!
-//! Whether the platform moves at a pose at all is decided before anything is followed ([`motion_at`]).
+//! [`motion_at`] first decides whether the platform moves at a pose at all.
 //!
-//! Real components that meet none of the curves from the poses given are not found from them: [`critical_poses`] gives
-//! poses on all real components of the complex curves through given poses, real or complex.
+//! Tracing does not find real components that are disjoint from the curves of the given poses. For these,
+//! [`critical_poses`] gives poses on all real components of the complex curves through given poses, real or complex.
 
 mod at_pose;
 mod critical;
@@ -28,14 +28,14 @@ pub use self::at_pose::{AtPose, MotionEvidence, PoseVerdict, motion_at};
 pub use self::slices::{CurveDegree, curve_degree};
 pub use critical::{CriticalPoses, critical_poses};
 
-/// How closely curves are followed.
+/// Accuracy of the curves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionOptions {
-    /// Largest turn of the tangent from point to point, radians.
+    /// Largest rotation of the tangent from point to point, radians.
     pub turn: f64,
-    /// Most points, all curves together.
+    /// Greatest number of points of all curves together.
     pub points: usize,
-    /// Seed of the random combinations of equations that tell crossings.
+    /// Seed of the random combinations of equations that detect crossings.
     pub seed: u64,
 }
 
@@ -45,16 +45,16 @@ impl Default for MotionOptions {
     }
 }
 
-/// How a curve ends.
+/// The end of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveEnd {
     /// It is a loop: the last point is followed by the first.
     Closed,
-    /// It joins a curve followed before, at the crossing where it began or at another.
+    /// It joins an earlier curve, at the crossing where it began or at another.
     Joined,
     /// The number of points allowed is used up.
     Unfinished,
-    /// Steps became too small: a singular point that is not a simple crossing, or the end of what the numbers can tell.
+    /// Steps became too small: a singular point that is not a simple crossing, or the limit of the numerical accuracy.
     Stuck,
 }
 
@@ -87,7 +87,7 @@ pub struct MotionPoint {
     pub gap: f64,
 }
 
-/// Where a curve crosses others.
+/// A crossing of a curve with others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -95,7 +95,7 @@ pub struct MotionPoint {
     schemars(rename = "CurveCrossingRecord")
 )]
 pub struct CurveCrossing {
-    /// After this point of the curve, from 0.
+    /// Index of the last point before the crossing, from 0.
     pub after_point: usize,
     /// Index into `crossings` of the answer, from 0.
     pub crossing: usize,
@@ -106,22 +106,22 @@ pub struct CurveCrossing {
 pub struct MotionCurve {
     /// Poses in order.
     pub points: Vec<MotionPoint>,
-    /// How it ends.
+    /// Its end.
     pub end: CurveEnd,
-    /// Crossings passed.
+    /// Its crossings.
     pub crossings: Vec<CurveCrossing>,
-    /// Index of the pose given from which it was reached, directly or through crossings.
+    /// Index of the given pose from which it was reached, directly or through crossings.
     pub start: usize,
 }
 
-/// All that was reached from the poses given.
+/// All curves reached from the given poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SelfMotion {
-    /// What was decided at the first pose; `None` without a pose.
+    /// The decision at the first pose; `None` without a pose.
     pub at_pose: Option<AtPose>,
     /// Singular values of the equations at the first pose, largest first.
     pub singular_values: [f64; 8],
-    /// The curves, none when the dimension is not 1.
+    /// The curves; none if the dimension is not 1.
     pub curves: Vec<MotionCurve>,
     /// Poses at which curves cross.
     pub crossings: Vec<Pose>,
@@ -130,18 +130,17 @@ pub struct SelfMotion {
 }
 
 impl SelfMotion {
-    /// Dimension of the self-motion through the first pose; `None` where it is undecided, or where there is no pose.
+    /// Dimension of the self-motion through the first pose; `None` if undecided, or without a pose.
     #[must_use]
     pub fn dimension(&self) -> Option<usize> {
         self.at_pose.as_ref().and_then(|at| at.verdict.dimension())
     }
 }
 
-/// Follows the curves of poses with squared lengths `s` from the poses given.
+/// Follows the curves of poses with squared lengths `s` from the given poses.
 ///
-/// Curves are followed where the first pose is on one. A pose that is on a curve followed already adds nothing. Poses
-/// are improved to rounding first.
-/// Where the curve through the first pose consists of zeros of higher multiplicity, no other pose is followed.
+/// Curves are followed if the first pose is on one. A pose on a known curve adds nothing. Poses are improved to
+/// rounding first. If the curve through the first pose consists of multiple zeros, no other pose is followed.
 #[must_use]
 pub fn self_motion(
     m: &Manipulator,
@@ -189,7 +188,7 @@ pub fn self_motion(
     }
 }
 
-/// A point of a branch, and the direction in which it leaves the pose.
+/// A point of a branch, and its direction away from the pose.
 fn way(branch: &at_pose::Departure, size: f64) -> [Point<f64>; 2] {
     let [from, to] = [branch.from, branch.to].map(|p| point(&p, size));
     let to = if from.dot(&to) < 0.0 { -to } else { to };
@@ -218,7 +217,7 @@ fn curve(path: &trace::TracedCurve, start: usize, m: &Manipulator, s: &SquaredLe
     let mut arc = 0.0;
     let mut last: Option<Point<f64>> = None;
     let points = path.points.iter().map(|on| {
-        // the sign of y changes nowhere along a path
+        // the sign of y is constant along a path
         arc += last.map_or(0.0, |l| (on.y - l).norm());
         last = Some(on.y);
         let pose = pose(&on.y, m.size());

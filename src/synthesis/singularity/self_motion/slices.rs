@@ -1,12 +1,12 @@
-//! Slices of a curve of poses: points of the leg equations that satisfy one more condition, carried along while the
+//! Slices of a curve of poses: points of the leg equations that satisfy an additional condition, followed while the
 //! condition changes.
 //!
 //! They give the degree of the curve among the dual quaternions `(e : g)` of projective 7-space.
 //!
-//! A general hyperplane meets the curve in as many points as its degree. From one point the others are reached by
-//! carrying the hyperplane around random triangles (monodromy). They are all of an irreducible curve when, for parallel
-//! hyperplanes `h(y) = tau` in an affine chart, the sum of the points is a linear function of `tau` (trace test;
-//! Sommese, Verschelde, Wampler 2002). Numerical, not a proof.
+//! A general hyperplane meets the curve in as many points as its degree. From one point, moving the hyperplane around
+//! random triangles (monodromy) reaches the others. The trace test shows that they are all points of an irreducible
+//! curve. For parallel hyperplanes `h(y) = tau` in an affine chart, their sum must be linear in `tau` (Sommese,
+//! Verschelde, Wampler 2002). It is numerical, not a proof.
 
 use nalgebra::{ComplexField, SMatrix, SVector, Vector3};
 use num_complex::Complex64;
@@ -142,7 +142,7 @@ impl SliceCondition for SliceSweep {
     }
 }
 
-/// Where a point was lost: the last parameter reached, and the point there.
+/// A lost point: the last parameter reached, and the point there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lost {
     pub(super) t: f64,
@@ -177,7 +177,7 @@ impl<'a> Slicer<'a> {
         j
     }
 
-    /// Newton's method; `None` unless it settles in a few steps.
+    /// Newton's method; `None` unless it converges in a few steps.
     pub(super) fn newton(&self, start: Plane, condition: &impl SliceCondition, t: f64) -> Option<Plane> {
         let mut y = start;
         let mut last = f64::INFINITY;
@@ -204,7 +204,7 @@ impl<'a> Slicer<'a> {
         None
     }
 
-    /// The point for the parameter 1 that belongs to `start` for the parameter 0.
+    /// The point at the parameter 1 on the path from `start` at the parameter 0.
     pub(super) fn carry(&self, start: Plane, condition: &impl SliceCondition) -> Result<Plane, Box<Lost>> {
         let (mut y, mut t, mut step) = (start, 0.0, 0.02);
         while t < 1.0 {
@@ -219,7 +219,7 @@ impl<'a> Slicer<'a> {
             let slope = self.jacobian(&y, &gradient).lu().solve(&right).ok_or_else(|| Box::new(lost))?;
             let guess = y + slope * Z::from(dt);
             let next = self.newton(guess, condition, t + dt);
-            // a corrector that goes far may have left the path
+            // a large correction may have left the path
             match next.filter(|n| (n - guess).norm() < 0.02 * n.norm()) {
                 Some(n) => {
                     let easy = (n - guess).norm() < 0.002 * n.norm();
@@ -251,9 +251,9 @@ impl<'a> Slicer<'a> {
     }
 }
 
-/// Loops without a new point and with a linear trace after which the points are called all.
+/// Number of loops without a new point and with a linear trace after which the points are complete.
 const PATIENCE: usize = 3;
-/// Most loops.
+/// Greatest number of loops.
 const LOOPS: usize = 120;
 /// Largest defect of the trace over the sum of the points' sizes.
 const LINEAR: f64 = 1e-7;
@@ -267,12 +267,12 @@ const OFF_CROSSING: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurveDegreeRecord", transform = num::nullable))]
 pub struct CurveDegree {
-    /// The degree, at least this where it is not complete.
-    // points in which a general hyperplane meets the irreducible curve through the pose
+    /// The degree; a lower bound if incomplete.
+    // number of intersections of a general hyperplane with the irreducible curve through the pose
     pub degree: usize,
-    /// The trace test holds.
+    /// Whether the trace test holds.
     pub complete: bool,
-    /// What is left of the trace test.
+    /// The residual of the trace test.
     // relative
     #[cfg_attr(feature = "serde", serde(rename = "trace_defect"))]
     pub defect: f64,
@@ -281,7 +281,7 @@ pub struct CurveDegree {
 /// Degree in the projective space of `(e, g)`, over the complex numbers, of the irreducible curve of poses through a
 /// regular pose of a self-motion.
 ///
-/// `None` when the pose is on no curve or too near a crossing to be followed.
+/// `None` if the pose is on no curve or too near a crossing to be followed.
 #[must_use]
 pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u64) -> Option<CurveDegree> {
     let mut rng = Rng::new(seed);
@@ -298,7 +298,7 @@ pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u
     Some(gather(&slicer, start, &home, &mut rng)?.1)
 }
 
-/// Whether the point is on one curve of poses: rank six.
+/// Whether the point is on exactly one curve of poses: rank six.
 pub(super) fn is_regular(equations: &SliceEquations, y: &Plane) -> bool {
     let jacobian = equations.jacobian(&(y / Z::from(y.norm())));
     singular_values(&jacobian)
@@ -313,7 +313,7 @@ pub(super) fn same(x: &Plane, y: &Plane) -> bool {
     (x - y).norm() < 1e-7 * y.norm()
 }
 
-/// The points in which the hyperplane `home` meets the irreducible curve through its point `start`.
+/// The intersections of the hyperplane `home` with the irreducible curve through its point `start`.
 pub(super) fn gather(
     slicer: &Slicer<'_>,
     start: Plane,

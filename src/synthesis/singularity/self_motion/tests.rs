@@ -36,7 +36,7 @@ fn a_griffis_duffy_platform_moves_on_closed_curves_with_constant_lengths() {
         assert!(c.points.len() > 50);
     }
     assert!(found.curves.iter().any(|c| c.end == CurveEnd::Closed));
-    // from another pose of the curve the same curve
+    // another pose of the curve gives the same curve
     let middle = found.curves[0].points[found.curves[0].points.len() / 3].pose;
     let again = self_motion(&m, &s, &[middle], &MotionOptions::default());
     let length = |f: &SelfMotion| f.curves[0].points.last().unwrap().arc;
@@ -76,8 +76,8 @@ fn five_legs_at_one_joint_leave_two_freedoms() {
 
 #[test]
 fn crossing_curves_are_all_followed() {
-    // a planar pose of a platform with a plane of symmetry is often on two curves: the home of the midline platform,
-    // all legs alike
+    // a planar pose of a symmetric platform is often on two curves, such as the home of the midline platform with equal
+    // legs
     let m = midline();
     let home = default_home(&m);
     let s = home.squared_lengths(&m).unwrap();
@@ -89,7 +89,7 @@ fn crossing_curves_are_all_followed() {
 }
 
 /// Singular poses between poses of opposite sign have one freedom of first order, which the legs stop; none of them is
-/// called moving.
+/// classified as moving.
 #[test]
 fn singular_poses_of_random_designs_are_proved_to_be_isolated() {
     let mut rng = Rng::new(11);
@@ -117,7 +117,7 @@ fn singular_poses_of_random_designs_are_proved_to_be_isolated() {
     assert!(proved >= 11, "{proved} of {all}");
 }
 
-/// Six equal parallel legs: translations on a sphere, and at every one of its poses a freedom of first order more.
+/// Six equal parallel legs: translations on a sphere, with an additional freedom of first order at each pose.
 #[test]
 fn the_freedoms_of_first_order_are_not_taken_for_the_motion() {
     let ends = [[0., 0., 0.], [1., 3., 0.], [2., -1., 1.], [3., 1., 2.], [5., 2., -1.], [-2., 4., 3.]];
@@ -129,7 +129,7 @@ fn the_freedoms_of_first_order_are_not_taken_for_the_motion() {
         let moves = PoseVerdict::Moves { dimension: 2, reach: 0.0, evidence: MotionEvidence::Traced };
         assert!(found.tangent_dimension == 3 && found.verdict.dimension() == moves.dimension(), "{found:?}");
     }
-    // turned by a half turn the same legs hold it to second order
+    // after a half turn the same legs hold it to second order
     let pose = Pose {
         rotation: Rotation3::from_euler_angles(0.0, 0.0, std::f64::consts::PI),
         position: Vector3::z() * 2.0,
@@ -148,7 +148,7 @@ fn degree_of_the_motion_of_a_griffis_duffy_platform() {
     assert_eq!(one.degree, 28);
 }
 
-/// A real loop that the given pose does not hang together with is found from its critical points.
+/// Critical points find a real loop that is disjoint from the curve of the given pose.
 #[test]
 #[ignore = "evidence"]
 fn every_real_component_is_found_from_one_complex_curve() {
@@ -160,7 +160,7 @@ fn every_real_component_is_found_from_one_complex_curve() {
     assert_eq!(found.paths, 7 * 28);
     assert_eq!(found.regular + found.singular + found.no_pose + found.lost, found.paths);
     assert!(found.lost * 20 < found.paths && found.is_accounted() == (found.lost == 0), "{found:?}");
-    // planar bodies: the mirror image of a motion in the base plane is another one
+    // planar bodies: the mirror image of a motion in the base plane is another motion
     let curves = |poses: &[Pose]| self_motion(&m, &s, poses, &MotionOptions::default()).curves;
     let all = curves(&found.poses);
     assert!(all.len() >= 2 * curves(&[pose]).len(), "{}", all.len());

@@ -1,4 +1,4 @@
-//! One curve, followed by its tangent; where curves cross, every branch is followed once.
+//! One curve, followed by its tangent; at crossings every branch is followed once.
 
 use nalgebra::{Matrix2, SMatrix, SVector, SymmetricEigen};
 
@@ -15,11 +15,11 @@ const ZERO: f64 = 1e-9;
 /// Largest residual of a point on a curve, numbers of order one.
 const RESIDUAL: f64 = 4e-15;
 
-/// The same on a curve of zeros of higher multiplicity.
+/// The same on a curve of multiple zeros.
 const MULTIPLE_RESIDUAL: f64 = 4e-14;
 /// Half the distance of the two points whose difference is the tangent of such a curve.
 const ASIDE: f64 = 1e-3;
-/// A singular value below this times the largest is zero at a zero of higher multiplicity, which is known to half the
+/// A singular value below this times the largest counts as zero at a multiple zero, which is accurate to half the
 /// digits.
 const DROPPED: f64 = 1e-6;
 
@@ -39,18 +39,18 @@ pub(super) struct OnCurve {
 }
 
 impl OnCurve {
-    /// The same point, travelled through the other way.
+    /// The same point with the opposite direction of travel.
     fn reversed(self) -> Self {
         Self { tangent: -self.tangent, orientation: -self.orientation, ..self }
     }
 
-    /// The other sign of the same pose: eight rows change sign, the orientation does not.
+    /// The other sign of the same pose: eight rows change sign, the orientation keeps its sign.
     fn negated(self) -> Self {
         Self { y: -self.y, tangent: -self.tangent, ..self }
     }
 }
 
-/// A curve so far.
+/// The traced part of a curve.
 #[derive(Debug, Clone)]
 pub(super) struct TracedCurve {
     pub(super) points: Vec<OnCurve>,
@@ -58,19 +58,19 @@ pub(super) struct TracedCurve {
     pub(super) crossings: Vec<CurveCrossing>,
 }
 
-/// A crossing that is not located yet.
+/// A crossing without a located pose.
 fn open(after_point: usize) -> CurveCrossing {
     CurveCrossing { after_point, crossing: usize::MAX }
 }
 
-/// Equations and what following them needs.
+/// Equations and data for tracing.
 #[derive(Debug)]
 pub(super) struct Tracer<'a> {
     equations: &'a SliceEquations,
     /// Seven random combinations of the eight equations.
     mix: SMatrix<f64, 7, 8>,
     turn: f64,
-    /// The curve consists of zeros of higher multiplicity, whose tangent is no null vector: it is followed by its
+    /// Whether the curve consists of multiple zeros, whose tangent is not a null vector: it is then followed by its
     /// points.
     multiple: bool,
 }
@@ -81,7 +81,7 @@ impl<'a> Tracer<'a> {
         Self { equations, mix, turn: options.turn, multiple: false }
     }
 
-    /// For curves of zeros of higher multiplicity.
+    /// The tracer for curves of multiple zeros.
     pub(super) fn of_multiple_curve(self) -> Self {
         Self { multiple: true, ..self }
     }
@@ -126,7 +126,7 @@ impl<'a> Tracer<'a> {
         ([d.right(6), d.right(7)], [d.left(6), d.left(7)])
     }
 
-    /// Gauss-Newton corrections by the first `rank` singular values; `None` when they do not settle.
+    /// Gauss-Newton corrections by the first `rank` singular values; `None` without convergence.
     fn improved(&self, start: &Point<f64>, rank: usize) -> Option<Point<f64>> {
         let mut y = *start;
         let mut last = f64::INFINITY;
@@ -146,7 +146,7 @@ impl<'a> Tracer<'a> {
         (self.values(&y).norm() <= RESIDUAL).then_some(y)
     }
 
-    /// The point of the curve near `start`, its tangent along `direction`.
+    /// The point of the curve near `start`, with its tangent along `direction`.
     pub(super) fn settle(&self, start: &Point<f64>, direction: &Point<f64>) -> Option<OnCurve> {
         if self.multiple {
             return self.settle_multiple(start, direction);
@@ -163,7 +163,7 @@ impl<'a> Tracer<'a> {
         Some(OnCurve { y, tangent, gap: d.s[6] / d.s[0], orientation: square.determinant() })
     }
 
-    /// The same on a curve of zeros of higher multiplicity: the tangent is the difference of two points of the curve.
+    /// The same on a curve of multiple zeros: the tangent is the difference of two points of the curve.
     fn settle_multiple(&self, start: &Point<f64>, direction: &Point<f64>) -> Option<OnCurve> {
         let y = self.in_plane(start, direction)?;
         let ahead = self.in_plane(&(y + direction * ASIDE), direction)?;
@@ -208,7 +208,7 @@ impl<'a> Tracer<'a> {
         (best.0 <= MULTIPLE_RESIDUAL).then_some(best.1)
     }
 
-    /// Follows the curve until `stop` says how it ends, or it is closed, stuck, or `most` points long.
+    /// Follows the curve until `stop` returns its end, or until it is closed, stuck, or `most` points long.
     pub(super) fn follow(
         &self,
         start: OnCurve,
@@ -245,7 +245,7 @@ impl<'a> Tracer<'a> {
         path
     }
 
-    /// The next point; shortens the step until the tangent turns little.
+    /// The next point; the step is shortened until the tangent rotates little.
     fn step(&self, here: &OnCurve, step: &mut f64) -> Option<OnCurve> {
         while *step > SMALLEST {
             let next = self.settle(&(here.y + here.tangent * *step), &here.tangent);
@@ -265,7 +265,7 @@ impl<'a> Tracer<'a> {
         None
     }
 
-    /// The crossing between two points, by halving on the sign of the orientation.
+    /// The crossing between two points, by bisection on the sign of the orientation.
     pub(super) fn crossing(&self, before: &OnCurve, after: &OnCurve) -> Option<Point<f64>> {
         let (mut lo, mut hi) = (0.0, 1.0);
         let chord = after.y - before.y;
@@ -318,10 +318,10 @@ fn decomposed(j: &Square) -> Decomposed {
     }
 }
 
-/// Distance from a crossing at which a branch is taken up.
+/// Distance from a crossing at which a branch begins.
 const AWAY: f64 = 1e-2;
 
-/// Curves so far.
+/// The curves found so far.
 #[derive(Debug)]
 pub(super) struct Web<'a> {
     tracer: &'a Tracer<'a>,
@@ -345,11 +345,11 @@ impl<'a> Web<'a> {
         (self.paths, self.crossings)
     }
 
-    /// Follows all that is reached from a pose.
+    /// Follows all curves reached from a pose.
     pub(super) fn follow(&mut self, start: &Point<f64>) {
         let Some(here) = self.tracer.settle(start, &Point::repeat(1.0)) else { return };
         if here.gap < 1e-6 {
-            // the pose is a crossing itself
+            // the pose itself is a crossing
             self.crossings.push(here.y);
             self.follow_from(self.crossings.len() - 1);
             return;
@@ -367,7 +367,7 @@ impl<'a> Web<'a> {
         }
     }
 
-    /// Notes a pose at which curves meet.
+    /// Records a pose at which curves intersect.
     pub(super) fn note_crossing(&mut self, y: Point<f64>) {
         self.crossing_at(y);
     }
@@ -382,7 +382,7 @@ impl<'a> Web<'a> {
         let mut path = self.tracer.follow(start, self.left, joined);
         self.left = self.left.saturating_sub(path.points.len());
         if path.end == CurveEnd::Stuck {
-            // the other way too, so that the curve is whole between its ends
+            // the other way too, so that the curve is complete between its ends
             let back = start.reversed();
             let mut other = self.tracer.follow(back, self.left, joined);
             self.left = self.left.saturating_sub(other.points.len());
@@ -420,7 +420,7 @@ impl<'a> Web<'a> {
         }
     }
 
-    /// Follows the branches at a crossing that are not known.
+    /// Follows the unknown branches at a crossing.
     fn follow_from(&mut self, crossing: usize) {
         let y = self.crossings[crossing];
         for tangent in self.tangents(&y) {
@@ -436,7 +436,7 @@ impl<'a> Web<'a> {
         }
     }
 
-    /// The index of a crossing, a new one when it is at no other.
+    /// The index of a crossing; a new one if it is at no known crossing.
     fn crossing_at(&mut self, y: Point<f64>) -> usize {
         let same = |z: &Point<f64>| (z - y).norm().min((z + y).norm()) < 1e-4;
         self.crossings.iter().position(same).unwrap_or_else(|| {
@@ -445,7 +445,7 @@ impl<'a> Web<'a> {
         })
     }
 
-    /// Whether some path passes there in the same or the opposite direction.
+    /// Whether a known path passes there in the same or the opposite direction.
     fn is_known(&self, on: &OnCurve) -> bool {
         self.paths.iter().any(|path| {
             let points = &path.points;
@@ -460,7 +460,7 @@ impl<'a> Web<'a> {
     /// Directions of the branches at a crossing: with null vectors `v_1, v_2` and the left null vectors `w` the curves'
     /// tangents `v = alpha v_1 + beta v_2` have `w.F(v) = 0`.
     ///
-    /// One of the two left null vectors belongs to the dependency of the legs, which holds to all orders; its form
+    /// One of the two left null vectors belongs to the dependency of the legs, which holds to all orders, so its form
     /// vanishes.
     fn tangents(&self, y: &Point<f64>) -> Vec<Point<f64>> {
         let (right, left) = self.tracer.null_planes(y);
@@ -487,12 +487,12 @@ impl<'a> Web<'a> {
     }
 }
 
-/// `after` with the sign for which it is near `before`.
+/// `after` with the sign that is near `before`.
 fn aligned(before: &OnCurve, after: OnCurve) -> OnCurve {
     if (before.y - after.y).norm() <= (before.y + after.y).norm() { after } else { after.negated() }
 }
 
-/// Close enough to be looked at.
+/// Whether two points are close enough for the comparison.
 fn near(x: &OnCurve, y: &OnCurve) -> bool {
     (x.y - y.y).norm().min((x.y + y.y).norm()) < 0.3
 }

@@ -7,9 +7,9 @@ use roxmltree::Node;
 
 use platform::geom::Pose;
 
-/// The elements whose attributes a class may give.
+/// The elements whose attributes may come from a class.
 const WITH_DEFAULTS: [&str; 3] = ["joint", "site", "equality"];
-/// The class of elements that name none.
+/// The class of elements without a class name.
 const MAIN: &str = "main";
 
 /// Attributes of a class by element and name.
@@ -19,12 +19,12 @@ struct DefaultClass {
     attributes: BTreeMap<(String, String), String>,
 }
 
-/// How the attributes of a model are to be read.
+/// Settings for reading the attributes of a model.
 #[derive(Debug)]
 pub(super) struct Settings {
     /// Factor from an angle of the model to radians.
     angle: f64,
-    /// Axes of Euler angles; lower case: of the turned frame.
+    /// Axes of Euler angles; lower case: axes of the rotated frame.
     sequence: [char; 3],
     classes: BTreeMap<String, DefaultClass>,
 }
@@ -48,10 +48,10 @@ pub(super) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
 }
 
 impl Settings {
-    /// Of a model.
+    /// The settings of a model.
     ///
     /// # Errors
-    /// A value of `compiler` that is not known; a class that is defined twice.
+    /// An unknown value of `compiler`; a class that is defined twice.
     pub(super) fn of(root: Node<'_, '_>) -> Result<Self, String> {
         let mut settings =
             Self { angle: 1.0_f64.to_radians(), sequence: ['x', 'y', 'z'], classes: BTreeMap::new() };
@@ -87,10 +87,10 @@ impl Settings {
         }
     }
 
-    /// Nested classes take what they do not say from the one around them. The depth of the document is bounded.
+    /// Nested classes inherit missing values from the enclosing one. The depth of the document is bounded.
     fn default_class(&mut self, node: Node<'_, '_>, parent: Option<&str>) -> Result<(), String> {
         let name = match (node.attribute("class"), parent) {
-            // the outermost has the name main, whatever it is called
+            // the outermost class is always named main
             (Some(name), None) if name != MAIN => {
                 self.classes.entry(name.into()).or_default().parent = Some(MAIN.into());
                 MAIN
@@ -119,7 +119,7 @@ impl Settings {
         Ok(())
     }
 
-    /// The value of an attribute: that of the element, else of its class (or that of the bodies around it), else of the
+    /// The value of an attribute: that of the element, then of its class (or that of the enclosing bodies), then of the
     /// classes above.
     ///
     /// # Errors
@@ -139,7 +139,7 @@ impl Settings {
         };
         let mut name = node.attribute("class").or(around).unwrap_or(MAIN).to_string();
         let key = (tag.to_string(), attribute.to_string());
-        // parents are defined before their children, so that the way up ends
+        // parents are defined before their children, so the loop ends
         loop {
             let class = self
                 .classes
@@ -156,7 +156,7 @@ impl Settings {
     /// Numbers of an attribute.
     ///
     /// # Errors
-    /// Another count, or words that are no numbers.
+    /// Another count, or words that are not numbers.
     pub(super) fn numbers<const N: usize>(
         &self,
         node: Node<'_, '_>,
@@ -171,15 +171,15 @@ impl Settings {
         })
     }
 
-    /// `pos`, zero where it is absent.
+    /// `pos`, zero if absent.
     pub(super) fn position(&self, node: Node<'_, '_>, around: Option<&str>) -> Result<Vector3<f64>, String> {
         Ok(self.numbers::<3>(node, around, "pos")?.map_or_else(Vector3::zeros, Vector3::from))
     }
 
-    /// Position and orientation of a body, a frame or a site in what it stands in.
+    /// Position and orientation of a body, a frame or a site in its parent.
     ///
     /// # Errors
-    /// Numbers that are none, axes of length zero, more than one orientation.
+    /// Invalid numbers, axes of length zero, more than one orientation.
     pub(super) fn pose(&self, node: Node<'_, '_>, around: Option<&str>) -> Result<Pose, String> {
         let unfit = |attribute: &str| at(node, format!("{attribute} has no direction"));
         let given =
@@ -187,7 +187,7 @@ impl Settings {
         if given.iter().filter(|g| **g).count() > 1 {
             return Err(at(node, "more than one orientation is given"));
         }
-        // the element's own orientation goes before that of its class, whatever their kinds are
+        // the element's own orientation overrides that of its class, whatever their kinds
         let own = given.iter().any(|g| *g);
         let asked = |k: usize| !own || given[k];
         let mut rotation = Rotation3::identity();
@@ -220,7 +220,7 @@ impl Settings {
             rotation = Rotation3::from_matrix_unchecked(axes.ok_or_else(|| unfit("xyaxes"))?);
         } else if let (true, Some(z)) = (asked(4), self.numbers::<3>(node, around, "zaxis")?) {
             let z = Vector3::from(z).try_normalize(0.0).ok_or_else(|| unfit("zaxis"))?;
-            // the shortest turn; half a turn about x where the axis points down
+            // the shortest rotation; half a turn about x if the axis points down
             rotation = Rotation3::rotation_between(&Vector3::z(), &z)
                 .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
         }

@@ -10,7 +10,7 @@ use platform::geom::Pose;
 /// The group of the world.
 pub(super) const WORLD: usize = 0;
 
-/// What a joint lets move.
+/// The motion that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum JointKind {
     Hinge,
@@ -19,7 +19,7 @@ pub(super) enum JointKind {
 }
 
 impl JointKind {
-    /// Of the rotations, how many.
+    /// The number of rotations.
     pub(super) fn rotations(self) -> usize {
         match self {
             Self::Hinge => 1,
@@ -35,9 +35,9 @@ pub(super) struct ModelJoint {
     pub(super) kind: JointKind,
     pub(super) name: String,
     pub(super) groups: [usize; 2],
-    /// Its point as each group has it, base frame; two sites of a `connect` need not be at the same place.
+    /// Its point in each group, base frame; the two sites of a `connect` may differ.
     pub(super) points: [Point3<f64>; 2],
-    /// Of a hinge, base frame.
+    /// The axis of a hinge, base frame.
     pub(super) axis: Option<Unit<Vector3<f64>>>,
 }
 
@@ -60,17 +60,17 @@ pub(super) struct PlacedBody {
 #[derive(Debug, Default)]
 pub(super) struct Mechanism {
     groups: usize,
-    /// Groups that `weld` makes one: the lowest of them.
+    /// For each group the lowest of those that `weld` joins to it.
     joined: Vec<usize>,
     pub(super) joints: Vec<ModelJoint>,
     pub(super) tendons: Vec<Tendon>,
-    /// Number of spatial tendons that are not from one site to another.
+    /// Number of spatial tendons with other than two sites.
     pub(super) other_tendons: usize,
     /// The first body of each group, its name and its frame.
     pub(super) first: BTreeMap<usize, (String, Pose)>,
     pub(super) bodies: BTreeMap<String, PlacedBody>,
     pub(super) sites: BTreeMap<String, PlacedBody>,
-    /// Number of hinges that an actuator turns.
+    /// Number of hinges with an actuator.
     pub(super) driven_hinges: usize,
     pub(super) guesses: Vec<String>,
 }
@@ -84,7 +84,7 @@ impl Mechanism {
         mechanism
     }
 
-    /// Makes two groups one.
+    /// Joins two groups.
     pub(super) fn join(&mut self, a: usize, b: usize) {
         let [a, b] = [a, b].map(|g| self.group(g));
         self.joined[a.max(b)] = a.min(b);
@@ -96,7 +96,7 @@ impl Mechanism {
         self.groups - 1
     }
 
-    /// The group that a group is one with.
+    /// The group after all joins.
     pub(super) fn group(&self, mut group: usize) -> usize {
         while self.joined[group] != group {
             group = self.joined[group];

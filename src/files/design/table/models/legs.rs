@@ -1,10 +1,9 @@
 //! Six legs in a kinematic tree: slides between joints at one point on either side, or tendons from site to site.
 //!
-//! Without its six slides the graph of rigid groups and joints has the base with one part of each leg in one piece, and
-//! the platform with the other part in another. The ball joints on the way from a slide to the base (to the platform)
-//! and the axes of the hinges have to have one point in common: this point is the end of the leg. In which order hinges
-//! and bodies make a universal or ball joint does not matter; nor does which of the two parts of a leg carries the
-//! slide, or its direction.
+//! Without its six slides the graph of rigid groups and joints has two pieces: base and platform, each with one part of
+//! every leg. The ball joints and hinge axes between a slide and the base (or platform) must share a point: the end of
+//! the leg. Hinges and bodies may form a universal or ball joint in any order. Either part of a leg may carry the
+//! slide, in either direction.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -14,7 +13,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::graph::{JointKind, Mechanism, ModelJoint, WORLD};
 use crate::design::table::placed::{extent, order_of, trailing_number};
 
-/// Points and axes of joints that are nearer to the end of a leg than this times the size go through it.
+/// Points and axes of joints within this times the size of the end of a leg go through it.
 pub(super) const SAME_POINT: f64 = 1e-9;
 
 /// The legs of a model.
@@ -27,7 +26,7 @@ pub(super) struct ModelLegs {
     pub(super) guesses: Vec<String>,
 }
 
-/// A leg before it has its place in the order.
+/// A leg without its place in the order.
 struct NamedLeg {
     name: String,
     ends: [Point3<f64>; 2],
@@ -44,7 +43,7 @@ impl Link<'_> {
         self.joints.iter().flat_map(|j| &j.points)
     }
 
-    /// Rotations that several joints at one point leave are at most those of the one with the fewest.
+    /// Several joints at one point leave at most the rotations of the most restrictive one.
     fn rotations(&self) -> usize {
         self.joints.iter().map(|j| j.kind.rotations()).min().unwrap_or(0)
     }
@@ -57,11 +56,11 @@ impl Link<'_> {
 /// The joints other than slides.
 struct Graph<'a> {
     links: Vec<Link<'a>>,
-    /// Numbers of links by group.
+    /// Indices of links by group.
     at: BTreeMap<usize, Vec<usize>>,
 }
 
-/// A piece of the graph as a tree: the link by which each group is nearer to the root.
+/// A piece of the graph as a tree: for each group the link towards the root.
 type RootedPiece = BTreeMap<usize, Option<usize>>;
 
 impl<'a> Graph<'a> {
@@ -91,7 +90,7 @@ impl<'a> Graph<'a> {
     /// The piece with `root`.
     ///
     /// # Errors
-    /// Loops: which way leads from a leg to the root would not be said.
+    /// Loops, which leave the way from a leg to the root ambiguous.
     fn piece(&self, root: usize) -> Result<RootedPiece, String> {
         let mut piece = RootedPiece::from([(root, None)]);
         let mut open = vec![root];
@@ -122,14 +121,13 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// Axes whose directions differ by less than about this angle have no point in common that is worth the name, radians.
+/// Axes within about this angle of parallel have no reliable common point, radians.
 const NEARLY_PARALLEL: f64 = 1e-3;
 
-/// The point that the joints on a way have in common and how far the farthest of them is from it; `None` without one,
-/// as of parallel hinges.
+/// The common point of the joints on a way, and the distance of the farthest joint from it. `None` without one, for
+/// instance for parallel hinges.
 ///
-/// It is the place of the last joint where all are there, digit by digit, else the point with the least sum of squared
-/// distances from points and axes.
+/// It is the place of the last joint if all agree exactly, otherwise the least-squares point of the points and axes.
 fn common_point(way: &[&Link<'_>], near: f64) -> Option<(Point3<f64>, f64)> {
     let last = *way.iter().flat_map(|link| link.points()).last()?;
     let apart = way.iter().flat_map(|link| link.points()).map(|p| (p - last).norm()).fold(0.0, f64::max);
@@ -137,7 +135,7 @@ fn common_point(way: &[&Link<'_>], near: f64) -> Option<(Point3<f64>, f64)> {
         return Some((last, apart));
     }
     let joints = || way.iter().flat_map(|link| &link.joints);
-    // across the axis of a hinge, every way from a ball
+    // across the axis of a hinge, in all directions for a ball
     let across = |joint: &ModelJoint| {
         joint.axis.map_or_else(Matrix3::identity, |a| Matrix3::identity() - a.as_ref() * a.transpose())
     };
@@ -157,7 +155,7 @@ fn common_point(way: &[&Link<'_>], near: f64) -> Option<(Point3<f64>, f64)> {
     Some((point, joints().flat_map(|j| far(j)).fold(0.0, f64::max)))
 }
 
-/// What a model has instead of six legs.
+/// The joints of a model without six legs, in words.
 fn counted(model: &Mechanism) -> String {
     let slides = model.joints.iter().filter(|j| j.kind == JointKind::Slide).count();
     let mut found = format!(
@@ -179,7 +177,7 @@ impl ModelLegs {
     /// Finds the legs.
     ///
     /// # Errors
-    /// A sentence that says what the model has instead.
+    /// A sentence that describes the model instead.
     pub(super) fn of(model: &Mechanism) -> Result<Self, String> {
         let slides: Vec<&ModelJoint> = model.joints.iter().filter(|j| j.kind == JointKind::Slide).collect();
         let (what, (platform, legs)) = match (slides.len(), model.tendons.len()) {
@@ -277,7 +275,7 @@ fn by_slides(model: &Mechanism, slides: &[&ModelJoint]) -> Result<(usize, Vec<Na
     Ok((platform, legs))
 }
 
-/// The group of a piece with the most joints; of several the one with the site `platform_frame` or a body named
+/// The group of a piece with the most joints; of several, the one with the site `platform_frame` or a body named
 /// platform.
 fn platform_of(model: &Mechanism, graph: &Graph<'_>, piece: &RootedPiece) -> Result<usize, String> {
     let most = piece.keys().map(|g| graph.links_of(*g).len()).max().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Models whose bodies are links with joints between them, as URDF and SDF have them.
+//! Models of links with joints between them: URDF and SDF.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use super::graph::{JointKind, Mechanism, ModelJoint, WORLD};
 use crate::design::table::placed::{inverse, within};
 use platform::geom::Pose;
 
-/// A joint as the file has it.
+/// The kind of a joint in the file.
 #[derive(Debug)]
 pub(super) enum LinkJointKind {
     Fixed,
@@ -45,7 +45,7 @@ pub(super) struct LinkedModel {
 }
 
 impl LinkedModel {
-    /// Links that fixed joints make one with these.
+    /// Links joined to these by fixed joints.
     fn fixed_to(&self, first: BTreeSet<Option<usize>>) -> BTreeSet<Option<usize>> {
         let mut all = first;
         loop {
@@ -61,7 +61,7 @@ impl LinkedModel {
         }
     }
 
-    /// The link that is the base: the one that is fixed to the world, else the one whose name says so.
+    /// The base link: the one fixed to the world, otherwise the one named base.
     fn base(&self) -> Result<usize, String> {
         let called_base = |link: usize| self.links[link].name.to_lowercase().contains("base");
         let grounded: Vec<usize> = self.fixed_to(BTreeSet::from([None])).into_iter().flatten().collect();
@@ -127,7 +127,7 @@ impl LinkedModel {
     }
 }
 
-/// A piece of a mechanism that its slides leave: its groups.
+/// The groups of a piece of the mechanism after the slides are removed.
 type Piece = BTreeSet<usize>;
 
 impl Mechanism {
@@ -152,7 +152,7 @@ impl Mechanism {
         }
     }
 
-    /// The group at the far end of a piece that hangs on slides: the one called platform, else its only end.
+    /// The group at the far end of a piece that hangs on slides: the one named platform, otherwise its only end.
     fn far_end(&self, piece: &Piece, slide: &ModelJoint) -> Result<usize, String> {
         if let Some(platform) = piece.iter().find(|g| self.is_called_platform(**g)) {
             return Ok(*platform);
@@ -188,8 +188,8 @@ impl Mechanism {
         self.first.iter().filter(move |(g, _)| self.group(**g) == group).map(|(_, (name, _))| name.as_str())
     }
 
-    /// Closes the loops of a tree: the ends of legs that hang loose are made one with the platform, or with the base
-    /// where the legs hang on the platform.
+    /// Closes the loops of a tree: loose leg ends are joined to the platform, or to the base if the legs hang on the
+    /// platform.
     pub(super) fn close_loops(&mut self, format: &str) -> Result<(), String> {
         let slides: Vec<ModelJoint> = self.joints.iter().filter(Self::is_slide).cloned().collect();
         let base = self.piece_of(WORLD);
@@ -243,7 +243,7 @@ impl Mechanism {
         Ok(())
     }
 
-    /// The frame of the platform, where the file says it: that of the link called platform, else of its only link.
+    /// The frame of the platform from the file: that of the link named platform, otherwise of its only link.
     pub(super) fn platform_frame(&self, platform: usize) -> Option<&(String, Pose)> {
         let mut links =
             self.first.iter().filter(|(g, _)| self.group(**g) == platform).map(|(_, first)| first);

@@ -1,5 +1,5 @@
 //! Models of simulators (MJCF of `MuJoCo`, SDF of Gazebo, URDF of ROS): legs and home at the reference configuration,
-//! as `export` writes them and people do.
+//! from `export` or from people.
 
 mod attributes;
 mod graph;
@@ -22,10 +22,10 @@ use platform::geom::Pose;
 
 /// The site that is the platform frame in models of this program.
 const PLATFORM_SITE: &str = "platform_frame";
-/// Elements in elements. `MuJoCo` itself reads far fewer bodies in bodies.
+/// Greatest nesting depth of elements. `MuJoCo` itself accepts far fewer nested bodies.
 const MAX_DEPTH: usize = 200;
 
-/// Whether a text is XML, of whatever kind.
+/// Whether a text is XML of any kind.
 pub(super) fn is_xml(text: &str) -> bool {
     text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
 }
@@ -39,7 +39,7 @@ enum ModelFormat {
 }
 
 impl ModelFormat {
-    /// By the root element of its files.
+    /// The format of a root element.
     fn of_root(name: &str) -> Option<Self> {
         match name {
             "mujoco" => Some(Self::Mujoco),
@@ -71,7 +71,7 @@ impl ModelFormat {
 /// Reads a model.
 ///
 /// # Errors
-/// A sentence: broken XML, another kind of XML, elements that are not read, no six legs.
+/// A sentence: invalid XML, another kind of XML, unsupported elements, no six legs.
 pub(super) fn read(text: &str) -> Result<PointTable, String> {
     few_attributes(text)?;
     let document = Document::parse(text).map_err(|why| format!("the XML is broken: {why}"))?;
@@ -109,7 +109,7 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     Ok(table)
 }
 
-/// The platform frame at the reference configuration; `None` where the model has none.
+/// The platform frame at the reference configuration; `None` if the model has none.
 fn home(
     model: &Mechanism,
     format: ModelFormat,
@@ -132,8 +132,7 @@ fn home(
     Ok(Some(*pose))
 }
 
-/// Attributes of an element: whether two have one name is looked up in a time that grows with the square of their
-/// number.
+/// Greatest number of attributes of an element: the check for duplicate names takes quadratic time.
 const MAX_ATTRIBUTES: usize = 200;
 
 /// Refuses an element with too many attributes before the text is parsed.
@@ -169,7 +168,7 @@ fn few_attributes(text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Refuses elements too deep in each other: what reads them goes down with them.
+/// Refuses elements nested too deeply for the recursive readers.
 fn bounded(document: &Document<'_>) -> Result<(), String> {
     let mut depths: std::collections::HashMap<roxmltree::NodeId, usize> = std::collections::HashMap::new();
     for node in document.descendants().filter(Node::is_element) {
@@ -185,7 +184,7 @@ fn bounded(document: &Document<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// The unit of the design of which this program wrote the model; metres else.
+/// The unit of the design if this program wrote the model, otherwise metres.
 fn unit(document: &Document<'_>, format: ModelFormat, guesses: &mut Vec<String>) -> Result<FileUnit, String> {
     let comments = document.descendants().filter(Node::is_comment).filter_map(|n| n.text());
     let said = comments

@@ -1,4 +1,4 @@
-//! Models of `MuJoCo`: bodies in bodies, sites, and loops that `equality` closes.
+//! Models of `MuJoCo`: nested bodies, sites, and loops closed by `equality`.
 
 use std::collections::BTreeMap;
 
@@ -12,14 +12,14 @@ use platform::geom::Pose;
 
 /// A joint of a body in its frame.
 struct OwnJoint {
-    /// `None`: it is free.
+    /// `None`: a free joint.
     kind: Option<JointKind>,
     name: String,
     point: Point3<f64>,
     axis: Option<Unit<Vector3<f64>>>,
 }
 
-/// Elements that stand for others: what they stand for is in another file, or many.
+/// Elements that stand for other files or many elements, and are not read.
 const NOT_READ: [&str; 5] = ["include", "replicate", "composite", "flexcomp", "attach"];
 
 impl Mechanism {
@@ -57,7 +57,7 @@ impl Mechanism {
         Ok(model)
     }
 
-    /// Joints of a body, those in `frame` elements too.
+    /// Joints of a body, including those in `frame` elements.
     fn joints_of(
         settings: &Settings,
         node: Node<'_, '_>,
@@ -170,7 +170,7 @@ impl Mechanism {
         Ok(())
     }
 
-    /// What an attribute of an element names, among bodies or sites.
+    /// The body or site that an attribute of an element names.
     fn named<'a>(
         list: &'a BTreeMap<String, PlacedBody>,
         node: Node<'_, '_>,

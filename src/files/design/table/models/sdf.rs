@@ -1,4 +1,4 @@
-//! SDF, the format of Gazebo: links and joints with poses, whose loops may be closed.
+//! SDF, the format of Gazebo: links and joints with poses, with loops allowed.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,13 @@ use platform::geom::{Angles, Pose};
 
 /// The frame of the model itself.
 const MODEL: [&str; 2] = ["__model__", ""];
-/// From this version on axes are in the frame of the joint, before in that of the model.
+/// From this version on axes are in the frame of the joint, earlier in that of the model.
 const AXES_IN_JOINTS: f64 = 1.5;
 
-/// A link, a joint or a frame with its pose as the file has it.
+/// A link, a joint or a frame with its pose as in the file.
 struct PosedElement<'a, 'i> {
     node: Node<'a, 'i>,
-    /// The frame that the pose is in, the empty name for that of the model.
+    /// The frame of the pose; the empty name is that of the model.
     relative_to: &'a str,
     pose: Pose,
 }
@@ -36,7 +36,7 @@ fn text_of<'a>(node: Node<'a, '_>, tag: &str) -> Option<&'a str> {
     child(node, tag).and_then(|n| n.text()).map(str::trim)
 }
 
-/// The pose of an element `pose`: position and turns about the fixed axes x, y, z, or a quaternion with the scalar
+/// The pose of an element `pose`: position and rotations about the fixed axes x, y, z, or a quaternion with the scalar
 /// last.
 fn pose(node: Node<'_, '_>) -> Result<Pose, String> {
     let text = node.text().unwrap_or_default();
@@ -118,7 +118,7 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
     }
 }
 
-/// The model that has slides, of those in the file and in its worlds.
+/// The model with slides, among those in the file and in its worlds.
 fn model_with_slides<'a, 'i>(root: Node<'a, 'i>) -> Result<Node<'a, 'i>, String> {
     let slides = |model: &Node<'_, '_>| {
         elements(*model).any(|n| n.tag_name().name() == "joint" && n.attribute("type") == Some("prismatic"))

@@ -22,8 +22,7 @@ const PLATFORM: [[f64; 3]; 6] = [
     [0.1, -0.3, 0.0],
 ];
 
-/// A home pose that is turned about all axes: 10, 20 and 30 degrees, each about the frame that the one before has
-/// turned.
+/// A home pose rotated about all axes: 10, 20 and 30 degrees, each about the frame rotated by the earlier ones.
 fn home() -> Pose {
     let [x, y, z] = [10.0_f64, 20.0, 30.0].map(f64::to_radians);
     let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
@@ -58,8 +57,8 @@ fn refusal(model: &str) -> String {
     read(model).unwrap_err()
 }
 
-/// The platform floats in the world; cylinders hang on balls of the world and rods slide in them; the order of the legs
-/// in the file is another than that of their names.
+/// The platform floats in the world; cylinders hang on balls of the world and rods slide in them. The order of the legs
+/// in the file differs from that of their names.
 fn free_platform(joints: impl Fn(usize) -> String) -> String {
     let mut bodies = String::new();
     let mut loops = String::new();
@@ -98,7 +97,7 @@ fn hinges_with_a_common_point_are_a_joint_wherever_they_stand_on_their_axes() {
     let universal =
         |_| "<joint axis='1 0 0' pos='0.25 0 0'/><joint axis='0 1 0' pos='0 -0.125 0'/>".to_string();
     is_meant(&read(&free_platform(universal)).unwrap());
-    // the rod may turn in the cylinder
+    // the rod may rotate in the cylinder
     let turning =
         |_| "<joint axis='1 0 0'/><joint axis='0 1 0'/><joint axis='0 0 1' pos='0 0 0.3'/>".to_string();
     is_meant(&read(&free_platform(turning)).unwrap());
@@ -211,7 +210,7 @@ fn all_orientations_turn_as_they_are_defined() {
 #[test]
 fn a_weld_makes_two_bodies_one() {
     let model = free_platform(|_| "<joint type='ball'/>".into());
-    // the rods are joined to a second body at the place of the platform, which is welded to it
+    // the rods are joined to a second body at the place of the platform, with a weld between both
     let r = home().rotation;
     let second = format!(
         "<body name='plate' pos='{}' zaxis='{}'><freejoint/></body></worldbody>",
@@ -261,7 +260,7 @@ fn what_is_no_hexapod_is_told() {
     assert!(refusal(&cranks).contains("2 of its hinges are driven"), "{}", refusal(&cranks));
 }
 
-/// An element with very many attributes is refused before it costs anything; apostrophes of comments are no quotes.
+/// An element with very many attributes is refused before the costly check; apostrophes in comments are no quotes.
 #[test]
 fn too_many_attributes_are_refused_with_their_line() {
     let many: String = (0..200_000).fold(String::new(), |mut out, k| {

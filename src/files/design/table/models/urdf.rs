@@ -1,4 +1,4 @@
-//! URDF, the format of ROS: a tree of links, whose joints close no loop.
+//! URDF, the format of ROS: a tree of links without closed loops.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ struct TreeJoint<'a, 'i> {
     origin: Pose,
 }
 
-/// `xyz` and `rpy` of an element `origin` below a node: turns about the fixed axes x, y, z.
+/// `xyz` and `rpy` of an element `origin` below a node: rotations about the fixed axes x, y, z.
 fn origin(node: Node<'_, '_>) -> Result<Pose, String> {
     let Some(origin) = elements(node).find(|n| n.tag_name().name() == "origin") else {
         return Ok(identity());
@@ -32,7 +32,7 @@ fn origin(node: Node<'_, '_>) -> Result<Pose, String> {
     Ok(Pose::new(read("xyz")?, Angles::from_radians(read("rpy")?)))
 }
 
-/// The link that an element `parent` or `child` of a joint names.
+/// The link in an element `parent` or `child` of a joint.
 fn link_of<'a>(node: Node<'a, '_>, tag: &str) -> Result<&'a str, String> {
     let element = elements(node).find(|n| n.tag_name().name() == tag);
     element
@@ -60,7 +60,7 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
             origin: origin(node)?,
         });
     }
-    // a link called world is what other programs fix models to
+    // other programs fix models to a link called world
     let is_world = |name: &str| name == "world";
     let mut frames: BTreeMap<&str, Pose> = BTreeMap::new();
     for node in named("link") {
@@ -76,7 +76,7 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
         }
     }
     let roots: Vec<&str> = frames.keys().copied().collect();
-    // each round places the children of the links that the last one placed
+    // each round places the children of the links placed in the last one
     loop {
         let before = frames.len();
         for joint in &joints {
@@ -133,7 +133,7 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
     if floating {
         model.guesses.push("Joints of type `floating` are taken as ball joints.".into());
     }
-    // the tree hangs on its root, whatever that is called
+    // the tree hangs on its root, whatever its name
     let with_children: Vec<&&str> =
         roots.iter().filter(|root| joints.iter().any(|j| j.parent == **root) && !is_world(root)).collect();
     if let [root] = with_children[..] {

@@ -1,8 +1,8 @@
-//! Lists of points as programs have them: Python and numpy, C initialisers, MATLAB matrices, JSON and YAML.
+//! Lists of points in source code: Python and numpy, C initialisers, MATLAB matrices, JSON and YAML.
 //!
-//! The text is read as names that get values. A value is a number, a text or a list in brackets of any kind, nested;
-//! the row of a MATLAB matrix ends at a semicolon or, where it has no commas, at the end of a line; an item of a YAML
-//! list begins with a dash. What is no such text is left to the reader of tables.
+//! The text is read as assignments of values to names. A value is a number, a text or a nested list in brackets of any
+//! kind. The row of a MATLAB matrix ends at a semicolon or, without commas, at the end of a line. An item of a YAML
+//! list begins with a dash. Other text is left to the reader of tables.
 
 use nalgebra::Point3;
 
@@ -11,7 +11,7 @@ use crate::design::table::header::{UNITS, plain};
 use platform::geom::{Angles, Pose};
 use platform::manipulator::{Body, Leg};
 
-/// A value that a name gets.
+/// A value assigned to a name.
 #[derive(Debug, Clone, PartialEq)]
 enum ListValue {
     Number(f64),
@@ -37,7 +37,7 @@ enum Token {
     Item,
 }
 
-/// The tokens of a text without its comments; `None` where it has something that no list of numbers has.
+/// The tokens of a text without its comments; `None` if it contains anything that lists of numbers cannot have.
 fn tokens(text: &str) -> Option<Vec<Token>> {
     let mut out = Vec::new();
     let mut in_comment = false;
@@ -108,7 +108,7 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
     Some(out)
 }
 
-/// The number at the beginning of a text, and its length; what follows has to end it.
+/// The number at the beginning of a text, and its length; the next character must end it.
 fn number(text: &str) -> Option<(f64, usize)> {
     let mut length = 0;
     let mut last = ' ';
@@ -121,7 +121,7 @@ fn number(text: &str) -> Option<(f64, usize)> {
         last = c;
     }
     let value = text[..length].parse().ok().filter(|x: &f64| x.is_finite())?;
-    // `1.5f` of C, and nothing else, may stand at the end of a number
+    // the only suffix of a number is that of `1.5f` in C
     let after = &text[length..];
     let suffix = usize::from(after.starts_with(['f', 'F']));
     let ended = |c: char| c.is_whitespace() || ",;)]}#%/".contains(c);
@@ -202,7 +202,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `x: 1`, a line each, up to the next item or a value that is no number.
+    /// `x: 1`, one per line, up to the next item or a value that is not a number.
     fn mapping(&mut self) -> Option<ListValue> {
         let mut named = Vec::new();
         while let Some([Token::Word(name), Token::Is, Token::Number(x), Token::LineEnd]) =
@@ -214,7 +214,7 @@ impl Reader<'_> {
         (!named.is_empty()).then_some(ListValue::Named(named))
     }
 
-    /// What stands between brackets, behind the opening one.
+    /// The contents of brackets, after the opening one.
     fn list(&mut self, open: char) -> Option<ListValue> {
         let close = match open {
             '[' => ']',
@@ -289,7 +289,7 @@ impl Reader<'_> {
     }
 }
 
-/// The names that get values, in the order of the text; those of an object with its name before them.
+/// The names with values, in the order of the text; names in an object have the object's name before them.
 fn named_values(text: &str) -> Option<Vec<(String, ListValue)>> {
     let tokens = tokens(text)?;
     let mut reader = Reader { tokens: &tokens, at: 0 };
@@ -323,14 +323,14 @@ fn named_values(text: &str) -> Option<Vec<(String, ListValue)>> {
         let after = reader.at;
         match reader.value() {
             Some(value) => out.push((name, value)),
-            // a mapping of YAML: its keys are read for themselves
+            // a mapping of YAML: its keys are read separately
             None => reader.at = after,
         }
     }
     Some(flat(out, ""))
 }
 
-/// Objects within objects, with all names that lead to a value.
+/// Nested objects as one list, with all names on the way to a value.
 fn flat(values: Vec<(String, ListValue)>, before: &str) -> Vec<(String, ListValue)> {
     let path = |name: &str| if before.is_empty() { name.to_owned() } else { format!("{before}_{name}") };
     values
@@ -347,7 +347,7 @@ impl ListValue {
         if let Self::Number(x) = self { Some(*x) } else { None }
     }
 
-    /// A list of numbers; an object with `x`, `y` and perhaps `z` is one as well, and so is a column.
+    /// A list of numbers; an object with `x`, `y` and perhaps `z`, or a column, counts as one.
     fn numbers(&self) -> Option<Vec<f64>> {
         match self {
             Self::List(list) => {
@@ -368,7 +368,7 @@ impl ListValue {
         }
     }
 
-    /// Rows of numbers, all as long.
+    /// Rows of numbers of equal length.
     fn rows(&self) -> Option<Vec<Vec<f64>>> {
         let Self::List(list) = self else { return None };
         let rows: Vec<Vec<f64>> = list.iter().map(Self::numbers).collect::<Option<_>>()?;
@@ -401,14 +401,14 @@ impl SixPoints {
     }
 }
 
-/// Joints of a body, with the names of the values that they come from.
+/// Joints of a body, with the names of the values in the text.
 struct ListedBody {
     name: String,
     points: [Point3<f64>; 6],
     used: Vec<usize>,
 }
 
-/// The twelve ends in lists; `None` where the text has no two lists of six points or angles under names.
+/// The twelve ends in lists; `None` if the text has no two named lists of six points or angles.
 pub(super) fn read(text: &str) -> Option<Result<PointTable, InvalidPointTable>> {
     let values = named_values(text)?;
     let mut guesses = Vec::new();
@@ -477,7 +477,7 @@ fn polar(
         );
         return Some(Err(InvalidPointTable::Form(message)));
     };
-    // a radius belongs to the angles of the same body, else they come in the same order
+    // a radius belongs to the angles of the same body, otherwise both are in the same order
     let said = |name: &str| body_of_word(&plain(name));
     let crossed = matches!((said(names[0]), said(&values[k].0)), (Some(x), Some(y)) if x != y);
     let pairs = if crossed { [(s, l), (r, k)] } else { [(r, k), (s, l)] };
@@ -519,8 +519,8 @@ pub(super) fn is_angle(name: &str) -> bool {
     ["angle", "theta", "phi", "azimuth", "deg"].iter().any(|word| name.contains(word))
 }
 
-/// Whether angles are degrees: by their names, by a comment, or because a turn is more than 6.3; else the reason why
-/// that is not known.
+/// The unit of angles, from their names, a comment, or a value above 6.3. Otherwise it is the reason why the unit is
+/// unknown.
 pub(super) fn angle_unit<'a>(
     names: [&str; 2],
     text: &str,
@@ -611,7 +611,7 @@ fn table(
     table
 }
 
-/// The unit that a comment names: `# anchors in mm`.
+/// The unit in a comment: `# anchors in mm`.
 fn unit_of_comment(text: &str) -> Option<&'static str> {
     let mut comments = text.lines().filter_map(|line| {
         let at = line.find(['#', '%']).or_else(|| line.find("//")).or_else(|| line.find("/*"))?;

@@ -1,4 +1,4 @@
-//! The twelve ends of the legs out of a table, however its rows and columns are arranged.
+//! The twelve ends of the legs from a table in any arrangement of rows and columns.
 
 mod lists;
 mod polar;
@@ -15,58 +15,57 @@ use crate::design::{DesignModel, NameCount};
 use platform::geom::Pose;
 use platform::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
 
-/// Rows have at least so many numbers: the joints of a flat body are often given by x and y alone.
+/// Least count of numbers in a row: joints of a flat body are often given by x and y alone.
 const LEAST_NUMBERS: usize = 2;
 
-/// Root elements of models that are not read, and what these are called.
+/// Root elements of unsupported models, and the names of their formats.
 const MODELS: [(&str, &str); 2] = [("SimMechanics", "Simscape Multibody XML"), ("COLLADA", "COLLADA")];
 
-/// The ends of the six legs as a table has them.
+/// The ends of the six legs from a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointTable {
     /// The legs, in leg order: the base end in the base frame, the platform end in the platform frame.
     pub legs: [Leg; 6],
-    /// Names of the base and platform ends, in leg order, where the table has names that can stand in a design.
+    /// Names of the base and platform ends, in leg order, if the table has valid joint names.
     pub names: Option<[[String; 6]; 2]>,
-    /// The length unit that the header names.
+    /// The length unit from the header.
     pub units: Option<String>,
-    /// Where the platform frame is at home, base frame, when a comment says so or the table has both bodies in one
-    /// frame.
+    /// The platform frame at home, base frame, from a comment or from a table with both bodies in one frame.
     pub home: Option<Pose>,
-    /// What was guessed, a sentence each.
+    /// The guesses, one sentence each.
     pub guesses: Vec<String>,
 }
 
-/// Why a table does not give the ends of six legs.
+/// Reasons why a table does not give the ends of six legs.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InvalidPointTable {
-    /// It is no table of numbers.
+    /// It is not a table of numbers.
     #[error(transparent)]
     Sheet(#[from] InvalidSheet),
     /// Its rows or columns are not those of twelve points.
     #[error("{0}")]
     Form(String),
-    /// It is a model of a simulator, or other XML, without six legs in it.
+    /// It is a model of a simulator, or other XML, without six legs.
     #[error("{0}")]
     Mechanism(String),
-    /// It is an exchange file of a CAD program (ISO 10303-21), which is not read.
+    /// It is an exchange file of a CAD program (ISO 10303-21), which is not supported.
     #[error("this is a STEP file, and assemblies are not read")]
     Step,
-    /// It is a model of another program, which is not read; its name.
+    /// It is an unsupported model of another program; its name.
     #[error("this is a model of {0}, and such models are not read")]
     Model(&'static str),
-    /// The points make no manipulator.
+    /// The points form no manipulator.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
 }
 
 impl PointTable {
-    /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
+    /// Reads six rows of two points, base end first, or twelve rows of one point, in any notation.
     ///
-    /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one
-    /// point belong to the body that a cell, a title above them or their name says, else the first six to the base.
-    /// Lists of Python, C, MATLAB, JSON and YAML, settings of `genhexkins` and models of
-    /// `MuJoCo`, Gazebo (SDF) and ROS (URDF) are read too.
+    /// Columns follow the coordinate names of the header if it has any, otherwise their order. Rows of one point belong
+    /// to the body given by a cell, a title above them or their name. Without these, the first six belong to the base.
+    /// It also reads lists of Python, C, MATLAB, JSON and YAML, settings of `genhexkins` and models of `MuJoCo`, Gazebo
+    /// (SDF) and ROS (URDF).
     ///
     /// # Errors
     /// [`InvalidPointTable`].
@@ -121,15 +120,15 @@ impl PointTable {
         Ok(table)
     }
 
-    /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame
-    /// is then put at the mean height of the platform joints.
+    /// If one body is entirely above the other, the table has both in one frame, as in a drawing. The platform frame is
+    /// then at the mean height of the platform joints.
     pub(super) fn part_frames(&mut self) {
-        // the axis along which the bodies are apart: z, where it is one of several
+        // the axis along which the bodies are apart: z if possible
         let Some(axis) = [2, 1, 0].into_iter().find(|axis| self.apart_along(*axis)) else { return };
         let heights = |body: Body| self.legs.map(|leg| leg.end(body)[axis]);
         let above = heights(Body::Platform)[0] > heights(Body::Base)[0];
         let heights = heights(Body::Platform);
-        // a common height is kept to the last digit
+        // a common height keeps its exact value
         let level = heights.iter().all(|z| z.to_bits() == heights[0].to_bits());
         let height = if level { heights[0] } else { heights.iter().sum::<f64>() / 6.0 };
         for leg in &mut self.legs {
@@ -147,8 +146,8 @@ impl PointTable {
         ));
     }
 
-    /// Whether all platform joints are beyond all base joints along an axis; along x and y by more than each body
-    /// extends, since bodies in frames of their own may be apart by chance.
+    /// Whether all platform joints are beyond all base joints along an axis. Along x and y the distance must exceed the
+    /// extent of each body, since bodies in separate frames may be apart by chance.
     fn apart_along(&self, axis: usize) -> bool {
         let range = |body: Body| {
             let of = self.legs.map(|leg| leg.end(body)[axis]);
@@ -160,7 +159,7 @@ impl PointTable {
         gap > 0.0 && (axis == 2 || gap > extent)
     }
 
-    /// The design with these joints: ends at exactly the same place are one joint of several legs.
+    /// The design with these joints: ends with equal coordinates are one joint of several legs.
     ///
     /// # Errors
     /// [`InvalidManipulator`].
@@ -197,13 +196,13 @@ struct NamedPoint {
     name: Option<String>,
 }
 
-/// A row with numbers, and the body that a title above it names.
+/// A row with numbers, and the body from a title above it.
 struct PointRow<'a> {
     row: &'a SheetRow,
     body: Option<Body>,
 }
 
-/// The rows with numbers; rows of words are titles of a body, or the header once more.
+/// The rows with numbers; rows of words are titles of a body, or a repeated header.
 fn data_rows<'a>(
     sheet: &'a CellTable,
     guesses: &mut Vec<String>,
@@ -243,16 +242,16 @@ fn data_rows<'a>(
 /// Columns of the coordinates of one end of a leg; a missing z is zero.
 type CoordinateColumns = (usize, usize, Option<usize>);
 
-/// Which columns hold what.
+/// The contents of the columns.
 struct PointColumns {
     first: CoordinateColumns,
-    /// With two points a row: those of the platform end.
+    /// The columns of the platform end, for two points per row.
     second: Option<CoordinateColumns>,
     /// The column with the number of the leg.
     leg: Option<usize>,
 }
 
-/// The one unit that the columns of coordinates name.
+/// The common unit of the columns of coordinates.
 fn unit_of(header: &[String]) -> Option<String> {
     let unit = |name: &String| {
         axis_of(&plain(name))?;
@@ -265,12 +264,12 @@ fn unit_of(header: &[String]) -> Option<String> {
     if let [one] = found[..] { Some(one.to_string()) } else { None }
 }
 
-/// The coordinate that a plain name ends or begins with, 0 to 2, and the rest of the name.
+/// The coordinate, 0 to 2, at the start or end of a plain name, and the rest of the name.
 fn axis_of(name: &str) -> Option<(usize, &str)> {
     let axis = |c: char| "xyz".find(c);
     let last = name.chars().last().and_then(axis).map(|k| (k, &name[..name.len() - 1]));
     let first = name.chars().next().and_then(axis).map(|k| (k, &name[1..]));
-    // `index`, `matrix`: a word with an x is no coordinate
+    // `index`, `matrix`: a word that contains an x is no coordinate
     let known = |(_, rest): &(usize, &str)| {
         rest.chars().count() <= 2
             || body_of_word(rest).is_some()
@@ -279,7 +278,7 @@ fn axis_of(name: &str) -> Option<(usize, &str)> {
     last.filter(known).or(first.filter(known))
 }
 
-/// The body that a plain word names without doubt.
+/// The body that a plain word names unambiguously.
 pub(super) fn body_of_word(word: &str) -> Option<Body> {
     const BASE: [&str; 8] = ["base", "fixed", "lower", "bottom", "ground", "fest", "unten", "basis"];
     const PLATFORM: [&str; 8] = ["plat", "moving", "mobile", "upper", "top", "effector", "oben", "deck"];
@@ -291,7 +290,7 @@ pub(super) fn body_of_word(word: &str) -> Option<Body> {
     }
 }
 
-/// Pairs of letters, the base first: usual ways to tell the bodies by one letter.
+/// Pairs of letters, the base first: common one-letter names of the bodies.
 const LETTERS: [(&str, &str); 9] = [
     ("a", "b"),
     ("b", "p"),
@@ -309,7 +308,7 @@ fn initial(word: &str) -> &str {
     word.char_indices().nth(1).map_or(word, |(end, _)| &word[..end])
 }
 
-/// The bodies that two different words tell apart: by what they mean, or in the order in which they appear.
+/// The bodies of two different words: by their meaning, or by their order of appearance.
 fn bodies_of_words(first: &str, second: &str, guesses: &mut Vec<String>) -> [Body; 2] {
     let said = [first, second].map(body_of_word);
     let is_pair = |(a, b): (&str, &str)| LETTERS.contains(&(a, b));
@@ -331,16 +330,16 @@ fn told_apart([first, second]: [&str; 2], order: [Body; 2]) -> String {
 }
 
 impl PointColumns {
-    /// By the names in the header: `None` where they do not name coordinates.
+    /// The columns by the names in the header; `None` if these name no coordinates.
     fn named(header: &[String], guesses: &mut Vec<String>) -> Option<Self> {
         let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
-        // columns of each word that stands with an axis, in the order in which the words appear
+        // columns by the word beside each axis, in the order of appearance
         let mut words: Vec<(&str, Vec<(usize, usize)>)> = Vec::new();
         for (column, name) in names.iter().enumerate() {
             let Some((axis, word)) = axis_of(name) else { continue };
             let word =
                 word.trim_start_matches("coordinate").trim_start_matches("coord").trim_start_matches("pos");
-            // x, y, z a second time are the other end
+            // a second x, y, z is the other end
             let open =
                 words.iter_mut().find(|(known, list)| *known == word && list.iter().all(|(a, _)| *a != axis));
             match open {
@@ -365,7 +364,7 @@ impl PointColumns {
         }
     }
 
-    /// By the order of the columns that hold a number in every row.
+    /// The columns by the order of those with a number in every row.
     fn numbered(
         sheet: &CellTable,
         rows: &[PointRow<'_>],
@@ -373,7 +372,7 @@ impl PointColumns {
     ) -> Result<Self, InvalidPointTable> {
         let value = |row: &PointRow<'_>, c: usize| row.row.cells.get(c).and_then(|cell| sheet.number(cell));
         let width = rows.iter().map(|r| r.row.cells.len()).max().unwrap_or(0);
-        // a column of numbers with a word in it is a slip, not a column of names
+        // a column of numbers with a single word is a mistake, not a column of names
         let count = |c: usize| rows.iter().filter(|row| value(row, c).is_some()).count();
         let mut columns: Vec<usize> = (0..width).filter(|c| 2 * count(*c) > rows.len()).collect();
         if let Some((row, c)) =
@@ -383,7 +382,7 @@ impl PointColumns {
         }
         let counts = |c: usize| {
             let step = |pair: &[PointRow<'_>]| match (value(&pair[0], c), value(&pair[1], c)) {
-                // twelve rows may be counted twice from one to six
+                // twelve rows may count from one to six twice
                 (Some(a), Some(b)) => (b - a - 1.0).abs() < 0.5 || (a - b - 5.0).abs() < 0.5,
                 _ => false,
             };
@@ -438,10 +437,10 @@ fn not_a_number(row: &SheetRow, column: usize) -> InvalidPointTable {
     InvalidPointTable::Form(format!("line {}, column {}: `{cell}` is not a number", row.line, column + 1))
 }
 
-/// What a column with the numbers of the legs is called.
+/// Names of a column with leg numbers.
 const LEG_WORDS: [&str; 6] = ["leg", "legnumber", "legno", "strut", "actuator", "limb"];
 
-/// The cells of a row that are no numbers.
+/// The cells of a row that are not numbers.
 fn words<'a>(sheet: &CellTable, row: &'a SheetRow) -> Vec<&'a str> {
     row.cells.iter().filter(|c| !c.is_empty() && sheet.number(c).is_none()).map(String::as_str).collect()
 }
@@ -516,7 +515,7 @@ fn twelve_rows(
     Ok(ends)
 }
 
-/// The bodies by what stands before the numbers of the names: `A1`, `B1` for example.
+/// The bodies by the letters before the numbers in the names, for example `A1`, `B1`.
 fn by_letters(words: &[Vec<&str>], guesses: &mut Vec<String>) -> Option<Vec<Body>> {
     let letters = |list: &Vec<&str>| {
         Some(plain(list.first()?).trim_end_matches(|c: char| c.is_ascii_digit()).to_string())
@@ -533,8 +532,7 @@ fn by_letters(words: &[Vec<&str>], guesses: &mut Vec<String>) -> Option<Vec<Body
     Some(letters.iter().map(|l| order[usize::from(l != first)]).collect())
 }
 
-/// The names, where every end has one that can stand in a file, and no two ends of a body the same unless they are at
-/// the same place.
+/// The names, if every end has a valid one and no two ends of a body have the same, except at the same place.
 fn names(ends: &Ends) -> Option<[[String; 6]; 2]> {
     let usable = |name: &str| {
         name.chars().count() <= 32 && name.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c))

@@ -1,4 +1,4 @@
-//! Tables whose columns are radii and angles.
+//! Tables with columns of radii and angles.
 
 use super::lists::{angle_unit, is_angle, is_radius, on_circle};
 use super::{InvalidPointTable, body_of_word};
@@ -6,10 +6,10 @@ use crate::design::table::header::plain;
 use crate::design::table::sheet::CellTable;
 use platform::manipulator::Body;
 
-/// Puts x and y in place of radii and angles, where the header has columns of these.
+/// Replaces columns of radii and angles, if the header has any, by x and y.
 ///
 /// # Errors
-/// A radius without an angle, or an angle without a radius; angles whose unit is not known.
+/// A radius without an angle, an angle without a radius, or angles of unknown unit.
 pub(super) fn to_coordinates(
     sheet: &mut CellTable,
     text: &str,
@@ -68,7 +68,7 @@ fn pair(
         names[1],
         if degrees { "degrees" } else { "radians" }
     ));
-    // the body and the unit in the name of the radius are those of the coordinates
+    // the name of the radius gives body and unit of the coordinates
     let renamed = |axis: &str| {
         let lower = names[0].to_lowercase();
         match lower.find("radius") {

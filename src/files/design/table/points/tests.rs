@@ -126,7 +126,7 @@ fn twelve_rows_of_one_point_find_their_bodies() {
     assert!(is_meant(&read(&swapped)));
 }
 
-/// The two lists in a notation: each point by a function, around them what a function adds to the points of a body.
+/// The two lists in a notation: `point` writes each point, `body` the text around the points of a body.
 fn lists(point: impl Fn([f64; 3]) -> String, body: impl Fn(Body, &[String]) -> String) -> String {
     let of = |b: Body, list: [[f64; 3]; 6]| body(b, &list.map(&point));
     format!("{}\n{}", of(Body::Base, BASE), of(Body::Platform, PLATFORM))
@@ -215,7 +215,7 @@ fn nothing_is_taken_for_a_coordinate_that_is_none() {
     let rows = |list: [[f64; 3]; 6]| list.map(|p| format!("{p:?}")).join(",");
     let three = format!("a = [{}]\nb = [{}]\nc = [{}]\n", rows(BASE), rows(PLATFORM), rows(BASE));
     assert!(refusal(&three).contains("3 lists of six points"));
-    // arithmetic is not done
+    // arithmetic is not evaluated
     assert!(PointTable::read(b"a = [[1*2, 3, 0], [1, 2, 3]]\nb = [[1, 2, 3]]").is_err());
     assert!(refusal("<?xml version=\"1.0\"?><COLLADA version=\"1.4\"/>").contains("COLLADA"));
     assert!(refusal("<sdf version=\"1.7\"/>").contains("prismatic"));

@@ -1,8 +1,7 @@
-//! C99 for rods on cranks: the angles of poses on the sides that the cranks keep, and one pose followed from angles to
-//! angles.
+//! C99 for rods on cranks: the crank angles of poses on their sides, and a pose tracked from angles to angles.
 //!
-//! `equipod_cranks.c` and `equipod_cranks.h` are the same for every design and stand beside this file; a pose is
-//! followed by `equipod.c` on the tips of the cranks.
+//! `equipod_cranks.c` and `equipod_cranks.h` next to this file are the same for every design; `equipod.c` tracks a pose
+//! on the tips of the cranks.
 
 use std::fmt::Write as _;
 
@@ -18,11 +17,11 @@ use platform::geom::Pose;
 
 /// Seed of the poses.
 const SEED: u64 = 23;
-/// Poses about home: this far turned, radians, and moved, over the size.
+/// Greatest rotation (radians) and shift (over the size) of poses about home.
 const AWAY: f64 = 0.15;
-/// Poses looked at.
+/// Number of poses.
 const POSES: usize = 40;
-/// A pose is followed in a part by at most so many segments: the value of `EQUIPOD_SEGMENTS`.
+/// Greatest number of segments in a part: the value of `EQUIPOD_SEGMENTS`.
 const SEGMENTS: u32 = 8;
 
 pub(super) fn files(export: &Export, cranks: &ExportCranks) -> Vec<ExportedFile> {
@@ -105,7 +104,7 @@ fn vectors(export: &Export, cranks: &ExportCranks) -> String {
     out
 }
 
-/// Angles and Jacobian at a pose; `None` where a crank is nearly singular, and rounding decides, in `float` too.
+/// Angles and Jacobian at a pose; `None` where a crank is nearly singular, so that rounding decides, in `float` too.
 fn angles(export: &Export, cranks: &ExportCranks, pose: &Pose) -> Option<String> {
     let platform = &cranks.platform;
     let zeros = row(&[0.0; 6]);
@@ -134,7 +133,7 @@ fn angles(export: &Export, cranks: &ExportCranks, pose: &Pose) -> Option<String>
     Some(braces([pose_numbers(pose), "0".into(), row(&kept), row(&other), row(&transmissions), rows]))
 }
 
-/// The way to the angles of a pose, where the library follows it in as many segments as the controller has.
+/// The way to the angles of a pose, if the library tracks it within the segments of the controller.
 fn step(cranks: &ExportCranks, tracker: &mut RotaryTracker, pose: &Pose) -> Option<String> {
     let angles = cranks.platform.ik(pose).ok()?;
     let (start, from) = (tracker.pose(), *tracker.angles());

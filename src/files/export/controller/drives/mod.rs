@@ -1,8 +1,8 @@
-//! C99 for drives that are not as long as the distances of their joints: corrected lengths of poses, one pose followed
-//! from lengths to lengths, and a proved bound of its error.
+//! C99 for drives with joint offsets or leads: corrected lengths of poses, a pose tracked from lengths to lengths, and
+//! a proved error bound.
 //!
-//! `equipod_drives.c` and `equipod_drives.h` are the same for every design and stand beside this file; the poses of
-//! distances are followed by `equipod.c`.
+//! `equipod_drives.c` and `equipod_drives.h` next to this file are the same for every design; `equipod.c` tracks the
+//! poses of the distances.
 
 use std::fmt::Write as _;
 
@@ -21,9 +21,9 @@ use platform::manipulator::Body;
 
 /// Seed of the poses.
 const SEED: u64 = 29;
-/// Poses about home: this far turned, radians, and moved, over the size.
+/// Greatest rotation (radians) and shift (over the size) of poses about home.
 const AWAY: f64 = 0.08;
-/// Poses looked at.
+/// Number of poses.
 const POSES: usize = 16;
 
 pub(super) fn files(export: &Export, drives: &CoupledLegs) -> Vec<ExportedFile> {
@@ -91,8 +91,8 @@ fn source(export: &Export, drives: &CoupledLegs) -> String {
     out
 }
 
-/// Numbers of the library for the self-test: poses about home, one at which a leg goes along its first axis, and ways
-/// from one to the next.
+/// Numbers of the library for the self-test: poses about home, one with a leg along its first axis, and ways from one
+/// to the next.
 fn vectors(export: &Export, drives: &CoupledLegs) -> String {
     let mut rng = Rng::new(SEED);
     let about: Vec<Pose> = (0..POSES).map(|_| moved(&export.home, AWAY, export.size, &mut rng)).collect();
@@ -106,7 +106,7 @@ fn vectors(export: &Export, drives: &CoupledLegs) -> String {
     out
 }
 
-/// A pose at which the first leg goes along a first axis.
+/// A pose with the first leg along a first axis.
 fn along_axis(export: &Export, drives: &CoupledLegs) -> Option<Pose> {
     let leg = export.manipulator.legs()[0];
     let axis = drives.first_axes(Body::Base)[0];
