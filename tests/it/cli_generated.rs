@@ -116,7 +116,8 @@ fn the_options_and_fields_in_the_documents_are_fresh() {
         equipod(&["reference", path.to_str().unwrap()])
     };
     let fields = std::fs::read_to_string("docs/answers.md").unwrap();
-    for (page, good, bad) in [(&page, "- `--lengths", "- `--length"), (&fields, "- `lengths`", "- `length`")] {
+    for (page, good, bad) in [(&page, "- `--lengths", "- `--length"), (&fields, "- `lengths`", "- `length`")]
+    {
         let stale = page.replacen(good, bad, 1);
         assert_ne!(stale, *page);
         assert_eq!(with("stale.md", &stale).stdout, page.as_bytes());

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::fields::{alternatives, code, is_record, reference, text, without_links, words};
 
@@ -14,19 +14,19 @@ const IN_ALL: [&str; 3] = ["schema_version", "provenance", "warnings"];
 /// The records behind these fields.
 const RECORDS_OF_ALL: [&str; 4] =
     ["ProvenanceRecord", "DesignSourceRecord", "FileSourceRecord", "WarningRecord"];
-/// A field that so many records have with the same meaning is described at the top of the page, where the meaning has so
-/// many words: a shorter one is repeated.
+/// A field that so many records have with the same meaning is described once, at the top of the page.
 const COMMON: usize = 2;
+/// A meaning with fewer words is repeated instead.
 const LEAST_COMMON: usize = 4;
 /// A longer list of words has a section of its own.
-const MOST_WORDS: usize = 8;
+const MOST_WORDS: usize = 12;
 /// Records with fewer fields are written out again where another record contains them.
 const LEAST_PART: usize = 4;
 
 /// A description with more words is cut at the end of its main clause.
-const LONGEST: usize = 8;
+const LONGEST: usize = 7;
 /// A main clause has so many words at least.
-const SHORTEST: usize = 4;
+const SHORTEST: usize = 3;
 /// Units and frames, which stay behind the main clause.
 const UNITS: [&str; 8] = [
     "design units",
@@ -136,7 +136,8 @@ fn brief(description: &str) -> String {
         }
     }
     // both values of a truth value
-    let others = clauses[1..].iter().copied().filter(|part| part.starts_with("true") || part.starts_with("false"));
+    let others =
+        clauses[1..].iter().copied().filter(|part| part.starts_with("true") || part.starts_with("false"));
     std::iter::once(main.as_str()).chain(others).collect::<Vec<_>>().join("; ")
 }
 
@@ -149,6 +150,25 @@ fn repeats(name: &str, meaning: &str) -> bool {
         let word = word.to_lowercase();
         small.contains(&word.as_str()) || names.iter().any(|n| word.starts_with(n.as_str()))
     })
+}
+
+/// Adds the definitions of an answer. Those of one type for several arrangements of numbers are numbered in each answer
+/// anew: such a name gets another number here.
+fn add(all: &mut BTreeMap<String, Value>, found: &Map<String, Value>) {
+    let clashes = |name: &str, schema: &Value| all.get(name).is_some_and(|known| known != schema);
+    let mut names: BTreeMap<&str, String> = BTreeMap::new();
+    let mut text = Value::Object(found.clone()).to_string();
+    for (name, schema) in found.iter().filter(|(name, schema)| clashes(name, schema)) {
+        let is_free = |new: &String| !found.contains_key(new) && !clashes(new, schema);
+        if let Some(new) = (2..).map(|k| format!("{name}{k}")).find(is_free) {
+            text = text.replace(&format!("#/$defs/{name}\""), &format!("#/$defs/{new}\""));
+            names.insert(name, new);
+        }
+    }
+    let renamed: Map<String, Value> = serde_json::from_str(&text).unwrap_or_default();
+    for (name, schema) in renamed {
+        all.insert(names.get(name.as_str()).cloned().unwrap_or(name), schema);
+    }
 }
 
 /// A design file or a part of it, which has a page of its own.
@@ -168,7 +188,7 @@ impl Answers {
         for name in &answers {
             let schema = records::schema(name).unwrap_or_default();
             let found = schema.get("$defs").and_then(Value::as_object).cloned().unwrap_or_default();
-            definitions.extend(found);
+            add(&mut definitions, &found);
         }
         let mut all = Self { answers, definitions, sections: BTreeSet::new(), common: BTreeSet::new() };
         all.find_sections();
@@ -269,10 +289,14 @@ impl Answers {
             let mut fields = own_properties(other);
             let count = own_properties(other).count();
             let equal = |(field, property): (&String, &Value)| own.get(field) == Some(&property);
-            count >= LEAST_PART && other.get("oneOf").is_none() && other.get("anyOf").is_none() && fields.all(equal)
+            count >= LEAST_PART
+                && other.get("oneOf").is_none()
+                && other.get("anyOf").is_none()
+                && fields.all(equal)
         };
         let others = self.definitions.iter().filter(|(other, found)| {
-            let smaller = own_properties(found).count() < own.len() || name.is_empty() || other.as_str() < name;
+            let smaller =
+                own_properties(found).count() < own.len() || name.is_empty() || other.as_str() < name;
             other.as_str() != name && !self.answers.contains(&other.as_str()) && smaller && is_part(found)
         });
         others.max_by_key(|(_, found)| own_properties(found).count()).map(|(other, _)| other.as_str())
@@ -281,7 +305,8 @@ impl Answers {
     /// The fields of a record without those of the record it contains.
     fn shown<'a>(&'a self, name: &str, schema: &'a Value) -> impl Iterator<Item = (&'a String, &'a Value)> {
         let part = self.part_of(name, schema).map(|part| &self.definitions[part]);
-        let in_part = move |field: &str| part.is_some_and(|p| own_properties(p).any(|(other, _)| other == field));
+        let in_part =
+            move |field: &str| part.is_some_and(|p| own_properties(p).any(|(other, _)| other == field));
         own_properties(schema).filter(move |(field, _)| !in_part(field))
     }
 
@@ -305,7 +330,8 @@ impl Answers {
         let is_null = |w: &String| w == "null";
         let mut optional = listed.iter().any(is_null);
         let choice = listed.into_iter().filter(|w| !is_null(w)).collect::<Vec<_>>().join("|");
-        let mut kinds: Vec<String> = (!choice.is_empty()).then(|| format!("`{choice}`")).into_iter().collect();
+        let mut kinds: Vec<String> =
+            (!choice.is_empty()).then(|| format!("`{choice}`")).into_iter().collect();
         for other in alternatives(schema).filter(|a| a.get("const").is_none() && a.get("enum").is_none()) {
             match text(other, "type") {
                 Some("null") => optional = true,
@@ -343,7 +369,10 @@ impl Answers {
                 let size = schema.get("minItems").filter(|a| schema.get("maxItems") == Some(a));
                 let places = schema.get("prefixItems").and_then(Value::as_array);
                 let mut each: Vec<String> = places
-                    .map_or_else(|| schema.get("items").into_iter().collect(), |p| p.iter().collect::<Vec<_>>())
+                    .map_or_else(
+                        || schema.get("items").into_iter().collect(),
+                        |p| p.iter().collect::<Vec<_>>(),
+                    )
                     .into_iter()
                     .map(|item| self.kind(item))
                     .collect();
@@ -453,7 +482,8 @@ impl Answers {
                 let _ = writeln!(out, "### {name}\n\n{said}.\n");
                 for (word, meaning) in words {
                     let meaning = meaning.map(brief).filter(|m| !repeats(word.trim_matches('`'), m));
-                    let _ = writeln!(out, "- {word}{}", meaning.map(|m| format!(": {m}")).unwrap_or_default());
+                    let _ =
+                        writeln!(out, "- {word}{}", meaning.map(|m| format!(": {m}")).unwrap_or_default());
                 }
                 out.push('\n');
             }

@@ -95,7 +95,6 @@ fn number(schema: &Value, name: &str) -> String {
 }
 
 impl Fields {
-
     /// The schema itself, or the definition it refers to.
     fn resolved<'a>(&'a self, schema: &'a Value) -> &'a Value {
         reference(schema).and_then(|name| self.definitions.get(name)).unwrap_or(schema)
