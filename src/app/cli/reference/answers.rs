@@ -17,14 +17,14 @@ const RECORDS_OF_ALL: [&str; 4] =
 /// A field that so many records have with the same meaning is described once, at the top of the page.
 const COMMON: usize = 2;
 /// A meaning with fewer words is repeated instead.
-const LEAST_COMMON: usize = 4;
+const LEAST_COMMON: usize = 3;
 /// A longer list of words has a section of its own.
 const MOST_WORDS: usize = 12;
 /// Records with fewer fields are written out again where another record contains them.
 const LEAST_PART: usize = 4;
 
 /// A description with more words is cut at the end of its main clause.
-const LONGEST: usize = 7;
+const LONGEST: usize = 5;
 /// A main clause has so many words at least.
 const SHORTEST: usize = 3;
 /// Units and frames, which stay behind the main clause.
@@ -466,10 +466,9 @@ impl Answers {
         self.cases(schema).filter(|c| reference(c).is_none()).for_each(|c| self.sections_of(c, out));
     }
 
+    /// A record by itself; the fields that have it say what it is.
     fn section(&self, name: &str) -> String {
-        let schema = &self.definitions[name];
-        let said = brief(text(schema, "description").unwrap_or_default());
-        format!("### {name}\n\n{said}.\n\n{}\n", self.list(name, schema, 0, &mut BTreeSet::new()))
+        format!("### {name}\n\n{}\n", self.list(name, &self.definitions[name], 0, &mut BTreeSet::new()))
     }
 
     /// The long lists of words, each with its meanings.
