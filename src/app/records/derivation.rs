@@ -68,9 +68,9 @@ pub struct FactorRecord {
 /// Products over the six offsets of the platform without shared joints.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OffsetProductsRecord {
-    /// (1 - t1) .. (1 - t6).
+    /// The product of all `1 - t_i`.
     pub rest: ExactNumberRecord,
-    /// t1 .. t6.
+    /// The product of all `t_i`.
     pub own: ExactNumberRecord,
 }
 

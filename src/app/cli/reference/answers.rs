@@ -52,8 +52,8 @@ impl Field {
     fn line(&self) -> String {
         let is_usual = ["number", "number?", "integer", "integer?", "record"].contains(&self.kind.as_str());
         let kind = if is_usual { String::new() } else { format!(" ({})", self.kind) };
-        let colon = if self.meaning.is_empty() { "" } else { ": " };
-        format!("`{}`{kind}{colon}{}", self.name, self.meaning)
+        let meaning = if self.meaning.is_empty() { String::new() } else { format!(": {}.", self.meaning) };
+        format!("`{}`{kind}{meaning}", self.name)
     }
 }
 
@@ -255,14 +255,30 @@ impl Answers {
         self.sections.extend(RECORDS_OF_ALL.map(String::from));
     }
 
+    /// The fields of a record, of its cases and of the records below it.
+    fn collect_fields(&self, name: &str, schema: &Value, out: &mut BTreeSet<Field>) {
+        for (field, property) in self.shown(name, schema) {
+            if self.has_list_below(property) {
+                self.below(property)
+                    .for_each(|record| self.collect_fields(record, &self.definitions[record], out));
+            } else {
+                out.insert(self.field(field, property));
+            }
+        }
+        for case in self.cases(schema) {
+            let name = reference(case).unwrap_or_default();
+            if !self.sections.contains(name) {
+                self.collect_fields(name, self.resolved(case), out);
+            }
+        }
+    }
+
     fn find_common(&mut self) {
         let mut seen: BTreeMap<Field, usize> = BTreeMap::new();
-        for (name, schema) in self.homes() {
-            for (field, property) in self.shown(name, schema) {
-                if !self.has_list_below(property) {
-                    *seen.entry(self.field(field, property)).or_default() += 1;
-                }
-            }
+        for root in self.answers.iter().copied().chain(self.sections.iter().map(String::as_str)) {
+            let mut fields = BTreeSet::new();
+            self.collect_fields(root, &self.definitions[root], &mut fields);
+            fields.into_iter().for_each(|field| *seen.entry(field).or_default() += 1);
         }
         let mut best: BTreeMap<String, (usize, Field)> = BTreeMap::new();
         let is_common = |(field, n): &(Field, usize)| *n >= COMMON && count(&field.meaning) >= LEAST_COMMON;
@@ -275,11 +291,15 @@ impl Answers {
         self.common = best.into_values().map(|(_, field)| field).collect();
     }
 
-    /// Whether the fields of its record stand below a field.
-    fn has_list_below(&self, property: &Value) -> bool {
+    /// The records without a section that a field names: their fields stand below it.
+    fn below<'a>(&'a self, property: &'a Value) -> impl Iterator<Item = &'a str> {
         let mut found = Vec::new();
         self.named(property, &mut found);
-        found.iter().any(|name| !self.sections.contains(*name))
+        found.into_iter().filter(|name| !self.sections.contains(*name))
+    }
+
+    fn has_list_below(&self, property: &Value) -> bool {
+        self.below(property).next().is_some()
     }
 
     /// The largest other record whose fields are all among those of this one.
@@ -397,18 +417,32 @@ impl Answers {
         Field { name: name.to_string(), kind: self.kind(property), meaning }
     }
 
-    /// The fields of a record and of its cases as a list; fields shown before in the same record are named only.
-    fn list(&self, name: &str, schema: &Value, indent: usize, shown: &mut BTreeSet<Field>) -> String {
+    /// The fields of a record and of its cases as a list. Fields that the records around it have too are named only, and
+    /// so are those of an earlier case.
+    fn list(
+        &self,
+        (name, schema): (&str, &Value),
+        indent: usize,
+        around: &BTreeSet<Field>,
+        shown: &mut BTreeSet<Field>,
+    ) -> String {
         let pad = " ".repeat(indent);
         let mut out = String::new();
         if let Some(part) = self.part_of(name, schema) {
             let _ = writeln!(out, "{pad}- The fields of [{part}](#{}).", part.to_lowercase());
         }
-        let (mut common, mut before) = (Vec::new(), Vec::new());
-        for (name, property) in self.shown(name, schema) {
+        let own: Vec<(&String, &Value)> = self.shown(name, schema).collect();
+        let plain = own.iter().filter(|(_, property)| !self.has_list_below(property));
+        let inside: BTreeSet<Field> = plain
+            .map(|(field, property)| self.field(field, property))
+            .chain(around.iter().cloned())
+            .collect();
+        let (mut common, mut outside, mut before) = (Vec::new(), Vec::new(), Vec::new());
+        for (name, property) in own {
             let field = self.field(name, property);
             let names = match self.has_list_below(property) {
                 false if self.common.contains(&field) => Some(&mut common),
+                false if around.contains(&field) => Some(&mut outside),
                 false if shown.contains(&field) => Some(&mut before),
                 _ => None,
             };
@@ -417,12 +451,15 @@ impl Answers {
                 continue;
             }
             let _ = writeln!(out, "{pad}- {}", field.line());
-            self.below(property, indent + 2, &mut out);
+            for record in self.below(property) {
+                let found = (record, &self.definitions[record]);
+                out.push_str(&self.list(found, indent + 2, &inside, &mut BTreeSet::new()));
+            }
             shown.insert(field);
         }
-        for (title, names) in [("Common", common), ("As above", before)] {
+        for (title, names) in [("Common", common), ("As around it", outside), ("As above", before)] {
             if !names.is_empty() {
-                let _ = writeln!(out, "{pad}- {title}: {}", names.join(", "));
+                let _ = writeln!(out, "{pad}- {title}: {}.", names.join(", "));
             }
         }
         for case in self.cases(schema) {
@@ -435,7 +472,7 @@ impl Answers {
                 let _ = writeln!(out, "{pad}- {said}: the fields of {link}.");
                 continue;
             }
-            let fields = self.list(case_name, found, indent + 2, shown);
+            let fields = self.list((case_name, found), indent + 2, &inside, shown);
             if !fields.is_empty() {
                 let _ = write!(out, "{pad}- {said}:\n{fields}");
             }
@@ -443,13 +480,9 @@ impl Answers {
         out
     }
 
-    /// The fields of the records without a section that a field names.
-    fn below(&self, property: &Value, indent: usize, out: &mut String) {
-        let mut found = Vec::new();
-        self.named(property, &mut found);
-        for name in found.into_iter().filter(|name| !self.sections.contains(*name)) {
-            out.push_str(&self.list(name, &self.definitions[name], indent, &mut BTreeSet::new()));
-        }
+    /// The list of a record or an answer by itself.
+    fn whole_list(&self, name: &str) -> String {
+        self.list((name, &self.definitions[name]), 0, &BTreeSet::new(), &mut BTreeSet::new())
     }
 
     /// Sections that an answer needs, in the order in which its fields name them.
@@ -468,7 +501,7 @@ impl Answers {
 
     /// A record by itself; the fields that have it say what it is.
     fn section(&self, name: &str) -> String {
-        format!("### {name}\n\n{}\n", self.list(name, &self.definitions[name], 0, &mut BTreeSet::new()))
+        format!("### {name}\n\n{}\n", self.whole_list(name))
     }
 
     /// The long lists of words, each with its meanings.
@@ -482,7 +515,7 @@ impl Answers {
                 for (word, meaning) in words {
                     let meaning = meaning.map(brief).filter(|m| !repeats(word.trim_matches('`'), m));
                     let _ =
-                        writeln!(out, "- {word}{}", meaning.map(|m| format!(": {m}")).unwrap_or_default());
+                        writeln!(out, "- {word}{}", meaning.map(|m| format!(": {m}.")).unwrap_or_default());
                 }
                 out.push('\n');
             }
@@ -514,8 +547,7 @@ impl Answers {
                 "help" => "`equipod --help`".to_string(),
                 _ => format!("`equipod {}`", name.replace('-', " ")),
             };
-            let fields = self.list(name, &self.definitions[*name], 0, &mut BTreeSet::new());
-            let _ = writeln!(out, "## {title}\n\n{fields}");
+            let _ = writeln!(out, "## {title}\n\n{}", self.whole_list(name));
             for record in records.iter().filter(|record| users[**record] == 1) {
                 out.push_str(&self.section(record));
             }

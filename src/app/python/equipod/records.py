@@ -3096,9 +3096,9 @@ class ObservabilityRecord(Record):
 class OffsetProductsRecord(Record):
     """Products over the six offsets of the platform without shared joints."""
 
-    #: (1 - t1) .. (1 - t6).
+    #: The product of all `1 - t_i`.
     rest: ExactNumberRecord
-    #: t1 .. t6.
+    #: The product of all `t_i`.
     own: ExactNumberRecord
 
 
