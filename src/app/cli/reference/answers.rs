@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value};
 
-use super::fields::{alternatives, code, is_record, reference, text, without_links, words};
+use super::fields::{alternatives, code, reference, text, without_links, words};
 
 /// Fields of every answer, which the manual describes once.
 const IN_ALL: [&str; 3] = ["schema_version", "provenance", "warnings"];
@@ -205,10 +205,15 @@ impl Answers {
         self.definition(schema).map_or(schema, |(_, found)| found)
     }
 
+    /// Whether a schema has fields, or an alternative that has some; words and their unions have none.
+    fn is_record(&self, schema: &Value) -> bool {
+        schema.get("properties").is_some() || alternatives(schema).any(|a| self.is_record(self.resolved(a)))
+    }
+
     /// The records that a field names, in lists, tables and alternatives too.
     fn named<'a>(&'a self, schema: &'a Value, out: &mut Vec<&'a str>) {
         if let Some((name, found)) = self.definition(schema) {
-            match (is_of_design(name), is_record(found)) {
+            match (is_of_design(name), self.is_record(found)) {
                 (true, _) => {}
                 (_, true) => out.push(name),
                 _ => self.named(found, out),
@@ -225,14 +230,14 @@ impl Answers {
 
     /// The cases of a record: those of its alternatives that are records.
     fn cases<'a>(&'a self, schema: &'a Value) -> impl Iterator<Item = &'a Value> {
-        alternatives(schema).filter(|a| is_record(self.resolved(a)))
+        alternatives(schema).filter(|a| self.is_record(self.resolved(a)))
     }
 
     /// All definitions and the cases that are written out within them, each with its name, empty for a case.
     fn homes(&self) -> Vec<(&str, &Value)> {
         let mut out = Vec::new();
         for (name, schema) in &self.definitions {
-            if is_record(schema) && !is_of_design(name) {
+            if self.is_record(schema) && !is_of_design(name) {
                 out.push((name.as_str(), schema));
                 out.extend(self.cases(schema).filter(|c| reference(c).is_none()).map(|c| ("", c)));
             }
@@ -337,7 +342,7 @@ impl Answers {
                 "design" => "[design](design-files.md)".to_string(),
                 _ if is_of_design(name) => "[part of a design](design-files.md)".to_string(),
                 _ if words(found).len() > MOST_WORDS => format!("[{name}](#{})", name.to_lowercase()),
-                _ if !is_record(found) => self.kind(found),
+                _ if !self.is_record(found) => self.kind(found),
                 _ if self.sections.contains(name) => format!("[{name}](#{})", name.to_lowercase()),
                 _ => "record".to_string(),
             };

@@ -25,15 +25,6 @@ pub(super) fn alternatives(schema: &Value) -> impl Iterator<Item = &Value> {
     ["anyOf", "oneOf"].into_iter().filter_map(|k| schema.get(k)?.as_array()).flatten()
 }
 
-pub(super) fn is_record(schema: &Value) -> bool {
-    schema.get("properties").is_some() || alternatives(schema).any(is_record_or_reference)
-}
-
-/// An alternative that is a record itself; `null` and words are none.
-fn is_record_or_reference(schema: &Value) -> bool {
-    schema.get("$ref").is_some() || is_record(schema)
-}
-
 /// The name of the definition that a schema refers to.
 pub(super) fn reference(schema: &Value) -> Option<&str> {
     text(schema, "$ref")?.strip_prefix("#/$defs/")
