@@ -1,6 +1,7 @@
 //! What the program writes about itself: completions, manual pages, schemas, the tables of its manual; colours and
 //! closed pipes.
 
+use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
@@ -99,14 +100,14 @@ fn schemas_are_json_and_every_answer_has_one() {
 }
 
 #[test]
-fn the_tables_of_options_and_fields_in_the_documents_are_fresh() {
+fn the_options_and_fields_in_the_documents_are_fresh() {
     for path in ["docs/cli.md", "docs/answers.md", "docs/design-files.md"] {
         let out = equipod(&["reference", path]);
         let page = std::fs::read_to_string(path).unwrap();
         assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
         assert!(out.stdout == page.as_bytes(), "{path} is stale: run .ci/generate");
     }
-    // it finds a stale table, a command without a table and a table without a command
+    // it finds a stale line, a command without a mark and a mark without a command
     let page = std::fs::read_to_string("docs/cli.md").unwrap();
     let folder = tempfile::tempdir().unwrap();
     let with = |name: &str, text: &str| {
@@ -114,31 +115,73 @@ fn the_tables_of_options_and_fields_in_the_documents_are_fresh() {
         std::fs::write(&path, text).unwrap();
         equipod(&["reference", path.to_str().unwrap()])
     };
-    for (good, bad) in [("| `--lengths", "| `--length"), ("| `lengths` |", "| `length` |")] {
+    let fields = std::fs::read_to_string("docs/answers.md").unwrap();
+    for (page, good, bad) in [(&page, "- `--lengths", "- `--length"), (&fields, "- `lengths`", "- `length`")]
+    {
         let stale = page.replacen(good, bad, 1);
-        assert_ne!(stale, page);
+        assert_ne!(stale, *page);
         assert_eq!(with("stale.md", &stale).stdout, page.as_bytes());
     }
     for (what, changed) in [
         ("a command", page.replacen("<!-- options of fk -->", "", 1)),
         ("another command", page.replacen("options of fk", "options of verify", 1)),
-        ("an answer", page.replacen("<!-- fields of assess -->", "", 1)),
-        ("a record of no answer", page.replacen("fields of assess -->", "fields of assess NoRecord -->", 1)),
-        ("an answer twice", page.replacen("fields of verify -->", "fields of assess -->", 1)),
-        ("an end", page.replace("<!-- end of fields -->", "")),
+        ("an end", page.replace("<!-- end of options -->", "")),
+        ("records of something else", fields.replacen("<!-- all records -->", "<!-- all answers -->", 1)),
         ("a table of design files", format!("{page}<!-- keys of design nothing -->\n<!-- end of keys -->\n")),
     ] {
         assert_eq!(with("lacks.md", &changed).status.code(), Some(2), "{what}");
     }
 }
 
-/// Every key of a design file and every field of an answer is described.
+/// Every key of a design file is described.
 #[test]
-fn every_field_in_the_tables_has_a_meaning() {
-    for path in ["docs/cli.md", "docs/answers.md", "docs/design-files.md"] {
-        let page = std::fs::read_to_string(path).unwrap();
-        for line in page.lines().filter(|l| l.starts_with("| `") && l.matches(" | ").count() > 1) {
-            assert!(!line.ends_with("|  |") && !line.contains("anything"), "{path}: {line}");
+fn every_key_in_the_tables_has_a_meaning() {
+    let page = std::fs::read_to_string("docs/design-files.md").unwrap();
+    for line in page.lines().filter(|l| l.starts_with("| `") && l.matches(" | ").count() > 1) {
+        assert!(!line.ends_with("|  |") && !line.contains("anything"), "{line}");
+    }
+}
+
+/// Fields of a definition and of its alternatives that neither say what they are nor refer to a definition that does.
+fn undescribed<'a>(definitions: &'a Value, schema: &'a Value, out: &mut Vec<&'a str>) {
+    let described = |field: &Value| {
+        let found = field["$ref"].as_str().and_then(|r| definitions.get(r.trim_start_matches("#/$defs/")));
+        let texts = [Some(field), found].into_iter().flatten().filter_map(|s| s["description"].as_str());
+        field.get("const").is_some() || texts.into_iter().any(|text| !text.trim().is_empty())
+    };
+    for (name, field) in schema["properties"].as_object().into_iter().flatten() {
+        if !described(field) {
+            out.push(name);
+        }
+    }
+    for alternative in ["anyOf", "oneOf"].iter().filter_map(|k| schema[k].as_array()).flatten() {
+        undescribed(definitions, alternative, out);
+    }
+}
+
+/// Every answer has a section with its fields, every field stands on the page, and every one is described.
+#[test]
+fn every_answer_and_every_field_is_on_the_page() {
+    let page = std::fs::read_to_string("docs/answers.md").unwrap();
+    let listed: BTreeSet<&str> = page.split('`').skip(1).step_by(2).collect();
+    let manual = std::fs::read_to_string("docs/cli.md").unwrap();
+    for command in commands() {
+        let name = in_one_word(&command);
+        assert!(page.contains(&format!("\n## `equipod {command}`\n")), "{command}");
+        assert!(manual.contains(&format!("](answers.md#equipod-{name})")), "{command}");
+        let schema = schema(&name);
+        let definitions = &schema["$defs"];
+        for (record, found) in definitions.as_object().unwrap() {
+            if record == "design" || record.starts_with("design_") {
+                continue;
+            }
+            let mut bare = Vec::new();
+            undescribed(definitions, found, &mut bare);
+            assert_eq!(bare, [""; 0], "{record}");
+            for field in found["properties"].as_object().into_iter().flatten().map(|(field, _)| field) {
+                let in_all = ["schema_version", "provenance", "warnings"].contains(&field.as_str());
+                assert!(in_all || listed.contains(field.as_str()), "{record}: {field}");
+            }
         }
     }
 }

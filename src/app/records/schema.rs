@@ -91,7 +91,7 @@ pub fn schema(of: &str) -> Option<Map<String, Value>> {
     definitions.insert((*name).into(), document);
     definitions.extend(generator.take_definitions(true));
     let open = "Later versions with the same schema_version may add keys to every object, and words to lists of words: pass over what is not known. \
-                docs/cli.md says what the fields mean.";
+                docs/answers.md lists the fields of all answers.";
     let mut root = Map::new();
     root.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
     root.insert("title".into(), format!("Answer of equipod {} --json", name.replace('-', " ")).into());

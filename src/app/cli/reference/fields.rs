@@ -1,54 +1,42 @@
 //! Tables of fields of answers, records and design files, made from the schemas that programs read.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use serde_json::{Map, Value};
 
 use super::cell;
 use files::design::SCHEMA;
-use records;
-
-/// The fields of every answer, which the manual describes once.
-const IN_ALL: [&str; 3] = ["schema_version", "provenance", "warnings"];
-/// The page with the fields of all records.
-const RECORDS_PAGE: &str = "answers.md";
 
 const BOOLEAN: &str = "`true` or `false`";
 
 /// A schema with the definitions it names.
 pub(super) struct Fields {
     definitions: Map<String, Value>,
-    /// The page on which records are described; empty on this page itself.
-    page: &'static str,
 }
 
 /// A text behind a schema's key.
-fn text<'a>(schema: &'a Value, key: &str) -> Option<&'a str> {
+pub(super) fn text<'a>(schema: &'a Value, key: &str) -> Option<&'a str> {
     schema.get(key).and_then(Value::as_str)
 }
 
 /// The alternatives that a schema lists.
-fn alternatives(schema: &Value) -> impl Iterator<Item = &Value> {
+pub(super) fn alternatives(schema: &Value) -> impl Iterator<Item = &Value> {
     ["anyOf", "oneOf"].into_iter().filter_map(|k| schema.get(k)?.as_array()).flatten()
 }
 
-fn is_record(schema: &Value) -> bool {
-    schema.get("properties").is_some() || alternatives(schema).any(is_record_or_reference)
-}
-
-/// Whether an alternative is a record itself rather than `null` or a word.
-fn is_record_or_reference(schema: &Value) -> bool {
-    schema.get("$ref").is_some() || is_record(schema)
+/// The name of the definition that a schema refers to.
+pub(super) fn reference(schema: &Value) -> Option<&str> {
+    text(schema, "$ref")?.strip_prefix("#/$defs/")
 }
 
 /// A constant or a word, as written in a document.
-fn code(value: &Value) -> String {
+pub(super) fn code(value: &Value) -> String {
     format!("`{}`", value.as_str().map_or_else(|| value.to_string(), ToString::to_string))
 }
 
 /// A text of the source without links to other items, which a reader of a page cannot follow.
-fn without_links(text: &str) -> String {
+pub(super) fn without_links(text: &str) -> String {
     let mut parts = text.split("[`");
     let mut out = parts.next().unwrap_or_default().to_string();
     for part in parts {
@@ -75,7 +63,7 @@ fn choice(list: Vec<String>) -> String {
 }
 
 /// The words of an enumeration, each with its description; empty for other schemas.
-fn words(schema: &Value) -> Vec<(String, Option<&str>)> {
+pub(super) fn words(schema: &Value) -> Vec<(String, Option<&str>)> {
     let plain = schema.get("enum").and_then(Value::as_array).into_iter().flatten().map(|w| (code(w), None));
     let told = alternatives(schema).flat_map(|a| match a.get("const") {
         Some(word) => vec![(code(word), text(a, "description"))],
@@ -98,32 +86,15 @@ fn number(schema: &Value, name: &str) -> String {
 }
 
 impl Fields {
-    /// The fields of an answer; `None` for a name that has no schema.
-    pub(super) fn of_answer(name: &str, page: &'static str) -> Option<Self> {
-        let mut schema = records::schema(name)?;
-        let definitions = schema.remove("$defs").and_then(|d| d.as_object().cloned()).unwrap_or_default();
-        Some(Self { definitions, page })
-    }
-
-    fn definition(&self, reference: &str) -> Option<(&str, &Value)> {
-        let name = reference.strip_prefix("#/$defs/")?;
-        self.definitions.get_key_value(name).map(|(name, schema)| (name.as_str(), schema))
-    }
-
     /// The schema itself, or the definition it refers to.
     fn resolved<'a>(&'a self, schema: &'a Value) -> &'a Value {
-        text(schema, "$ref").and_then(|r| self.definition(r)).map_or(schema, |(_, found)| found)
+        reference(schema).and_then(|name| self.definitions.get(name)).unwrap_or(schema)
     }
 
     /// The type of the value of a key, in words.
     fn kind(&self, schema: &Value) -> String {
-        if let Some((name, found)) = text(schema, "$ref").and_then(|r| self.definition(r)) {
-            return match name {
-                "design" => "[design](design-files.md)".to_string(),
-                _ if name.starts_with("design_") => "part of a [design](design-files.md)".to_string(),
-                _ if self.page == "design" || !is_record(found) => self.kind(found),
-                _ => format!("[{name}]({}#{})", self.page, name.to_lowercase()),
-            };
+        if reference(schema).is_some() {
+            return self.kind(self.resolved(schema));
         }
         if let Some(word) = schema.get("const") {
             return code(word);
@@ -201,156 +172,6 @@ impl Fields {
         }
         cell(&without_links(out.trim_start_matches("; ")))
     }
-
-    /// Rows of a table, for the properties shown.
-    fn rows(&self, schema: &Value, shown: impl Fn(&str) -> bool) -> String {
-        let properties = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
-        let mut out = String::new();
-        for (name, property) in properties.filter(|(name, _)| shown(name)) {
-            let _ = writeln!(
-                out,
-                "| `{name}` | {} | {} |",
-                cell(&self.kind(property)),
-                self.meaning(property, false)
-            );
-        }
-        out
-    }
-
-    /// The tables of a record: its own fields, then the fields of each alternative.
-    fn record(&self, schema: &Value) -> String {
-        let rows = self.rows(schema, |name| !IN_ALL.contains(&name));
-        let mut out = String::new();
-        if !rows.is_empty() {
-            let _ = writeln!(out, "| field | value | meaning |\n|---|---|---|\n{rows}");
-        }
-        for alternative in alternatives(schema).filter(|a| is_record_or_reference(a)) {
-            let found = self.resolved(alternative);
-            if !is_record(found) {
-                continue;
-            }
-            let fields = self.record(found);
-            if !fields.is_empty() {
-                let said = text(alternative, "description").or_else(|| text(found, "description"));
-                let _ = write!(out, "*{}*\n\n{fields}", cell(&without_links(said.unwrap_or("Or:"))));
-            }
-        }
-        out
-    }
-
-    /// The tables of one definition; `None` when there is none.
-    pub(super) fn table(&self, definition: &str) -> Option<String> {
-        self.definitions.get(definition).map(|found| self.record(found))
-    }
-
-    /// Records with a section of their own: those that a field refers to. Alternatives are listed at their place.
-    fn named_records(&self, from: &str) -> Vec<String> {
-        let mut order = Vec::new();
-        if let Some(schema) = self.definitions.get(from) {
-            self.collect(schema, &mut order);
-        }
-        order
-    }
-
-    fn collect(&self, schema: &Value, order: &mut Vec<String>) {
-        for alternative in alternatives(schema).filter(|a| is_record_or_reference(a)) {
-            self.collect(self.resolved(alternative), order);
-        }
-        let properties = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
-        for (_, property) in properties.filter(|(name, _)| !IN_ALL.contains(&name.as_str())) {
-            self.collect_named(property, order);
-        }
-    }
-
-    /// The same for the value of a key, including lists and tables.
-    fn collect_named(&self, property: &Value, order: &mut Vec<String>) {
-        if let Some((name, found)) = text(property, "$ref").and_then(|r| self.definition(r)) {
-            if name.starts_with("design") || order.iter().any(|n| n == name) {
-                return;
-            }
-            if is_record(found) {
-                order.push(name.to_string());
-                self.collect(found, order);
-            } else {
-                self.collect_named(found, order);
-            }
-            return;
-        }
-        let parts = ["items", "additionalProperties"].into_iter().filter_map(|k| property.get(k));
-        let places = property.get("prefixItems").and_then(Value::as_array).into_iter().flatten();
-        for part in parts.chain(places).chain(alternatives(property)) {
-            self.collect_named(part, order);
-        }
-        if property.get("properties").is_some() {
-            self.collect(property, order);
-        }
-    }
-}
-
-/// A text with one sentence a line.
-fn sentences(text: &str) -> String {
-    let mut out = String::new();
-    let mut rest = text;
-    while let Some((sentence, after)) = rest.split_once(". ") {
-        let end = if after.starts_with(char::is_uppercase) { ".\n" } else { ". " };
-        let _ = write!(out, "{sentence}{end}");
-        rest = after;
-    }
-    out + rest
-}
-
-/// All records of all answers: records of one answer below it, records of several at the end.
-pub(super) fn all_records() -> String {
-    let answers: Vec<(&str, Fields)> =
-        records::schema_names().filter_map(|n| Some((n, Fields::of_answer(n, "")?))).collect();
-    let mut used: BTreeMap<String, usize> = BTreeMap::new();
-    for (name, fields) in &answers {
-        for record in fields.named_records(name) {
-            *used.entry(record).or_default() += 1;
-        }
-    }
-    let section = |fields: &Fields, name: &str| {
-        let said = fields.definitions.get(name).and_then(|d| text(d, "description")).unwrap_or_default();
-        let lines = sentences(&cell(&without_links(said)));
-        format!("### {name}\n\n{lines}\n\n{}", fields.table(name).unwrap_or_default())
-    };
-    let mut out = String::from("\n");
-    let mut several = BTreeMap::new();
-    for (name, fields) in &answers {
-        let title = match *name {
-            "error" => "Refusals and failures".to_string(),
-            "help" => "`equipod --help`".to_string(),
-            _ => format!("`equipod {}`", name.replace('-', " ")),
-        };
-        let _ = writeln!(out, "## {title}\n\n{}", fields.table(name).unwrap_or_default().trim_end());
-        out.push('\n');
-        for record in fields.named_records(name) {
-            let text = section(fields, &record);
-            if used.get(&record).is_some_and(|n| *n > 1) {
-                several.insert(record, text);
-            } else {
-                out.push_str(&text);
-            }
-        }
-    }
-    out.push_str("## Records of several answers\n\n");
-    // the manual describes fields of every answer; their records are here
-    let mut rest = String::new();
-    if let Some((_, fields)) = answers.first() {
-        for record in ["ProvenanceRecord", "DesignSourceRecord", "FileSourceRecord", "WarningRecord"] {
-            rest.push_str(&section(fields, record));
-        }
-    }
-    out.push_str(&several.into_values().collect::<String>());
-    out.push_str(&rest);
-    out
-}
-
-/// The table for the mark `<!-- fields of NAME [RECORD] -->`; `None` if there is no such answer or record.
-pub(super) fn of_mark(mark: &str) -> Option<String> {
-    let (answer, record) = mark.split_once(' ').unwrap_or((mark, mark));
-    let fields = Fields::of_answer(answer, RECORDS_PAGE)?;
-    Some(format!("\n{}", fields.table(record)?))
 }
 
 /// The table for the mark `<!-- keys of design [TABLES] -->`: the top-level keys of a design file, or the keys of some
@@ -362,7 +183,7 @@ pub(super) fn of_design(mark: &str) -> Option<String> {
         return None;
     }
     let definitions = schema.get_mut("$defs").and_then(Value::as_object_mut).map(std::mem::take)?;
-    let fields = Fields { definitions, page: "design" };
+    let fields = Fields { definitions };
     let mut out = String::from("\n| key | value | meaning |\n|---|---|---|\n");
     let tables: Vec<&str> = names.collect();
     if tables.is_empty() {

@@ -1,9 +1,9 @@
 //! `equipod reference`, hidden: writes the purpose of each command, its options, its examples and the fields of its
 //! answer into the manual, from their definitions.
 
+mod answers;
 mod fields;
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -25,16 +25,20 @@ pub(crate) struct ReferenceArgs {
 }
 
 /// The beginnings and ends of blocks; the subject follows the beginning.
-const MARKS: [(&str, &str); 4] = [
+const MARKS: [(&str, &str); 3] = [
     ("<!-- options of ", "<!-- end of options -->"),
-    ("<!-- fields of ", "<!-- end of fields -->"),
     ("<!-- keys of ", "<!-- end of keys -->"),
     ("<!-- all ", "<!-- end of records -->"),
 ];
 
+/// A text on one line.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Text of a table cell: on one line, bars escaped.
 fn cell(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+    one_line(text).replace('|', "\\|")
 }
 
 /// The notation of an argument: `-o`, `--output <DIR>` or `<DESIGN>`.
@@ -53,8 +57,18 @@ fn spelling(arg: &Arg) -> String {
     if value.is_empty() { name } else { format!("{name} {value}") }
 }
 
+/// What begins the meaning of an argument that the manual describes once for all commands.
+const DESIGN: &str = "Design file (.toml or .json)";
+
+/// Where the fields of the answer of a command are; empty for groups.
+fn answer(command: &Command) -> String {
+    let name = path(command).replace(' ', "-");
+    let known = schema_names().any(|schema| schema == name);
+    if known { format!("Answer: [fields](answers.md#equipod-{name}).\n\n") } else { String::new() }
+}
+
 fn meaning(arg: &Arg) -> String {
-    let mut out = cell(&arg.get_help().map(ToString::to_string).unwrap_or_default());
+    let mut out = one_line(&arg.get_help().map(ToString::to_string).unwrap_or_default());
     if arg.get_action().takes_values() {
         let possible: Vec<String> =
             arg.get_possible_values().iter().map(|v| format!("`{}`", v.get_name())).collect();
@@ -72,11 +86,14 @@ fn meaning(arg: &Arg) -> String {
     out
 }
 
+/// A command as it is typed behind the name of the program.
+fn path(command: &Command) -> &str {
+    command.get_bin_name().and_then(|name| name.strip_prefix("equipod ")).unwrap_or_default()
+}
+
 /// The examples of a command as in its `--help`; none for groups.
 fn examples(command: &Command) -> String {
-    let name = command.get_bin_name().unwrap_or_default();
-    let path = name.strip_prefix("equipod ").unwrap_or_default();
-    let Some(entry) = guide::entries().find(|e| e.path == path) else { return String::new() };
+    let Some(entry) = guide::entries().find(|e| e.path == path(command)) else { return String::new() };
     let heading = if entry.examples.len() == 1 { "Example" } else { "Examples" };
     let lines: Vec<String> = entry.examples.iter().map(|e| format!("    equipod {e}\n")).collect();
     format!("{heading}:\n\n{}\n", lines.concat())
@@ -88,24 +105,31 @@ fn block(command: &Command, global: bool) -> String {
     let usage = command.clone().render_usage().to_string();
     let mut out = String::from("\n");
     if let (Some(about), false) = (command.get_about(), global) {
-        let _ = writeln!(out, "{}.\n", cell(&about.to_string()));
+        let _ = writeln!(out, "{}.\n", one_line(&about.to_string()));
     }
-    let _ = writeln!(out, "    {}\n", cell(usage.trim_start_matches("Usage:")));
+    let _ = writeln!(out, "    {}\n", one_line(usage.trim_start_matches("Usage:")));
     let shown = |a: &&Arg| {
         let own = global || !a.is_global_set();
         !a.is_hide_set() && own && !["help", "version"].contains(&a.get_id().as_str())
     };
     let (first, rest): (Vec<&Arg>, Vec<&Arg>) =
         command.get_arguments().filter(shown).partition(|a| a.is_positional());
-    if !(first.is_empty() && rest.is_empty()) {
-        out.push_str("| argument | meaning |\n|---|---|\n");
+    let said = |a: &&Arg| {
+        let rest = meaning(a);
+        rest.strip_prefix(DESIGN).is_none_or(|rest| !(rest.is_empty() || rest.starts_with(", or `-`")))
+    };
+    let lines: Vec<String> = first
+        .into_iter()
+        .chain(rest)
+        .filter(said)
+        .map(|arg| format!("- `{}`: {}\n", spelling(arg), meaning(arg)))
+        .collect();
+    if !lines.is_empty() {
+        let _ = writeln!(out, "{}", lines.concat());
     }
-    for arg in first.into_iter().chain(rest) {
-        let _ = writeln!(out, "| `{}` | {} |", cell(&spelling(arg)), meaning(arg));
-    }
-    out.push('\n');
     if !global {
         out.push_str(&examples(command));
+        out.push_str(&answer(command));
         let parts = command.get_subcommands().filter(|c| !c.is_hide_set());
         out.extend(parts.map(|c| block(c, false).trim_start_matches('\n').to_string()));
     }
@@ -117,17 +141,13 @@ struct OpenEntries {
     program: Command,
     whole: bool,
     commands: Vec<&'static str>,
-    answers: Vec<&'static str>,
-    /// Marks of fields so far.
-    seen: BTreeSet<String>,
 }
 
 impl OpenEntries {
     fn new() -> Self {
         let mut program = guide::program().disable_help_subcommand(true);
         program.build();
-        let commands = guide::entries().map(|e| e.path).collect();
-        Self { program, whole: true, commands, answers: schema_names().collect(), seen: BTreeSet::new() }
+        Self { program, whole: true, commands: guide::entries().map(|e| e.path).collect() }
     }
 
     /// The options of a command, each command once; `None` if it is unknown or already described.
@@ -139,13 +159,6 @@ impl OpenEntries {
         self.commands.retain(|path| *path != name && !path.starts_with(&format!("{name} ")));
         let command = name.split(' ').try_fold(&self.program, |c, word| c.find_subcommand(word))?;
         (self.commands.len() < before).then(|| block(command, false))
-    }
-
-    /// The fields of an answer or of one of its records, each once; `None` if it is unknown or already described.
-    fn fields(&mut self, name: &str) -> Option<String> {
-        let answer = name.split(' ').next()?;
-        self.answers.retain(|a| *a != answer);
-        if self.seen.insert(name.to_string()) { fields::of_mark(name) } else { None }
     }
 }
 
@@ -172,9 +185,8 @@ fn written(page: &str) -> Result<String, Failure> {
         until = Some(end);
         let text = match begin {
             "<!-- options of " => open.options(name),
-            "<!-- fields of " => open.fields(name),
             "<!-- keys of " => fields::of_design(name),
-            _ => (name == "records").then(fields::all_records),
+            _ => (name == "records").then(answers::all),
         };
         out.push_str(&text.ok_or_else(|| bad(format!("`{line}` names nothing, or is there twice")))?);
     }
@@ -182,10 +194,8 @@ fn written(page: &str) -> Result<String, Failure> {
         return Err(bad(format!("a mark without `{end}`")));
     }
     // the manual is the page with the options of the program
-    let described = open.commands.is_empty() && open.answers.is_empty();
-    if !(open.whole || described) {
-        let lacking = [open.commands, open.answers].concat().join(", ");
-        return Err(bad(format!("the page lacks marks: {lacking}")));
+    if !(open.whole || open.commands.is_empty()) {
+        return Err(bad(format!("the page lacks marks: {}", open.commands.join(", "))));
     }
     Ok(out)
 }

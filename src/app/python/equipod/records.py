@@ -175,35 +175,35 @@ WorkspaceWord = Literal["default", "design"]
 
 
 class AccuracyRecord(Record):
-    """The allowed error of the pose."""
+    """How far the pose may be off."""
 
-    #: Error of the platform origin, design units.
+    #: Of the platform origin, design units.
     position: float
-    #: Error of the orientation, degrees.
+    #: Angle of rotation.
     rotation_deg: float
 
 
 class AlignmentRecord(Record):
     """The rigid motions that make one design equivalent to another."""
 
-    #: The result in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: str
-    #: The result with base and platform of the second design exchanged.
+    #: The same with base and platform of the second design exchanged.
     exchanged: OtherAlignmentRecord
-    #: The result with the mirror image of the second design.
+    #: The same with the mirror image of the second design.
     mirrored: OtherAlignmentRecord
     status: Union[Literal["found", "none", "undecided"], None]
-    #: The motions, the smallest first.
+    #: Nearest to no motion first.
     motions: Union[tuple[MotionRecord, ...], None]
-    #: Whether the list of motions is complete.
+    #: There are no others.
     all: Union[bool, None]
-    #: Dimension of the families that contain the motions.
+    #: Dimension of the families the motions lie in.
     freedom: Union[int, None]
-    #: The quantity in which the designs differ, which proves it.
+    #: The number that shows it.
     difference: Union[DifferenceRecord, None]
-    #: The motion that comes nearest.
+    #: How near a motion comes.
     nearest: Union[NearestMotionRecord, None]
-    #: The reason.
+    #: Why not.
     reason: Union[AlignmentUndecided, None]
 
 
@@ -224,71 +224,70 @@ class AssemblyRecord(Record):
 class AssessAnswer(Record):
     """The answer of `assess`."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The name of the assessed design.
+    #: The design judged.
     name: str
-    #: The role of the design in this answer.
+    #: What it is in this answer.
     role: DesignRoleWord
-    #: The verdict for all poses that `judged` names. True: every margin and det J are proved. False: one
-    #: pose proves a violation or a change of sign of det J. Null: neither is proved.
+    #: True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a
+    #: change of sign of det J is proved by its pose; null: neither.
     met: Union[bool, None]
-    #: The verdict in one sentence.
+    #: The verdict in a sentence whose subject is the design.
     explanation: str
-    #: The poses assessed.
+    #: The poses judged.
     judged: JudgedPosesRecord
-    #: The verdict for the safety margins. True: every margin is proved to keep its safety margin. False:
-    #: the given pose proves the opposite. Null: neither is proved.
+    #: The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at
+    #: the pose given; null: neither.
     reserve_kept: Union[bool, None]
-    #: The least margin of each kind.
+    #: The least of each kind.
     requirements: tuple[MarginRecord, ...]
-    #: The requirement with the least margin as a share of its limit; null: no requirement has a limit to
-    #: compare with.
+    #: The requirement with the least room as a share of its limit; null: none has a limit to compare with.
     tightest: Union[TightestRecord, None]
-    #: Whether the workspace holds singular poses.
+    #: Whether there are singular poses.
     regular: RegularityRecord
-    #: The result on singular poses in one sentence.
+    #: The same in a sentence.
     regular_explanation: str
-    #: The worst conditioning of the Jacobian over the sampled poses: a value found, without limit and
-    #: proof.
+    #: Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit
+    #: and without a proof.
     conditioning: LeastConditioningRecord
-    #: Number of poses sampled.
+    #: Poses looked at.
     poses: int
-    #: Number of cells over which margins were bounded.
+    #: Cells over which margins were bounded.
     cells: int
-    #: The lightest drive that meets the requirements, from the table that the design names. Null: the
-    #: design names none, or the answer has another subject.
+    #: The lightest drive of the table that the design names with which its requirements are met; null: it
+    #: names none, or the answer is about something else.
     lightest_drive: Union[LightestDriveRecord, None]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
-    #: Assumptions about masses that the file leaves open, one sentence each. Absent: no force, torque or
-    #: natural frequency is assessed, or the enclosing answer has the list.
+    #: Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque
+    #: or natural frequency is judged, and where the answer around this one has the list.
     assumptions: Union[tuple[str, ...], None]
 
 
 class BestLineRecord(Record):
-    """A line that joints of a body lie nearly on, body frame, design units."""
+    """A line that joints of a body lie nearly on, in the frame of the body, design units."""
 
     #: The body.
     body: Body
-    #: A point of the line: the centroid of the joints.
+    #: A point of the line, the centroid of the joints.
     point: tuple[Union[float, None], ...]
-    #: A unit vector along the line.
+    #: A unit vector along it.
     direction: tuple[Union[float, None], ...]
-    #: The greatest distance of a joint from the line, design units.
+    #: The greatest distance of a joint from the line.
     distance: Union[float, None]
-    #: The greatest distance of a joint from the centroid along the line, design units.
+    #: The greatest distance of a joint from the centroid along the line.
     reach: Union[float, None]
 
 
 class BeyondPrecisionRecord(Record):
     """Numbers of poses that were set aside."""
 
-    #: Number of poses of A.
+    #: Of A.
     a: int
-    #: Number of poses of B.
+    #: Of B.
     b: int
 
 
@@ -305,11 +304,11 @@ class BoundedProof(Record):
 
 
 class BranchConflictRecord(Record):
-    """A proof that a branch or a part of it is empty."""
+    """Why a branch or a part of it is empty."""
 
     #: A short stable code.
     code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
-    #: The proof in one sentence, with its numbers.
+    #: One sentence with the numbers.
     message: str
 
 
@@ -335,174 +334,171 @@ class BranchCountsRecord(Record):
 
 
 class BranchRecord(Record):
-    """A branch: one zone for each offset."""
+    """A branch: a zone for each offset."""
 
-    #: Zone of each offset: before, inside or beyond its edge.
+    #: Zone of each offset: before, inside, beyond its edge.
     branch: str
-    #: The outcome of the branch.
+    #: What became of it.
     verdict: BranchWord
-    #: The best objective of the branch, if it is dominated.
+    #: Its own best, where it is dominated.
     objective: Union[float, None]
-    #: The offsets with this objective.
+    #: Where that is reached.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: Number of parts of the branch searched.
+    #: Parts of the branch searched.
     cells: int
     #: Proved conflicts of the branch or of parts of it.
     conflicts: tuple[BranchConflictRecord, ...]
 
 
 class BudgetPosesRecord(Record):
-    """The poses evaluated."""
+    """The poses looked at."""
 
-    #: Number of poses.
+    #: How many.
     count: int
-    #: The source of the workspace.
+    #: Whether the workspace is that of the design.
     workspace: WorkspaceWord
 
 
 class CalibrateAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
     #: The unit of lengths.
     units: str
-    #: The outcome of the calibration.
+    #: How it ended.
     outcome: CalibrateOutcome
-    #: The reason of the outcome, one sentence.
+    #: Why it ended so, in a sentence.
     reason: str
-    #: The calibration; null: nothing was measured, and poses to measure were asked for.
+    #: What was found; null: nothing was measured, and poses to measure were asked for.
     calibration: Union[CalibrationRecord, None]
-    #: The poses to measure next, the most informative first.
+    #: The poses at which another measurement says most, the best first.
     next_poses: tuple[NextPoseRecord, ...]
-    #: The design file written; null: none.
+    #: The design that was written; null: none.
     path: Union[str, None]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class CalibratedJointRecord(Record):
-    """A calibrated joint."""
+    """A joint."""
 
-    #: The body of the joint.
+    #: Its body.
     body: Body
-    #: The name of the joint.
+    #: Its name.
     joint: str
-    #: The position, design units, body frame.
+    #: Where it is, frame of the body.
     position: tuple[Union[float, None], ...]
-    #: Standard deviations of the coordinates, design units; null: the joint was held.
+    #: Standard deviations of the coordinates; null: it was held.
     deviations: Union[tuple[Union[float, None], ...], None]
-    #: The displacement from the position in the design, design units.
+    #: From where the design has it.
     moved: tuple[Union[float, None], ...]
 
 
 class CalibratedOffsetRecord(Record):
     """The offset of a leg."""
 
-    #: The leg, from 1.
+    #: From 1.
     leg: int
-    #: The shown length minus the distance of the joints, design units.
+    #: What the length shown is longer than the distance of the joints, design units.
     offset: Union[float, None]
-    #: The standard deviation of the offset, design units; null: the offset was held.
+    #: Its standard deviation; null: it was held.
     deviation: Union[float, None]
 
 
 class CalibratedPosesRecord(Record):
-    """Standard deviations of poses computed from lengths with the calibrated machine. The noise of the lengths adds to them."""
+    """Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top."""
 
     #: Whether the design file has correlations.
     correlations: CorrelationsWord
-    #: Number of poses evaluated.
+    #: Poses looked at.
     poses: int
-    #: Root mean square error of the tool point, design units.
+    #: Root mean square of the distance by which the tool point is off, design units.
     position: DeviationRecord
-    #: Root mean square error of the orientation, degrees.
+    #: Root mean square of the angle by which the orientation is off, degrees.
     rotation_deg: DeviationRecord
 
 
 class CalibrationRecord(Record):
-    """The calibrated machine with its residuals and deviations."""
+    """What was found."""
 
-    #: Number of measured poses.
+    #: Poses measured.
     poses: int
-    #: Number of unknown coordinates and offsets.
+    #: Coordinates and offsets sought.
     unknowns: int
     #: The frames of joints, deviations and covariance.
     frames: CalibrationFrames
-    #: The motions from the frames of the measurements to the design frames; null: joints are given in the
+    #: The motions from the frames of the measurements to those of the design; null: joints are in the
     #: frames of the measurements.
     motions: Union[FrameMotionsRecord, None]
-    #: Standard deviations of the measurements.
+    #: How uncertain measurements are.
     noise: NoiseRecord
-    #: The loss function of the fit.
+    #: How far measurements cost.
     loss: LossRecord
-    #: The starting point of the fit.
+    #: Where the fit began.
     start: StartRecord
-    #: Whether the fit converged.
+    #: Whether its steps ended where they must.
     converged: bool
-    #: Number of steps in all.
+    #: Steps in all.
     steps: int
-    #: The calibrated joints: all joints that carry legs.
+    #: The joints that carry legs.
     joints: tuple[CalibratedJointRecord, ...]
-    #: Leg offsets in leg order: shown length minus distance of the joints, design units.
+    #: Leg offsets in leg order: shown length less distance of the joints.
     offsets: tuple[CalibratedOffsetRecord, ...]
-    #: Covariance of the unknowns, squared design units; directions that are not identified contribute no
-    #: variance.
+    #: Covariance of the unknowns, squared design units; directions that are not identified have none.
     covariance: CovarianceRecord
-    #: Uncertainty of poses computed with the machine; null: not all unknowns are identified, or the design
-    #: has no pose to evaluate.
+    #: How uncertain poses are that are computed with the machine; null: not all unknowns are identified,
+    #: or the design has no pose to look at.
     computed_poses: Union[ComputedPosesRecord, None]
-    #: Observability of the machine's parameters by these measurements.
+    #: Which changes of the machine the measurements see, and how well.
     observability: ObservabilityRecord
-    #: Residuals of the design before calibration.
+    #: Residuals of the design as it is.
     before: ResidualsRecord
     #: Residuals of the calibrated machine, without outliers.
     after: ResidualsRecord
-    #: Leave-one-out residuals to first order, without outliers: each pose against the machine fitted to
-    #: the other poses.
+    #: Residuals of each pose for the machine that the other poses give, to first order, without outliers.
     left_out: ResidualsRecord
     #: Residuals of the measurements of `--check`; null: there are none.
     check: Union[ResidualsRecord, None]
-    #: Lines of the measurements that the unknowns depend on: without one of them, the unknowns are not
-    #: determined.
+    #: Lines of measurements without which the unknowns are not determined.
     indispensable: tuple[int, ...]
-    #: Test of the residuals against the noise.
+    #: Agreement of the residuals with the noise.
     chi_square: ChiSquareRecord
-    #: Measurements that contradict the others, the farthest first.
+    #: Measurements that do not belong to the others, the farthest first.
     outliers: tuple[OutlierRecord, ...]
-    #: Two legs, from 1, with measured lengths probably exchanged: swapped, they are five times nearer to
-    #: the design. Null: none.
+    #: Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design
+    #: when they change places; null: none do.
     exchanged_legs: Union[tuple[int, ...], None]
 
 
 class CaseRecord(Record):
     """A known kind of singular design."""
 
-    #: The name of the case.
+    #: Which.
     case: str
     #: The short code of the reason.
     reason: str
-    #: The legs of the case, from 1.
+    #: The legs it is about, from 1.
     legs: tuple[int, ...]
-    #: The case in one sentence.
+    #: One sentence.
     explanation: str
 
 
 class CertificateRecord(Record):
-    """The proof that a root exists and is unique nearby, with all its numbers."""
+    """The proof that a root exists and is alone, with all its numbers."""
 
     kind: Union[Literal["study", "cluster", "octahedral"], None]
-    #: Index of the coordinate that equals 1.
+    #: Index of the coordinate that is 1.
     patch: Union[int, None]
     #: A power of two, design units.
     unit: Union[float, None]
-    #: The centre of the ball.
+    #: The centre.
     centre: Union[ComplexRecord4, ComplexRecord3, None]
-    #: Low-order parts of the centre, to be added to it.
+    #: To be added to the centre.
     centre_low: Union[ComplexRecord4, None]
     #: One root lies within this distance of the centre.
     radius: Union[float, None]
@@ -512,87 +508,90 @@ class CertificateRecord(Record):
     contraction: Union[float, None]
     #: Precision of the centre.
     precision: Union[CentrePrecision, None]
-    #: Reality of the root, proved for all squared lengths within the rounding of the data.
+    #: Proved for all squared lengths that the data can mean.
     reality: Union[ProvedReality, None]
-    #: Discs that contain the pose of the root.
+    #: What holds the pose of the root.
     enclosure: Union[EnclosureRecord, None]
-    #: Number of roots, counted with multiplicity; at least 2.
+    #: Their number, each counted with its multiplicity; 2 or more.
     multiplicity: Union[int, None]
     #: Radius of the disc of t.
     reach: Union[float, None]
-    #: Remainder of the equation divided by its leading term, the power of t with the multiplicity as
-    #: exponent, on the circle; below 1.
+    #: What is left beside the power of t that has the multiplicity as exponent, over this power, on the
+    #: circle; below 1.
     dominance: Union[float, None]
     #: Legs 14 24 25 35 36 16, from 0.
     order: Union[tuple[int, ...], None]
-    #: Whether the root is the mirror image, in the plane of the base, of the pose near the centre.
+    #: The root is the mirror image, in the plane of the base, of the pose near the centre.
     mirrored: Union[bool, None]
 
 
 class CheckAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
-    #: The exactness of the design's joints.
+    #: How exactly its joints are known.
     joints: JointsRecord
-    #: Whether every pose is singular. Null: undecided, since a singular design lies within rounding or the
-    #: digits given, or some joints are known only between bounds.
+    #: Null: the design as written is regular, and a singular one lies within rounding of it or within the
+    #: digits given; or joints are known between bounds only.
     architecturally_singular: Union[bool, None]
-    #: The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
+    #: What the answer is proved about; within rounding: a singular design may have been meant. Null: not
+    #: decided.
     level: Union[Level, None]
-    #: The exact decision for the joints as numbers; null: some joints are known only between bounds.
+    #: Decided exactly, for the joints as the numbers they are; null where they are known between bounds
+    #: only.
     singular_as_written: Union[bool, None]
-    #: The evidence that the home pose is singular; null: it is regular, or the design states none.
+    #: What shows that the home pose of the design is singular; null: it is regular, or the design states
+    #: none.
     singular_home: Union[SingularEvidenceWord, None]
     #: A short code of the reason; null: regular.
     reason: Union[str, None]
-    #: The verdict in one sentence.
+    #: One sentence.
     explanation: str
-    #: The proof of the answer for the joints as written.
+    #: What proves the answer for the joints as written.
     proof: ProofWord
-    #: The proof in one sentence.
+    #: One sentence on the proof.
     proof_explanation: str
     #: Rank of the leg vectors.
     leg_rank: int
-    #: Generic rank of the Jacobian: the rank of the leg lines at almost every pose.
+    #: Rank of the leg lines at almost every pose.
     jacobian_rank: int
-    #: A pose at which the leg lines have this rank.
+    #: A pose with that rank.
     witness: WitnessRecord
-    #: The first linear dependency of the leg vectors; null: there is none.
+    #: The first of the dependencies.
     dependency: Union[DependencyRecord, None]
-    #: All linear dependencies of the leg vectors.
+    #: Dependencies of leg vectors.
     dependencies: tuple[DependencyRecord, ...]
-    #: The legs of the first known case, from 1.
+    #: The legs of the first case.
     guilty_legs: Union[tuple[int, ...], None]
-    #: The known cases that apply, the most specific first.
+    #: The cases that apply, most telling first.
     cases: tuple[CaseRecord, ...]
-    #: The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
+    #: The Griffis-Duffy type, where the joints lie on the sides of two triangles.
     griffis_duffy: Union[GriffisDuffyRecord, None]
-    #: The nearest singular design found; null: the design itself is singular.
+    #: The nearest singular design that was found; null for a singular one.
     nearest_singular: Union[NearestSingularRecord, None]
-    #: Number of finite poses, real and complex, for generic leg lengths.
+    #: Finite poses, real and complex, for generic leg lengths.
     pose_count: PoseCountRecord
-    #: Points common to the equations of six legs for generic lengths, by kind. Null: the poses are not
-    #: isolated, or not counted.
+    #: The points that six legs have in common, for generic lengths, by where they are; null where the
+    #: poses are not isolated or not counted.
     common_points: Union[CommonPointsRecord, None]
-    #: An upper bound on the number of isolated finite poses, by a theorem.
+    #: How many isolated finite poses no lengths exceed, by a theorem.
     pose_bound: PoseBoundRecord
-    #: The steps in which the poses can be computed: by quadratic equations alone, or with one part of the
-    #: platform first.
+    #: In which steps the poses can be found: whether by quadratic equations alone, and which part of the
+    #: platform can be placed before the rest.
     solvability: Solvability
-    #: The best-fitting line through the joints of each body, base first. A body whose joints all lie on
-    #: one line can rotate about it. A body with all joints at one point has no line.
+    #: The line that fits the joints of each body best, base first: a body whose joints all lie on one
+    #: turns about it. A body with its joints in one place has none.
     best_lines: tuple[BestLineRecord, ...]
-    #: Singular values of the matrix of normalised leg vectors.
+    #: Singular values of the normalised leg vectors.
     singular_values: tuple[Union[float, None], ...]
-    #: Inverse condition number of the Jacobian at random poses.
+    #: How well conditioned the Jacobian is at random poses.
     jacobian_inverse_condition: ConditioningRecord
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
@@ -609,11 +608,11 @@ class ChiSquareRecord(Record):
 
 
 class ClosurePolynomialRecord(Record):
-    """The closure polynomial in one squared distance, with its results on the number of real poses."""
+    """The closure polynomial in one squared distance, with what it says about the number of real poses."""
 
-    #: The joints of the virtual leg; null: none is needed.
+    #: The joints of the virtual leg; null where none is needed.
     virtual_leg: Union[tuple[str, ...], None]
-    #: The two joints with the unknown squared distance.
+    #: The joints whose squared distance is the unknown.
     unknown: tuple[str, ...]
     #: The joints of the first triangle.
     start: tuple[str, ...]
@@ -621,44 +620,43 @@ class ClosurePolynomialRecord(Record):
     sequence: tuple[TrilaterationStepRecord, ...]
     #: The unknowns by their names.
     unknowns: tuple[str, ...]
-    #: The degree before spurious factors are removed.
+    #: The degree before factors without meaning are removed.
     degree_before: int
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The spurious factors removed.
+    #: The factors that were removed.
     removed: tuple[RemovedFactorRecord, ...]
-    #: Number of distinct complex roots; null: several unknowns, or not proved.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
-    #: The representation of the coefficients.
+    #: How the coefficients are known.
     coefficients_known: CoefficientsWord
     #: The exponents of the unknowns in each term.
     exponents: tuple[tuple[int, ...], ...]
-    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
-    #: first.
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
-    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
-    #: that are not exact.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: The multiplicity of each real root.
+    #: How often each of them is a root.
     real_root_multiplicities: tuple[int, ...]
     #: Singular factors.
     factors: tuple[SingularFactorRecord, ...]
-    #: Number of real poses at each real root; null: not determined by the polynomial.
+    #: Real poses at each of them; null where that does not follow.
     real_poses_at_roots: Union[tuple[int, ...], None]
-    #: Total number of real poses, proved; null: not determined by the polynomial.
+    #: Real poses in all, proved; null where that does not follow.
     poses_real_proved: Union[int, None]
-    #: Bounds [low, high] of the coefficients; null: they are exact.
+    #: Bounds [low, high] of the coefficients, where they are not exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class ClosureRecord(Record):
     """The exact closure polynomial beside the poses."""
 
-    #: The joints of the virtual leg; null: none is needed.
+    #: The joints of the virtual leg; null where none is needed.
     virtual_leg: Union[tuple[str, ...], None]
-    #: The two joints with the unknown squared distance.
+    #: The joints whose squared distance is the unknown.
     unknown: Union[tuple[str, ...], None]
     #: The joints of the first triangle.
     start: Union[tuple[str, ...], None]
@@ -666,37 +664,36 @@ class ClosureRecord(Record):
     sequence: Union[tuple[TrilaterationStepRecord, ...], None]
     #: The unknowns by their names.
     unknowns: Union[tuple[str, ...], None]
-    #: The degree before spurious factors are removed.
+    #: The degree before factors without meaning are removed.
     degree_before: Union[int, None]
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The spurious factors removed.
+    #: The factors that were removed.
     removed: Union[tuple[RemovedFactorRecord, ...], None]
-    #: Number of distinct complex roots; null: several unknowns, or not proved.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
-    #: The representation of the coefficients.
+    #: How the coefficients are known.
     coefficients_known: Union[CoefficientsWord, None]
     #: The exponents of the unknowns in each term.
     exponents: Union[tuple[tuple[int, ...], ...], None]
-    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
-    #: first.
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: Union[tuple[str, ...], None]
-    #: Bounds [low, high] of the coefficients; null: they are exact.
+    #: Bounds [low, high] of the coefficients, where they are not exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
-    #: that are not exact.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: The multiplicity of each real root.
+    #: How often each of them is a root.
     real_root_multiplicities: Union[tuple[int, ...], None]
     #: Singular factors.
     factors: Union[tuple[SingularFactorRecord, ...], None]
-    #: Number of real poses at each real root; null: not determined by the polynomial.
+    #: Real poses at each of them; null where that does not follow.
     real_poses_at_roots: Union[tuple[int, ...], None]
-    #: Total number of real poses, proved; null: not determined by the polynomial.
+    #: Real poses in all, proved; null where that does not follow.
     poses_real_proved: Union[int, None]
-    #: The reason.
+    #: Why not.
     error: Union[str, None]
 
 
@@ -716,41 +713,40 @@ class CommonPointsRecord(Record):
 
 
 class CompareAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The unit of lengths for all designs.
+    #: Of all designs.
     length_unit: str
-    #: The unit of forces for all designs.
+    #: Of all designs.
     force_unit: str
-    #: The manoeuvres about home; forces, speeds and powers are computed along them.
+    #: The manoeuvres about home along which forces, speeds and powers are taken.
     manoeuvres: tuple[str, ...]
-    #: The accuracy for the joint tolerances; null: none was requested.
+    #: The accuracy for which joints are toleranced; null: none was asked for.
     accuracy: Union[AccuracyRecord, None]
-    #: Characteristic length of every conditioning in this answer: the value of the first design, design
-    #: units.
+    #: Characteristic length of every conditioning in this answer: that of the first design.
     characteristic_length: float
-    #: The designs in the order given.
+    #: In the order in which they were given.
     designs: tuple[FiguresRecord, ...]
-    #: The files written: the table and the page.
+    #: The table and the page that were written.
     paths: tuple[str, ...]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class ComparedRecord(Record):
-    """A summary of a verification."""
+    """A verification in short."""
 
-    #: Number of length sets; both designs were solved at each.
+    #: Sets of lengths at which both designs were solved.
     sample_count: int
     #: The largest distance of matched poses.
     worst_distance: Union[float, None]
-    #: The residual of the affine map.
+    #: Of the affine map.
     residual: Union[float, None]
-    #: The determinant of the affine map.
+    #: Its determinant.
     det: Union[float, None]
 
 
@@ -791,21 +787,20 @@ class ComplexRecord4(Record):
 
 
 class ComputedPosesRecord(Record):
-    """Standard deviations of poses computed from lengths, caused by the errors of the calibration with all correlations. The noise of the lengths adds to them."""
+    """Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations; the noise of these lengths comes on top."""
 
-    #: Number of poses evaluated: the poses of the workspace at which the requirements of the design are
-    #: met.
+    #: Poses looked at: those of the workspace at which the requirements of the design are met.
     poses: int
-    #: Root mean square error of the platform origin of the measurements, design units: the median over the
-    #: poses.
+    #: Root mean square of the distance by which the platform origin of the measurements is off, design
+    #: units: the median over the poses.
     position_median: Union[float, None]
-    #: Root mean square error of the platform origin, design units: the greatest over the poses.
+    #: The greatest of them.
     position_greatest: Union[float, None]
-    #: Root mean square error of the orientation, degrees: the median over the poses.
+    #: Root mean square of the angle by which the orientation is off, degrees: the median over the poses.
     rotation_deg_median: Union[float, None]
-    #: Root mean square error of the orientation, degrees: the greatest over the poses.
+    #: The greatest of them.
     rotation_deg_greatest: Union[float, None]
-    #: The pose with the greatest error of position.
+    #: The pose with the greatest deviation of the position.
     pose: PoseQuaternionRecord
 
 
@@ -827,21 +822,20 @@ class ConflictReasonRecord(Record):
 
     #: A short stable code.
     code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
-    #: Number of branches with this as their first proof.
+    #: Branches with this as their first proof.
     branches: int
-    #: The proof for one of these branches in one sentence, with its numbers.
+    #: One sentence with the numbers of one of them.
     message: str
 
 
 class ConflictRecord(Record):
-    """A conflict: a set of requirements that cannot be met together; without any one of them the others were met."""
+    """Requirements that cannot be met together; without any one of them the others were met."""
 
-    #: Whether the conflict is proved.
+    #: The set is proved to be in conflict.
     proved: bool
-    #: The requirements in conflict, with the amounts to relax. Empty: the branches are empty for different
-    #: reasons.
+    #: What would have to give; empty where every branch is empty for reasons of its own.
     requirements: tuple[GiveRecord, ...]
-    #: The reasons for empty branches of the offsets, by kind; empty: the search has no branches.
+    #: Why the branches of the offsets are empty, by kind; empty where the search has no branches.
     reasons: tuple[ConflictReasonRecord, ...]
 
 
@@ -857,34 +851,34 @@ class CornerLengthsRecord(Record):
 
 
 class CorrespondenceRecord(Record):
-    """The leg of FROM that corresponds to each leg of TO."""
+    """Which leg of FROM each leg of TO is."""
 
-    #: The leg of FROM, from 1, for each leg of TO; null: none.
+    #: The leg of FROM, from 1; null: none of them.
     legs: tuple[Union[int, None], ...]
-    #: The distance of the two legs divided by the size of the design.
+    #: Its distance from the leg of TO, over the size.
     distances: tuple[Union[float, None], ...]
-    #: Whether every leg of FROM is one leg of TO.
+    #: Every leg of FROM is one leg of TO.
     permutation: bool
-    #: Whether all distances are zero.
+    #: All distances are zero.
     exact: bool
 
 
 class CounterexampleRecord(Record):
-    """A pose that the lengths of one design allow and the corresponding lengths of the other do not."""
+    """A pose that belongs to the lengths of one design and not to those of the other."""
 
     #: Index into `samples`, from 0.
     sample: int
-    #: The design that has the pose: A or B.
+    #: The design whose lengths the pose has: A or B.
     solves: Literal["A", "B"]
     #: The pose.
     pose: ComplexRecord
-    #: Whether a certificate proves that the pose is a solution for this design.
+    #: Whether a certificate proves the pose a solution of the one.
     certified: bool
-    #: The leg of the other design with the greatest error of length, from 1.
+    #: The leg of the other design that is missed most, from 1.
     leg: int
-    #: The error of its squared length, relative to the squared size.
+    #: By how much its squared length is missed, relative to the squared size.
     miss: Union[float, None]
-    #: The rounding error expected in this number.
+    #: Rounding to expect in this number.
     rounding: Union[float, None]
 
 
@@ -912,26 +906,26 @@ class CountsRecord(Record):
 
 
 class CovarianceRecord(Record):
-    """The covariance matrix of the unknowns."""
+    """A covariance matrix."""
 
     #: Names of rows and columns: `base.A1.x`, `offset.3`.
     unknowns: tuple[str, ...]
-    #: The rows of the matrix.
+    #: Rows.
     matrix: tuple[tuple[Union[float, None], ...], ...]
 
 
 class CrankFiguresRecord(Record):
-    """The figures of the cranks over the poses that all rods reach."""
+    """What cranks do over the poses that all rods reach."""
 
-    #: Least crank angle, degrees; null: no pose is reached.
+    #: Least angle; null: no pose is reached.
     least_deg: Union[float, None]
-    #: Greatest crank angle, degrees.
+    #: Greatest angle.
     greatest_deg: Union[float, None]
-    #: Least transmission angle, degrees: 0 at a singular crank.
+    #: Least transmission angle: 0 at a singular crank.
     transmission_deg: Union[float, None]
     #: Greatest torque under the payload and the loads, one at a time, force units times design units.
     torque: Union[float, None]
-    #: Greatest crank speed at the platform speed that the design requires, degrees per second.
+    #: Greatest speed under the speed that the platform has to have, degrees per second.
     speed_deg: Union[float, None]
     #: Greatest torque along the manoeuvres.
     motion_torque: Union[float, None]
@@ -942,69 +936,69 @@ class CrankFiguresRecord(Record):
 class CrankMotionRecord(Record):
     """A crank along a motion."""
 
-    #: The leg of the crank, from 1.
+    #: From 1.
     leg: int
-    #: The least angle, degrees.
+    #: Least angle.
     least_deg: ExtremeRecord
-    #: The greatest angle, degrees.
+    #: Greatest angle.
     greatest_deg: ExtremeRecord
-    #: The speed of greatest size, degrees per second.
+    #: Speed of the greatest size, degrees per second.
     speed_deg: ExtremeRecord
-    #: The acceleration of greatest size, degrees per second squared.
+    #: Acceleration of the greatest size, degrees per second squared.
     acceleration_deg: ExtremeRecord
-    #: The torque of greatest size about the axis, force units times design units. Null: no masses are
+    #: Torque of the greatest size about the axis, force units times design units; null: no masses are
     #: known, or torques are not determined. Cranks and rods count as massless.
     torque: Union[ExtremeRecord, None]
-    #: Root mean square of the torque over time, force units times design units.
+    #: Root of the mean square of the torque over time.
     rms_torque: Union[float, None]
-    #: The power of greatest size, watts; negative: the drive brakes.
+    #: Power of the greatest size, watts; negative where the drive brakes.
     power_w: Union[ExtremeRecord, None]
 
 
 class DefaultReserveRecord(Record):
-    """The result for a default safety margin that the design does not state itself."""
+    """What became of the reserve that a design does not state."""
 
-    #: The safety margin on every limit, percent.
+    #: On every limit.
     percent: float
-    #: Whether the platform found keeps it. False: no platform with it was found, and the search continued
-    #: without it.
+    #: The platform found keeps it; false: no platform that keeps it was found, and the search went on
+    #: without.
     kept: bool
-    #: The result in one sentence.
+    #: One sentence.
     message: str
 
 
 class DependencyRecord(Record):
-    """A linear dependency of leg vectors: `sum c_i v_i = 0`."""
+    """A dependency of leg vectors: `sum c_i v_i = 0`."""
 
-    #: The legs with nonzero coefficients, from 1.
+    #: The legs in it, from 1.
     legs: tuple[int, ...]
     #: The numbers `c_i`.
     coefficients: tuple[Union[float, None], ...]
-    #: The value of `sum c_i s_i` at every pose, with the squared lengths s_i; design units squared.
+    #: `sum c_i s_i` of the squared lengths of every pose.
     constant: Union[float, None]
     #: Dimension of the span of the base ends.
     base_dimension: int
     #: Dimension of the span of the platform ends.
     platform_dimension: int
-    #: Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null
-    #: without lengths.
+    #: By how much the lengths of the design miss the constant, relative; null without lengths.
     lengths_defect: Union[float, None]
 
 
 class DerivationRecord(Record):
-    """The derivation of A, c and det A for one platform of the class from coplanar joints, with the forward kinematics as a check."""
+    """How A, c and det A of one platform of the class follow from coplanar joints, and what forward kinematics says."""
 
-    #: Whether the numbers are exact: the joints are exact, and each moved joint lies exactly on its line.
-    #: Otherwise the numbers are doubles.
+    #: The numbers are those of exact joints, and each moved joint lies on its line exactly; otherwise they
+    #: are those of the doubles.
     exact: bool
-    #: One row of A for each moved leg, with all offsets at once, from the legs of the octahedral platform.
+    #: One row of A for each moved leg, all offsets at once, from the legs of the octahedral platform.
     moves: tuple[LegSlideRecord, ...]
-    #: The moves one at a time, each from the legs before it; det A is the product of their `rest`. Null:
-    #: every order of single moves puts two legs on one another.
+    #: The same one offset at a time, from the legs that are there before each move; det A is the product
+    #: of their `rest`. null: no order of single moves reaches the platform without two legs on one
+    #: another.
     sequence: Union[tuple[LegSlideRecord, ...], None]
     #: The factors of det A.
     factors: tuple[FactorRecord, ...]
-    #: Products over all six offsets; det A is their difference. Null: some leg is not moved.
+    #: Products over all six offsets, whose difference det A is; null: some leg is not moved.
     products: Union[OffsetProductsRecord, None]
     #: Forward kinematics of the octahedral platform and of this one, solved independently, and the leg map
     #: from one to the other.
@@ -1247,11 +1241,11 @@ class DesignPose(Record):
 
 
 class DesignSourceRecord(Record):
-    """A design of an answer."""
+    """A design that an answer is about."""
 
     #: The name of the design.
     name: str
-    #: The file as named by the caller; null: the design was made in memory, and its text is the text it
+    #: The file it was read from, as it was named; null: it was made in memory, and its text is what it
     #: would be saved as.
     path: Union[str, None]
     #: SHA-256 of the bytes of that file or text, hexadecimal.
@@ -1266,18 +1260,18 @@ class DesignSphere(Record):
 
 
 class DeviationRecord(Record):
-    """A standard deviation over the poses evaluated."""
+    """A standard deviation over the poses looked at."""
 
-    #: The median over the poses.
+    #: Half of the poses have at most this.
     median: Union[float, None]
-    #: The greatest value.
+    #: The greatest.
     greatest: Union[float, None]
-    #: The value at the same pose if the errors of coordinates and offsets were independent.
+    #: What it would be at the same pose if every coordinate and offset were off for itself.
     independent: Union[float, None]
-    #: The pose with the greatest value.
+    #: The pose.
     pose: PoseQuaternionRecord
-    #: Covariance at this pose of the shift of the tool point (design units) and the rotation vector
-    #: (degrees), base frame.
+    #: Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the
+    #: pose, base frame.
     covariance: tuple[tuple[Union[float, None], ...], ...]
 
 
@@ -1321,115 +1315,114 @@ class DiscsRecord2(Record):
 class DriveRecord(Record):
     """A drive of the table, in the units of the design."""
 
-    #: The name of the drive.
+    #: Its name.
     name: str
     #: Line of the table, from 1.
     line: int
-    #: Whether the drive fits: true and false are proved; null: undecided.
+    #: It is proved to fit, proved not to, or neither (null).
     fits: Union[bool, None]
-    #: Whether the safety margin on every limit is kept too: true and false are proved; null: undecided.
+    #: The reserve on every limit is kept too, likewise.
     reserve_kept: Union[bool, None]
-    #: The travel, design units.
+    #: The travel.
     stroke: Union[float, None]
-    #: Least and greatest length from joint centre to joint centre, design units.
+    #: Least and greatest length from joint centre to joint centre.
     leg_length: tuple[Union[float, None], ...]
-    #: Greatest force; null: not in the table.
+    #: Greatest force; null: the table does not say it.
     force: Union[float, None]
-    #: Greatest speed; null: not in the table.
+    #: Greatest speed; null: the table does not say it.
     speed: Union[float, None]
-    #: Mass; null: not in the table.
+    #: Mass; null: the table does not say it.
     mass: Union[float, None]
-    #: Stiffness along the drive; null: not in the table.
+    #: Stiffness along the drive; null: the table does not say it.
     stiffness: Union[float, None]
-    #: Price; null: not in the table.
+    #: Price; null: the table does not say it.
     price: Union[float, None]
-    #: The source of the numbers; null: not in the table.
+    #: Where the numbers are from; null: the table does not say it.
     source: Union[str, None]
-    #: The result of `assess` for the design with the drive.
+    #: What `assess` says of the design with the drive.
     assessment: AssessAnswer
-    #: The results along the requested motions.
+    #: Along the motions asked for.
     motions: tuple[MotionRunRecord, ...]
 
 
 class DriveSearchRecord(Record):
     """The search over the drives of a table."""
 
-    #: The name of the drive of the answer; null: no drive leads to a platform that is proved to meet the
-    #: requirements.
+    #: The name of the drive of the answer; null: with no drive was a platform found that is proved to meet
+    #: the requirements.
     chosen: Union[str, None]
-    #: The criterion for choosing among the drives that meet the requirements.
+    #: What decides between drives with which the requirements are met.
     ranked_by: DriveRanking
-    #: The currency of prices from the table; null: the table names none.
+    #: Of prices, as the table names it; null: it does not.
     currency: Union[str, None]
-    #: Whether the search was interrupted before every drive that could win was tried.
+    #: The search was told to end before every drive was tried that could win.
     interrupted: bool
-    #: The result in one sentence.
+    #: One sentence.
     message: str
     #: All drives, the best first.
     drives: tuple[SearchedDriveRecord, ...]
 
 
 class DriveSolutionRecord(Record):
-    """The iteration for the pose with given drive lengths."""
+    """How the pose for lengths of drives was found."""
 
-    #: The status of the solution.
+    #: What is known of it.
     status: DriveSolutionWord
-    #: The reason if there is no pose; null: there is one.
+    #: Why there is no pose.
     reason: Union[str, None]
-    #: The lengths that the drives show, design units.
+    #: The lengths that the drives show.
     lengths: tuple[float, ...]
-    #: The distances of the joints at the pose found, design units.
+    #: The distances of the joints at the pose, to which it was followed.
     distances: tuple[float, ...]
-    #: Number of fixed-point steps.
+    #: Steps of the fixed point.
     steps: int
-    #: The greatest ratio of two successive changes of the corrections; 0 if there were none above
-    #: rounding.
+    #: The greatest ratio of two changes of the corrections, one after the other; 0 where there were none
+    #: above rounding.
     factor: Union[float, None]
-    #: Proved bound on the distance from this platform origin to the one with exactly these lengths, design
-    #: units.
+    #: Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
     position_bound: Union[float, None]
-    #: Proved bound on the angle to the rotation with exactly these lengths, degrees.
+    #: Proved: its rotation is no farther away.
     angle_bound_deg: Union[float, None]
-    #: The contraction factor of the Newton map around the pose; null: not proved.
+    #: The factor by which the Newton map contracts around the pose; null: not proved.
     contraction: Union[float, None]
 
 
 class DrivesAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
-    #: Whether some drive fits: true and false are proved; null: undecided.
+    #: True: a drive is proved to fit; false: every drive is proved not to; null: neither.
     met: Union[bool, None]
-    #: The name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap
+    #: The name of the drive to take: the cheapest that is proved to fit, the lightest of equally cheap
     #: ones; null: there is none.
     chosen: Union[str, None]
-    #: All drives, in the order fitting, undecided, not fitting; within each group by price, then mass.
+    #: All drives: those that fit, those that are undecided, those that do not; each by price, then mass.
     drives: tuple[DriveRecord, ...]
-    #: The currency of prices from the table; null: the table names none.
+    #: Of prices, as the table names it; null: it does not.
     currency: Union[str, None]
-    #: The unit of lengths; speeds are in this unit per second.
+    #: Of lengths; speeds are in it per second.
     length_unit: str
-    #: The unit of forces.
+    #: Of forces.
     force_unit: str
-    #: The unit of masses.
+    #: Of masses.
     mass_unit: str
-    #: Assumed values that neither the file nor the table states, one sentence each.
+    #: What neither the file nor the table says and was taken instead, a sentence each.
     assumptions: tuple[str, ...]
     #: The design with the chosen drive; null: none fits.
     design: Union[Design, None]
     #: The file written.
     output: Union[str, None]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class EnclosureRecord(Record):
-    """Discs that contain the entries of R and p of a root."""
+    """Discs that hold the entries of R and p of a root."""
 
     #: The entries of the rotation matrix, rows.
     R: DiscsRecord
@@ -1440,123 +1433,121 @@ class EnclosureRecord(Record):
 class ErrorMapRecord(Record):
     """The greatest errors of the pose by all causes together, to first order."""
 
-    #: The greatest error of each joint, in any direction, design units.
+    #: Every joint is off by at most this in any direction.
     joint_error: Union[float, None]
-    #: The greatest error of each leg length, design units.
+    #: Every leg is longer or shorter than it shows by at most this.
     length_error: Union[float, None]
-    #: Relative expansion of base, platform and legs, with either sign.
+    #: Growth of base, platform and legs, as shares; with either sign.
     growth: tuple[Union[float, None], ...]
-    #: Number of poses evaluated: the corners and a sample of the region, and the listed poses.
+    #: Poses looked at: the corners and a sample of the region, and those that are listed.
     poses: int
-    #: Error of the tool point, design units.
+    #: Of the tool point, design units.
     position: GreatestErrorRecord
-    #: Error of the orientation, degrees.
+    #: Of the orientation, degrees.
     rotation_deg: GreatestErrorRecord
-    #: The table of all poses written; null: none.
+    #: The table of all poses that was written; null: none.
     path: Union[str, None]
 
 
 class ExactNumberRecord(Record):
-    """A number, exact or as a double."""
+    """A number that is known exactly, or as the doubles say it."""
 
     #: The nearest double.
     value: Union[float, None]
-    #: The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null: known only as a double.
+    #: The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null where it is known as doubles only.
     exact: Union[str, None]
 
 
 class ExactRoundingOutcome(Record):
-    """The exact rounding, or the reason why there is none."""
+    """The exact rounding, or why there is none."""
 
     #: The grids used.
     grids: Union[GridsRecord, None]
-    #: Whether exact arithmetic proves equivalence with its own octahedral platform.
+    #: Equivalence with its own octahedral platform is proved in exact arithmetic.
     proved: Union[bool, None]
-    #: The verdict of leg map and forward kinematics.
+    #: What leg map and forward kinematics say of it.
     verdict: Union[RoundingVerdict, None]
-    #: Whether rotations by 120 degrees map both triangles with their joints to themselves.
+    #: Turns by 120 degrees take both triangles with their joints to themselves.
     three_fold: Union[bool, None]
-    #: The offsets in order around the hexagon: [m, g] for t = m / g.
+    #: Round the hexagon: [m, g] for t = m / g.
     fractions: Union[tuple[tuple[int, ...], ...], None]
     #: The joints.
     joints: Union[tuple[RoundedJointRecord, ...], None]
-    #: The figures of the rounded design.
+    #: How good it is.
     judgement: Union[JudgementRecord, None]
-    #: Statistics of the search.
+    #: How it was found.
     search: Union[RoundingSearchRecord, None]
-    #: The obstacle.
+    #: What stands against it.
     error: Union[NoRoundingError, None]
 
 
 class ExactRoundingRecord(Record):
-    """A rounding with all joints exactly on the sides of two triangles, with holes as their corners."""
+    """All joints exactly on the sides of two triangles whose corners are holes."""
 
     #: The grids used.
     grids: GridsRecord
-    #: Whether exact arithmetic proves equivalence with its own octahedral platform.
+    #: Equivalence with its own octahedral platform is proved in exact arithmetic.
     proved: bool
-    #: The verdict of leg map and forward kinematics.
+    #: What leg map and forward kinematics say of it.
     verdict: RoundingVerdict
-    #: Whether rotations by 120 degrees map both triangles with their joints to themselves.
+    #: Turns by 120 degrees take both triangles with their joints to themselves.
     three_fold: bool
-    #: The offsets in order around the hexagon: [m, g] for t = m / g.
+    #: Round the hexagon: [m, g] for t = m / g.
     fractions: Union[tuple[tuple[int, ...], ...], None]
     #: The joints.
     joints: tuple[RoundedJointRecord, ...]
-    #: The figures of the rounded design.
+    #: How good it is.
     judgement: JudgementRecord
-    #: Statistics of the search.
+    #: How it was found.
     search: RoundingSearchRecord
 
 
 class ExploreAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
-    #: The verdict of the whole run.
+    #: Of the whole run.
     verdict: Union[ExploreVerdict, None]
-    #: The verdict in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: Union[str, None]
     #: The name of the design.
     name: Union[str, None]
-    #: The files written, in order.
+    #: The files written.
     paths: Union[tuple[str, ...], None]
     #: The equivalence class.
     family: Union[FamilySizeRecord, None]
-    #: The result of `assess` for the platform found; null: there is none, or the design has no
-    #: requirements.
+    #: What `assess` says of the platform found; null: there is none, or the design requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: The platform found; null: none.
+    #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
-    #: Number of conic programs solved by the library clarabel in the platform search; searches with other
+    #: Conic programs that the library clarabel solved in the search for the platform; those with other
     #: drives, for freedoms and for holes are not counted.
     conic_programs: Union[int, None]
-    #: The cost of separate joints: figures of the design and of the platform to build; null: there is
-    #: none.
+    #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
-    #: The result for the default safety margin of 5 % on every limit; null: the design states its own.
+    #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
     reserve: Union[DefaultReserveRecord, None]
-    #: The comparison of the design with the optimised platform; null: there is none.
+    #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
-    #: The assessment applies to this platform.
+    #: The assessment is then that of this platform.
     holes: Union[OnHolesRecord, None]
-    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
-    #: search could not break it or did not check it.
+    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
+    #: search could not break it or did not look at it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table with the search result for each; null: no table was given.
+    #: The drives of a table, with what the search came to with each; null where no table was given.
     drive_search: Union[DriveSearchRecord, None]
-    #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
-    #: the requirements, or no freedom was tried.
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; null where none was looked at.
     freedoms: Union[tuple[FreedomRecord, ...], None]
     #: The poses of the design.
     fk: Union[PoseTotalsRecord, None]
-    #: The stages of the run, in order.
+    #: What was done, in order.
     stages: Union[tuple[StageRecord, ...], None]
     #: The families of replaceable legs.
     components: Union[FamiliesFoundRecord, None]
@@ -1564,23 +1555,23 @@ class ExploreAnswer(Record):
     moves: Union[MovesFoundRecord, None]
     #: The nearest octahedral platform; null: none was found.
     nearest: Union[NearestErrorRecord, None]
-    #: Whether the platform equivalent to the nearest octahedral one meets the design's requirements: true
-    #: and false are proved. Null: undecided, not assessed, or nothing is required.
+    #: Whether the platform equivalent to the nearest octahedral one meets the requirements of the design:
+    #: true and false are proved; null: undecided, not looked at, or nothing is required.
     nearest_meets_requirements: Union[bool, None]
 
 
 class ExploreGeneralAnswer(Record):
     """The answer of `explore` about a design that is not octahedral."""
 
-    #: The verdict of the whole run.
+    #: Of the whole run.
     verdict: ExploreVerdict
-    #: The verdict in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: str
     #: The name of the design.
     name: str
-    #: The files written, in order.
+    #: The files written.
     paths: tuple[str, ...]
-    #: The stages of the run, in order.
+    #: What was done, in order.
     stages: tuple[StageRecord, ...]
     #: The families of replaceable legs.
     components: FamiliesFoundRecord
@@ -1588,11 +1579,11 @@ class ExploreGeneralAnswer(Record):
     moves: Union[MovesFoundRecord, None]
     #: The nearest octahedral platform; null: none was found.
     nearest: Union[NearestErrorRecord, None]
-    #: Whether the platform equivalent to the nearest octahedral one meets the design's requirements: true
-    #: and false are proved. Null: undecided, not assessed, or nothing is required.
+    #: Whether the platform equivalent to the nearest octahedral one meets the requirements of the design:
+    #: true and false are proved; null: undecided, not looked at, or nothing is required.
     nearest_meets_requirements: Union[bool, None]
-    #: The comparison of the design with its equivalent, or of the nearest octahedral platform with its
-    #: equivalent. Null: neither exists.
+    #: The comparison of the design with the equivalent found, else of the nearest octahedral platform with
+    #: its equivalent; null: there is neither.
     verify: Union[ComparedRecord, None]
     #: The poses of the design.
     fk: PoseTotalsRecord
@@ -1601,41 +1592,39 @@ class ExploreGeneralAnswer(Record):
 class ExploreOctahedralAnswer(Record):
     """The answer of `explore` about an octahedral design."""
 
-    #: The verdict of the whole run.
+    #: Of the whole run.
     verdict: ExploreVerdict
-    #: The verdict in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: str
     #: The name of the design.
     name: str
-    #: The files written, in order.
+    #: The files written.
     paths: tuple[str, ...]
     #: The equivalence class.
     family: FamilySizeRecord
-    #: The result of `assess` for the platform found; null: there is none, or the design has no
-    #: requirements.
+    #: What `assess` says of the platform found; null: there is none, or the design requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: The platform found; null: none.
+    #: The platform; null: none was found.
     optimize: Union[OptimizedRecord, None]
-    #: Number of conic programs solved by the library clarabel in the platform search; searches with other
+    #: Conic programs that the library clarabel solved in the search for the platform; those with other
     #: drives, for freedoms and for holes are not counted.
     conic_programs: int
-    #: The cost of separate joints: figures of the design and of the platform to build; null: there is
-    #: none.
+    #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
     price: Union[PriceRecord, None]
-    #: The result for the default safety margin of 5 % on every limit; null: the design states its own.
+    #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
     reserve: Union[DefaultReserveRecord, None]
-    #: The comparison of the design with the optimised platform; null: there is none.
+    #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
-    #: The assessment applies to this platform.
+    #: The assessment is then that of this platform.
     holes: Union[OnHolesRecord, None]
-    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
-    #: search could not break it or did not check it.
+    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
+    #: search could not break it or did not look at it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table with the search result for each; null: no table was given.
+    #: The drives of a table, with what the search came to with each; null where no table was given.
     drive_search: Union[DriveSearchRecord, None]
-    #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
-    #: the requirements, or no freedom was tried.
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; null where none was looked at.
     freedoms: Union[tuple[FreedomRecord, ...], None]
     #: The poses of the design.
     fk: PoseTotalsRecord
@@ -1653,11 +1642,11 @@ class ExtremeRecord(Record):
 class FactorRecord(Record):
     """A factor of det A."""
 
-    #: The formula in the offsets, such as 1 - t1.
+    #: In the offsets, such as 1 - t1.
     formula: str
-    #: The equation of its zeros; the platform is architecturally singular there.
+    #: The equation of its zeros, where the platform is architecturally singular.
     zero: str
-    #: The value of the factor at the offsets.
+    #: Its value at the offsets.
     value: ExactNumberRecord
 
 
@@ -1666,29 +1655,29 @@ class FailureRecord(Record):
 
     #: A stable short code, `fk::not_applicable` for example.
     code: str
-    #: The message in one sentence.
+    #: One sentence.
     message: str
-    #: The faults of the design file; empty for other failures.
+    #: What is wrong with the design file; empty where the failure is not about one.
     violations: tuple[ViolationRecord, ...]
-    #: The remedy.
+    #: What to do about it.
     help: Union[str, None]
-    #: The design file concerned.
+    #: The design file.
     path: Union[str, None]
 
 
 class FamiliesFoundRecord(Record):
-    """A summary of the families of replaceable legs."""
+    """The families of replaceable legs in short."""
 
-    #: Number of families.
+    #: How many.
     count: int
-    #: Whether the list of families is complete.
+    #: There are no others.
     complete: bool
 
 
 class FamilyAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
@@ -1696,35 +1685,35 @@ class FamilyAnswer(Record):
     cyclic_order: tuple[int, ...]
     #: The edge of each side of the hexagon, design units.
     edge_lengths: tuple[Union[float, None], ...]
-    #: Numbers of patterns and topologies.
+    #: How many there are.
     counts: CountsRecord
-    #: All patterns, or the requested one.
+    #: The patterns, or the one that was asked for.
     patterns: tuple[PatternRecord, ...]
-    #: The topologies: the ways in which legs share joints.
+    #: The ways in which legs share joints.
     topologies: tuple[FamilyTopologyRecord, ...]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
     #: The platform of the pattern at the offsets given, with `--offsets`.
     instance: Union[InstanceRecord, None]
-    #: The derivation of its leg map from coplanar joints, with `--explain`.
+    #: How its map follows from coplanar joints, with `--explain`.
     derivation: Union[DerivationRecord, None]
 
 
 class FamilySizeRecord(Record):
-    """The number of platforms equivalent to an octahedral one."""
+    """How many platforms are equivalent to an octahedral one."""
 
-    #: Number of patterns of legs.
+    #: Patterns of legs.
     patterns: int
-    #: Number of topologies: ways to share joints.
+    #: Ways to share joints.
     topologies: int
 
 
 class FamilyTopologyRecord(Record):
     """A way in which the legs of equivalent platforms share joints."""
 
-    #: The number of the topology, from 1.
+    #: Its number, from 1.
     topology: int
     #: Joints of the base.
     base_joints: int
@@ -1732,43 +1721,42 @@ class FamilyTopologyRecord(Record):
     platform_joints: int
     #: Joints that hold more than one leg.
     shared_joints: int
-    #: Whether offsets introduced one at a time lead to it.
+    #: It is reached by offsets introduced one at a time.
     sequential: bool
-    #: The name of a pattern with this topology.
+    #: A pattern that has it.
     example: str
     #: Topologies one offset further, from 1.
     next: tuple[int, ...]
 
 
 class FiguresRecord(Record):
-    """The figures of a design over the poses of its workspace, or at home if it states none. Null: the design does not specify the quantity, or the value is infinite."""
+    """The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite."""
 
     #: Name of the design.
     name: str
-    #: The design file.
+    #: Its file.
     path: str
-    #: The result of `assess`; null: the design has no requirements.
+    #: The judgement of `assess`; null: it requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: The lightest drive that meets the requirements, from the table that the design names; null: it names
-    #: none.
+    #: The lightest drive of the table that the design names with which its requirements are met; null: it
+    #: names none.
     lightest_drive: Union[LightestDriveRecord, None]
     #: The poses of all figures.
     judged: JudgedPosesRecord
-    #: Number of poses evaluated for the figures; the assessment and the conditioning use poses of their
-    #: own.
+    #: Poses looked at for the figures besides the judgement and the conditioning.
     poses: int
-    #: Least leg length; null: the legs are rods on cranks.
+    #: Least leg length; null where the legs are rods on cranks.
     shortest: Union[float, None]
-    #: Greatest leg length; null: the legs are rods on cranks.
+    #: Greatest leg length; null where the legs are rods on cranks.
     longest: Union[float, None]
-    #: Greatest minus least leg length.
+    #: The difference.
     stroke: Union[float, None]
-    #: Number of different leg lengths at home, or rod lengths on cranks; a difference counts above a
-    #: millionth of the size.
+    #: Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of
+    #: the rods.
     different_legs: int
-    #: Greatest leg force under the weight of all moving parts and each load, one at a time.
+    #: Greatest leg force under the weight of all that moves and under each load, one at a time.
     force: Union[float, None]
-    #: Greatest leg speed at the platform speed that the design requires.
+    #: Greatest leg speed under the speed that the platform has to have.
     speed: Union[float, None]
     #: Greatest leg force along the manoeuvres.
     motion_force: Union[float, None]
@@ -1776,36 +1764,35 @@ class FiguresRecord(Record):
     motion_speed: Union[float, None]
     #: Greatest power of a drive along the manoeuvres, watts.
     motion_power_w: Union[float, None]
-    #: The worst conditioning found by `assess`: the least inverse condition number.
+    #: The worst conditioning of `assess`: the least inverse condition number found.
     conditioning: Union[float, None]
     #: Least stiffness against a force through the platform origin, force units per design unit.
     stiffness: Union[float, None]
-    #: Lowest natural frequency, hertz.
+    #: Lowest natural frequency.
     frequency_hz: Union[float, None]
-    #: Least distance of two joint centres of the base, design units.
+    #: Least distance of two joint centres of the base.
     base_spacing: Union[float, None]
-    #: Least distance of two joint centres of the platform, design units.
+    #: The same on the platform.
     platform_spacing: Union[float, None]
-    #: Least clearance between two legs, design units.
+    #: Least gap between two legs.
     clearance: Union[float, None]
-    #: Greatest distance of a base joint from the centroid of the base joints, design units.
+    #: Greatest distance of a joint of the base from their centroid.
     base_radius: Union[float, None]
-    #: Greatest distance of a platform joint from the centroid of the platform joints, design units.
+    #: The same on the platform.
     platform_radius: Union[float, None]
-    #: The greatest error of every joint in any direction that keeps the accuracy to first order, design
-    #: units.
+    #: How far every joint may be off, in any direction, for the accuracy to be kept to first order.
     joint_tolerance: Union[float, None]
-    #: The reason for a missing tolerance; null: there is one, or none was requested.
+    #: Why there is no such tolerance; null: there is one, or none was asked for.
     no_tolerance: Union[str, None]
-    #: Assumptions about masses that the file leaves open, one sentence each. Empty: no figure is a force,
-    #: a torque or a natural frequency.
+    #: Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a
+    #: force, a torque or a natural frequency.
     assumptions: tuple[str, ...]
-    #: The angles, torques and speeds of the cranks; null: the legs change their lengths.
+    #: What the cranks do, where the legs are rods on cranks.
     cranks: Union[CrankFiguresRecord, None]
 
 
 class FileSourceRecord(Record):
-    """A file other than a design."""
+    """A file that is no design."""
 
     #: The file, as it was named.
     path: str
@@ -1814,154 +1801,152 @@ class FileSourceRecord(Record):
 
 
 class FkAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
-    #: The rows in the order of the file.
+    #: In the order of the file.
     rows: Union[tuple[FkRowRecord, ...], None]
     #: The method that found them.
     method: Union[Method, None]
-    #: The level of completeness of the list.
+    #: Whether these are known to be all.
     completeness: Union[CompletenessWord, None]
-    #: The evidence for completeness in one sentence.
+    #: One sentence on what is known.
     completeness_reason: Union[str, None]
-    #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
-    #: none.
+    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
     bounded: Union[BoundedProof, None]
-    #: Whether every path is accounted for; false: roots may be missing.
+    #: False: roots may be missing.
     all_paths_accounted: Union[bool, None]
-    #: Number of `solutions`.
+    #: The number of `solutions`.
     finite_count: Union[int, None]
-    #: Number of `solutions`, counted with multiplicity.
+    #: The same, each pose counted as often as it stands for.
     finite_count_with_multiplicity: Union[int, None]
-    #: Number of real poses.
+    #: Real poses among them.
     real_count: Union[int, None]
-    #: Number of poses that may be real or not.
+    #: Poses of which it is not decided whether they are real.
     undecided_count: Union[int, None]
-    #: Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
+    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
     missing_count: Union[int, None]
-    #: The number of poses by theorem, or counted without finding them; null: not known.
+    #: The number of poses, by theorem or counted without finding them; null: not known.
     pose_count: Union[PoseCountRecord, None]
-    #: The poses, real ones first.
+    #: Real ones first.
     solutions: Union[tuple[SolutionRecord, ...], None]
     #: The paths of the homotopy.
     paths: Union[tuple[PathRecord, ...], None]
-    #: Rejected candidates that are no roots.
+    #: Candidates that are no roots.
     rejected: Union[tuple[RejectedRecord, ...], None]
-    #: Path ends without a certificate: there may be one pose, several or none near each. They are not
+    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
-    #: The computations of the linear algebra libraries for `--method template`.
+    #: What libraries of linear algebra computed for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
-    #: The meaning of null for each number that is not finite.
+    #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
-    #: The crank angles in degrees, if given. The legs are then the rods from the crank tips, rounded to
-    #: doubles, and certificates hold for these tips.
+    #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
+    #: cranks, as doubles, to the platform, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
-    #: Whether all given angles are within their limits, ends included; null: no angles, or no limits.
+    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
     within_limits: Union[bool, None]
-    #: Legs with cranks beyond their limits at these angles, from 1.
+    #: The legs whose cranks are beyond their limits at these angles, from 1.
     outside: Union[tuple[int, ...], None]
-    #: Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and
-    #: platform joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the
-    #: tips alone decides on further poses, which are far away.
+    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
+    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
+    #: tips as doubles are so far out that their rounding decides whether there are any.
     symmetric_finite: Union[int, None]
-    #: The tracking of the pose, with `--near`.
+    #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
-    #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
-    #: gets a certificate.
+    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
+    #: no certificate is given of a root.
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
-    #: The dimension, counted modulo random primes; null: not counted.
+    #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
-    #: The dimension found numerically, a lower bound.
+    #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves the dimension for the lengths as written. False: the
-    #: lengths satisfy it only within rounding, and have finitely many poses.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
+    #: the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: The degree of the set; null: not established.
+    #: Null: not established.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
 
 
 class FkOneAnswer(Record):
-    """The poses with one set of lengths, and further results on request."""
+    """The poses with one set of lengths, and what was asked for besides."""
 
     #: The method that found them.
     method: Method
-    #: The level of completeness of the list.
+    #: Whether these are known to be all.
     completeness: CompletenessWord
-    #: The evidence for completeness in one sentence.
+    #: One sentence on what is known.
     completeness_reason: str
-    #: Whether every path is accounted for; false: roots may be missing.
+    #: False: roots may be missing.
     all_paths_accounted: bool
-    #: Number of `solutions`.
+    #: The number of `solutions`.
     finite_count: int
-    #: Number of `solutions`, counted with multiplicity.
+    #: The same, each pose counted as often as it stands for.
     finite_count_with_multiplicity: int
-    #: Number of real poses.
+    #: Real poses among them.
     real_count: int
-    #: Number of poses that may be real or not.
+    #: Poses of which it is not decided whether they are real.
     undecided_count: int
-    #: Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
+    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
     missing_count: Union[int, None]
-    #: The number of poses by theorem, or counted without finding them; null: not known.
+    #: The number of poses, by theorem or counted without finding them; null: not known.
     pose_count: Union[PoseCountRecord, None]
-    #: The poses, real ones first.
+    #: Real ones first.
     solutions: tuple[SolutionRecord, ...]
     #: The paths of the homotopy.
     paths: tuple[PathRecord, ...]
-    #: Rejected candidates that are no roots.
+    #: Candidates that are no roots.
     rejected: tuple[RejectedRecord, ...]
-    #: Path ends without a certificate: there may be one pose, several or none near each. They are not
+    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
-    #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
-    #: none.
+    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
     bounded: Union[BoundedProof, None]
-    #: The computations of the linear algebra libraries for `--method template`.
+    #: What libraries of linear algebra computed for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
-    #: The meaning of null for each number that is not finite.
+    #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
-    #: The crank angles in degrees, if given. The legs are then the rods from the crank tips, rounded to
-    #: doubles, and certificates hold for these tips.
+    #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
+    #: cranks, as doubles, to the platform, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
-    #: Whether all given angles are within their limits, ends included; null: no angles, or no limits.
+    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
     within_limits: Union[bool, None]
-    #: Legs with cranks beyond their limits at these angles, from 1.
+    #: The legs whose cranks are beyond their limits at these angles, from 1.
     outside: Union[tuple[int, ...], None]
-    #: Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and
-    #: platform joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the
-    #: tips alone decides on further poses, which are far away.
+    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
+    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
+    #: tips as doubles are so far out that their rounding decides whether there are any.
     symmetric_finite: Union[int, None]
-    #: The tracking of the pose, with `--near`.
+    #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
-    #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
-    #: gets a certificate.
+    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
+    #: no certificate is given of a root.
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
-    #: The dimension, counted modulo random primes; null: not counted.
+    #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
-    #: The dimension found numerically, a lower bound.
+    #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves the dimension for the lengths as written. False: the
-    #: lengths satisfy it only within rounding, and have finitely many poses.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
+    #: the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: The degree of the set; null: not established.
+    #: Null: not established.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
@@ -1972,85 +1957,84 @@ class FkRowRecord(Record):
 
     #: The line of the CSV file, from 1.
     line: int
-    #: The six lengths, design units; for given crank angles, the rod lengths.
+    #: The six lengths, design units; those of the rods where angles of cranks were given.
     lengths: tuple[float, ...]
-    #: The time of the row, if the file has a column of times.
+    #: The time of the row, where the file has a column of times.
     time: Union[float, None]
-    #: The crank angles in degrees, if given.
+    #: The angles of the cranks, where these were given.
     angles_deg: Union[tuple[float, ...], None]
     #: The method that found them.
     method: Union[Method, None]
-    #: The level of completeness of the list.
+    #: Whether these are known to be all.
     completeness: Union[CompletenessWord, None]
-    #: The evidence for completeness in one sentence.
+    #: One sentence on what is known.
     completeness_reason: Union[str, None]
-    #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
-    #: none.
+    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
     bounded: Union[BoundedProof, None]
-    #: Whether every path is accounted for; false: roots may be missing.
+    #: False: roots may be missing.
     all_paths_accounted: Union[bool, None]
-    #: Number of `solutions`.
+    #: The number of `solutions`.
     finite_count: Union[int, None]
-    #: Number of `solutions`, counted with multiplicity.
+    #: The same, each pose counted as often as it stands for.
     finite_count_with_multiplicity: Union[int, None]
-    #: Number of real poses.
+    #: Real poses among them.
     real_count: Union[int, None]
-    #: Number of poses that may be real or not.
+    #: Poses of which it is not decided whether they are real.
     undecided_count: Union[int, None]
-    #: Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
+    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
     missing_count: Union[int, None]
-    #: The number of poses by theorem, or counted without finding them; null: not known.
+    #: The number of poses, by theorem or counted without finding them; null: not known.
     pose_count: Union[PoseCountRecord, None]
-    #: The poses, real ones first.
+    #: Real ones first.
     solutions: Union[tuple[SolutionRecord, ...], None]
     #: The paths of the homotopy.
     paths: Union[tuple[PathRecord, ...], None]
-    #: Rejected candidates that are no roots.
+    #: Candidates that are no roots.
     rejected: Union[tuple[RejectedRecord, ...], None]
-    #: Path ends without a certificate: there may be one pose, several or none near each. They are not
+    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
-    #: The computations of the linear algebra libraries for `--method template`.
+    #: What libraries of linear algebra computed for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
-    #: The meaning of null for each number that is not finite.
+    #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
-    #: Whether all given angles are within their limits, ends included; null: no angles, or no limits.
+    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
     within_limits: Union[bool, None]
-    #: Legs with cranks beyond their limits at these angles, from 1.
+    #: The legs whose cranks are beyond their limits at these angles, from 1.
     outside: Union[tuple[int, ...], None]
-    #: Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and
-    #: platform joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the
-    #: tips alone decides on further poses, which are far away.
+    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
+    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
+    #: tips as doubles are so far out that their rounding decides whether there are any.
     symmetric_finite: Union[int, None]
-    #: The tracking of the pose, with `--near`.
+    #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
-    #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
-    #: gets a certificate.
+    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
+    #: no certificate is given of a root.
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
-    #: The dimension, counted modulo random primes; null: not counted.
+    #: Counted modulo random primes; null: not counted.
     dimension: Union[int, None]
-    #: The dimension found numerically, a lower bound.
+    #: What was seen numerically.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves the dimension for the lengths as written. False: the
-    #: lengths satisfy it only within rounding, and have finitely many poses.
+    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
+    #: the relation within rounding only and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: The degree of the set; null: not established.
+    #: Null: not established.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
-    #: The failure, as the command reports it for this row alone.
+    #: The failure, as the command would have reported it for this row alone.
     error: Union[FailureRecord, None]
 
 
 class FkRowsAnswer(Record):
     """The poses with the lengths of each row of a file."""
 
-    #: The rows in the order of the file.
+    #: In the order of the file.
     rows: tuple[FkRowRecord, ...]
 
 
@@ -2073,142 +2057,139 @@ class FrameMotionsRecord(Record):
 
 
 class FreeRangeRecord(Record):
-    """The free travel of one of the six numbers of a pose."""
+    """How far one of the six numbers of a pose may move."""
 
-    #: The coordinate, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    #: Which number, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
     axis: PoseAxis
-    #: The unit: `deg`, or the unit of length.
+    #: `deg`, or the unit of length.
     unit: str
-    #: The value at the pose.
+    #: At the pose.
     value: float
-    #: The travel towards smaller values.
+    #: Towards smaller values.
     back: TravelRecord
-    #: The travel towards greater values.
+    #: Towards greater ones.
     forth: TravelRecord
 
 
 class FreeSizeRecord(Record):
-    """The largest free size of a region around home."""
+    """Up to which size a region around home is free."""
 
-    #: The largest size for which every pose is proved to be regular and to meet all requirements on poses;
-    #: 0: nothing is proved.
+    #: Proved: all poses of the region of this size meet all requirements that depend on the pose, and none
+    #: is singular; 0: nothing is proved.
     proved: float
-    #: The largest size for which no violation was found.
+    #: No violation was found in regions up to this size.
     searched: float
-    #: The requirement violated in a slightly larger region; null: none was found.
+    #: What is violated in a region that is larger by a little; null: nothing that was looked at.
     binds: Union[LimitRecord, None]
 
 
 class FreeTurnRecord(Record):
-    """The free rotation of the platform about an axis."""
+    """How far the platform may turn about an axis."""
 
-    #: The axis `x`, `y` or `z` of the base frame.
+    #: `x`, `y` or `z` of the base frame.
     axis: str
-    #: The free angle in the negative sense, degrees, given as a positive number.
+    #: Against the axis, degrees, positive.
     back_deg: float
-    #: The requirement that ends it; null: none within half a turn.
+    #: What binds there; null: nothing within half a turn.
     back_binds: Union[LimitRecord, None]
-    #: The free angle in the positive sense, degrees.
+    #: About the axis, degrees.
     forth_deg: float
-    #: The requirement that ends it; null: none within half a turn.
+    #: What binds there; null: nothing within half a turn.
     forth_binds: Union[LimitRecord, None]
 
 
 class FreedomRecord(Record):
-    """A freedom that the design does not allow, and the result of the search with it."""
+    """A freedom that the design does not have, and what came of the search with it."""
 
-    #: The freedom.
+    #: Which.
     freedom: Freedom
-    #: The outcome of the search.
+    #: What came of it.
     outcome: FreedomWord
-    #: The amount by which the limit was relaxed in the last search, or by which the platform found is
-    #: higher; null: no such number.
+    #: By how much the limit gave way in the last search, or by how much the platform found is higher;
+    #: null: no such number.
     amount: Union[float, None]
-    #: The unit of the amount.
+    #: Of the amount.
     unit: str
-    #: The result in one sentence.
+    #: One sentence.
     message: str
-    #: The result of `assess` for the platform found; null: none was found.
+    #: What `assess` says of the platform found; null: none was.
     assessment: Union[AssessAnswer, None]
-    #: The platform found, with the relaxed limit; null: none was found.
+    #: The platform found, with the limit that gave way; null: none was.
     design: Union[Design, None]
-    #: The design file written; null: none.
+    #: The file it was written to.
     output: Union[str, None]
 
 
 class FrontMemberRecord(Record):
-    """A member of a Pareto front."""
+    """A member of a front."""
 
     #: Value of the first objective.
     objective: Union[float, None]
-    #: All objectives.
+    #: All of them.
     objectives: Union[tuple[ObjectiveRecord, ...], None]
-    #: The chosen variables, without axes.
+    #: What was chosen, axes left out.
     variables: Union[tuple[VariableRecord, ...], None]
-    #: The offsets `t_i` in cyclic order; null: no offsets were chosen.
+    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: The displacements `t_i d_i`, design units; null if `edge_lengths` is null.
+    #: `t_i d_i`, design units; null as `edge_lengths`.
     shifts: Union[tuple[Union[float, None], ...], None]
-    #: The edges `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    #: `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     edge_lengths: Union[tuple[Union[float, None], ...], None]
     #: The legs of the cycle, from 1; null: no offsets were chosen.
     cyclic_order: Union[tuple[int, ...], None]
-    #: Zone of each offset: before, inside or beyond its edge; null: no offsets were chosen.
+    #: Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
     branch: Union[str, None]
-    #: det A of the leg map; null: the variables leave the equivalence class of the design.
+    #: det A of the leg map; null: the variables do not keep the class of the design.
     det: Union[float, None]
-    #: Rows of A: s' = A s + c of squared leg lengths, legs in the order of the design. Null if `det` is
-    #: null.
+    #: s' = A s + c, legs in the order of the design; rows. Null as `det`.
     A: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: The constant terms, design units squared; null if `det` is null.
+    #: The constant terms, design units squared; null as `det`.
     c: Union[tuple[Union[float, None], ...], None]
-    #: The home pose, raised if its height was chosen.
+    #: Home, lifted when its height was chosen.
     home: Union[PoseQuaternionRecord, None]
-    #: The chosen joint axes.
+    #: The axes chosen.
     joint_axes: Union[JointAxesRecord, None]
-    #: Margins of the requirements, over many poses and computed independently of the search.
+    #: The requirements, over many poses and by other code.
     constraint_margins: Union[tuple[MarginRecord, ...], None]
-    #: Margins of the extra conditions of the search.
+    #: By how much what the search demands besides them is met.
     search_margins: Union[SearchMarginsRecord, None]
-    #: The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null:
-    #: none.
+    #: What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies
+    #: have grown; null: nothing.
     riding: Union[RidingRecord, None]
-    #: Whether the platform is proved to meet its requirements; null: some are unproved.
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
-    #: The result of `assess` for the platform; null: the design has no requirements.
+    #: What `assess` says of the platform; null: the design requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: Whether it is equivalent to the design; null: the variables leave the equivalence class.
+    #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
-    #: The held pose with the value of the first objective; null: the objective is not the worst
-    #: conditioning.
+    #: Where the first objective is reached among the poses held; null: it is not the worst conditioning.
     worst_pose: Union[WorstPoseRecord, None]
     #: Evidence of local optimality.
     local_optimality: Union[LocalOptimalityRecord, None]
-    #: Steps of the run that found it; null: a member of a front.
+    #: Steps of the run that found it; null in a front.
     history: Union[tuple[SearchStepRecord, ...], None]
-    #: Numbers of poses held and checked.
+    #: Numbers of poses.
     poses: Union[HeldPosesRecord, None]
     #: The platform as a design.
     design: Design
-    #: The file written; null: none.
+    #: The file written.
     output: Union[str, None]
-    #: The objectives as evaluated for comparing the members.
+    #: The objectives in the evaluation that compared the members.
     non_dominated_at: tuple[Union[float, None], ...]
 
 
 class GiveRecord(Record):
     """A requirement of a conflict."""
 
-    #: The requirement.
+    #: Which.
     name: DemandWord
-    #: The unit of the amounts.
+    #: In which it gives.
     unit: str
-    #: The amount of relaxation that suffices alone; null: no amount suffices.
+    #: By how much it would have to give alone; null: cannot make room.
     alone: Union[float, None]
-    #: The amount of relaxation if all requirements give way together; the sum of these amounts, each in
-    #: its scale, is least.
+    #: Its violation where the sum of all, each in its scale, is least.
     together: Union[float, None]
-    #: The relaxation in one sentence.
+    #: One sentence.
     message: str
 
 
@@ -2226,79 +2207,77 @@ class GlobalBoundRecord(Record):
 class GreatestErrorRecord(Record):
     """The greatest error over the poses of a map."""
 
-    #: The greatest error by all causes together.
+    #: By all causes.
     greatest: Union[float, None]
-    #: The part due to joints, at the same pose.
+    #: By joints alone, at the same pose.
     joints: Union[float, None]
-    #: The part due to leg lengths, at the same pose.
+    #: By leg lengths alone.
     lengths: Union[float, None]
-    #: The part due to expansion, at the same pose.
+    #: By growth alone.
     growth: Union[float, None]
-    #: The pose with the greatest error.
+    #: The pose.
     pose: PoseQuaternionRecord
-    #: The median over the poses, by all causes together.
+    #: Half of the poses have at most this by all causes.
     median: Union[float, None]
 
 
 class GreatestResidualRecord(Record):
-    """The residual of greatest size."""
+    """The largest residual."""
 
     #: Line of the table of measurements.
     line: int
-    #: The leg, from 1.
+    #: From 1.
     leg: int
-    #: The measured length minus the length of the model, design units.
+    #: Length measured less that of the model.
     value: Union[float, None]
 
 
 class GridRecord(Record):
     """A grid of holes in the plane of a body."""
 
-    #: The pattern of the holes.
+    #: How the holes lie.
     pattern: HolePattern
-    #: Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt
-    #: circles.
+    #: Distance of neighbouring holes, or of the rings of a polar grid; null for bolt circles.
     pitch: Union[float, None]
     #: The first ring of a polar grid, or all bolt circles; empty for the other patterns.
     circles: tuple[HoleCircleRecord, ...]
-    #: A hole, or the centre of the circles, body frame, design units.
+    #: A hole, or the centre of the circles.
     origin: tuple[Union[float, None], ...]
-    #: The angle of the grid, degrees.
+    #: The turn of the grid.
     angle_deg: Union[float, None]
 
 
 class GridsRecord(Record):
     """The grids of both bodies."""
 
-    #: The grid of the base; null: the base joints stay in place.
+    #: Of the base; null: its joints stay where they are.
     base: Union[GridRecord, None]
-    #: The grid of the platform; null: the platform joints stay in place.
+    #: Of the platform; null: its joints stay where they are.
     platform: Union[GridRecord, None]
 
 
 class GriffisDuffyRecord(Record):
     """Joints on the sides of two triangles."""
 
-    #: The legs in order around the hexagon, from 1.
+    #: The legs going round the hexagon, from 1.
     order: tuple[int, ...]
-    #: The position of each joint on its side, as a fraction from 0 to 1.
+    #: Where each joint lies on its side, from 0 to 1.
     t: tuple[Union[float, None], ...]
     #: Lengths of the sides, design units.
     side_lengths: tuple[Union[float, None], ...]
-    #: `prod (1 - t) - prod t`; zero means singular.
+    #: prod (1 - t) - prod t: singular where it is zero.
     det: Union[float, None]
-    #: Whether `det` is exactly zero.
+    #: It is zero, exactly.
     exactly_singular: bool
-    #: The greatest distance of a joint from its side, relative to the size.
+    #: How far joints are off their sides, relative.
     deviation: Union[float, None]
-    #: The greatest deviation at which the type is recognised.
+    #: Up to which deviation the type is recognised.
     deviation_limit: Union[float, None]
-    #: The coefficients of the dependency of the legs for `det = 0`.
+    #: The dependency of the legs where `det` is zero.
     coefficients: tuple[Union[float, None], ...]
-    #: The value of `sum c_i s_i` at every pose, with the squared lengths s_i; design units squared.
+    #: `sum c_i s_i` of the squared lengths of every pose.
     constant: Union[float, None]
-    #: Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null
-    #: without lengths.
+    #: By how much the lengths of the design miss the constant, relative; null without lengths.
     lengths_defect: Union[float, None]
     #: Whether the platform can be assembled with the lengths of the design.
     assembly: Union[AssemblyRecord, None]
@@ -2307,9 +2286,9 @@ class GriffisDuffyRecord(Record):
 class HeldPosesRecord(Record):
     """Numbers of poses."""
 
-    #: Number of poses at which the search held the requirements.
+    #: Where the search held the requirements.
     held: int
-    #: Number of poses of the independent evaluation.
+    #: Of the dense evaluation.
     checked: int
 
 
@@ -2327,13 +2306,13 @@ class InstanceRecord(Record):
 
     #: The pattern.
     pattern: str
-    #: The offsets as fractions of the edges.
+    #: The offsets, fractions of the edges.
     offsets: tuple[Union[float, None], ...]
     #: Rows of A: s' = A s + c of squared leg lengths.
     A: tuple[tuple[Union[float, None], ...], ...]
     #: The constant terms, design units squared.
     c: tuple[Union[float, None], ...]
-    #: The determinant of A.
+    #: det A.
     det: Union[float, None]
     #: Joints of the base.
     base_joints: int
@@ -2342,32 +2321,32 @@ class InstanceRecord(Record):
 
 
 class JointAxesRecord(Record):
-    """Joint axes: unit vectors, body frame; null: not chosen."""
+    """Axes of joints: unit vectors, frame of the body; null: not chosen."""
 
-    #: Axes at the base ends of the legs, base frame.
+    #: Of the base ends of the legs.
     base: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Axes at the platform ends of the legs, platform frame.
+    #: Of their platform ends.
     platform: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class JointBudgetRecord(Record):
-    """The error allowed at one joint while the others are exact."""
+    """How far one joint may be off while the others are where they should be."""
 
-    #: The body of the joint.
+    #: Its body.
     body: Body
-    #: The name of the joint.
+    #: Its name.
     joint: str
-    #: The error allowed in any direction.
+    #: In any direction.
     alone: JointLimitRecord
-    #: The worst direction of the error, body frame.
+    #: The worst direction, frame of the body.
     direction: tuple[Union[float, None], ...]
-    #: Error of the tool point per unit of joint error in the worst direction.
+    #: Error of the tool point for each unit of error in the worst direction.
     position_per_unit: Union[float, None]
-    #: Error of the orientation per unit of joint error in the worst direction, degrees per design unit.
+    #: Error of the orientation for each unit of error in the worst direction.
     rotation_deg_per_unit: Union[float, None]
-    #: The errors allowed along x, y and z of the body, design units; null: no influence.
+    #: Along x, y and z of the body; null: no influence.
     along_axes: tuple[Union[float, None], ...]
-    #: Half widths of the box of largest volume for all joints together, design units; null: no influence.
+    #: Half widths of the box of largest volume for all joints together; null: no influence.
     largest_product: tuple[Union[float, None], ...]
 
 
@@ -2385,29 +2364,29 @@ class JointLimitRecord(Record):
 
 
 class JointShiftRecord(Record):
-    """The displacement of a joint."""
+    """How a joint moves."""
 
-    #: The body of the joint.
+    #: Its body.
     body: Body
-    #: The name of the joint.
+    #: Its name.
     joint: str
-    #: The displacement in the body frame of the measured poses; relative, the whole change has norm 1.
+    #: The shift, frame of the body in which the poses were measured.
     shift: tuple[Union[float, None], ...]
 
 
 class JointsRecord(Record):
-    """The exactness of all joints of a design together."""
+    """How exactly the joints of a design are known, all together."""
 
-    #: The exactness of the least exact joint.
+    #: The least exact of the joints decides.
     exactness: ExactnessWord
-    #: The integers with square roots in the field of the exact coordinates, beside the cosines of
+    #: The integers whose square roots generate the field of the exact coordinates, beside the cosines of
     #: `divisions`; empty for fractions.
     radicands: tuple[int, ...]
-    #: Numbers `n` with `cos(360 / n)` degrees among the generators of the field: some of 9, 16, 20 and 32.
+    #: Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
     divisions: tuple[int, ...]
-    #: Joints known only between bounds, with their bodies: `base.A2`.
+    #: Joints known between bounds only, with their bodies: `base.A2`.
     enclosed: tuple[str, ...]
-    #: The exactness in words.
+    #: The same in words.
     explanation: str
 
 
@@ -2418,26 +2397,26 @@ class JudgedPoseRecord(Record):
     p: tuple[Union[float, None], ...]
     #: Unit quaternion, scalar part first.
     q: tuple[Union[float, None], ...]
-    #: det J of the leg lines, divided by the size to the sixth power.
+    #: det J of the leg lines, over the size to the sixth.
     determinant: Union[float, None]
-    #: Inverse condition number of the Jacobian: 1 at best, 0 at a singular pose.
+    #: 1 at best, 0 at a singular pose.
     inverse_condition: Union[float, None]
-    #: The two conditions for four planes through one point, for octahedral designs.
+    #: The two conditions of four planes in one point, of octahedral designs.
     four_planes: Union[tuple[Union[float, None], ...], None]
 
 
 class JudgedPosesRecord(Record):
-    """The poses of an assessment, with home."""
+    """The poses that a judgement is about, with home."""
 
-    #: Whether the design states a workspace; otherwise only home is assessed.
+    #: The design states a workspace; else home alone is judged.
     stated: bool
-    #: Whether every pose of a region around home is assessed.
+    #: Every pose of a region about home is judged.
     region: bool
-    #: Number of single poses; the motions between them are not assessed.
+    #: Single poses; nothing is said between them.
     listed: int
-    #: Number of poses of a trajectory; the straight motions between them are assessed too.
+    #: Poses of a trajectory, with the straight motions between them.
     trajectory: int
-    #: The wording of the verdict if the requirements are met at these poses.
+    #: The verdict of requirements that are met at these poses, in a few words.
     met_in_words: str
 
 
@@ -2461,59 +2440,59 @@ class JudgementRecord(Record):
 
 
 class LeastConditioningRecord(Record):
-    """The pose with the worst conditioning."""
+    """The worst conditioned pose."""
 
-    #: Inverse condition number of the Jacobian, with unit lines and moments divided by the characteristic
-    #: length: 1 at best, 0 at a singular pose.
+    #: Smallest over largest singular value of the Jacobian with unit lines and moments over the
+    #: characteristic length: 1 at best, 0 at a singular pose.
     inverse_condition: Union[float, None]
-    #: The pose.
+    #: Where.
     pose: PoseQuaternionRecord
-    #: The characteristic length, design units.
+    #: Design units.
     characteristic_length: float
 
 
 class LegMotionRecord(Record):
     """A leg along a motion."""
 
-    #: The leg, from 1.
+    #: From 1.
     leg: int
-    #: The least length, design units.
+    #: Least length.
     shortest: ExtremeRecord
-    #: The greatest length, design units.
+    #: Greatest length.
     longest: ExtremeRecord
-    #: The speed of greatest size, design units per second; positive: the leg becomes longer.
+    #: Speed of the greatest size, positive where the leg becomes longer.
     speed: ExtremeRecord
-    #: The acceleration of greatest size, design units per second squared.
+    #: Acceleration of the greatest size.
     acceleration: ExtremeRecord
-    #: The greatest push of the drive, force units; 0: it only pulls. Null: no masses are known, or forces
-    #: are not determined.
+    #: Hardest push of the drive, 0 where it only pulls; null: no masses are known, or forces are not
+    #: determined.
     push: Union[ExtremeRecord, None]
-    #: The greatest pull of the drive, a negative force; 0: it only pushes.
+    #: Hardest pull, negative, 0 where it only pushes.
     pull: Union[ExtremeRecord, None]
-    #: Root mean square of the force over time, force units.
+    #: Root of the mean square of the force over time, force units.
     rms_force: Union[float, None]
-    #: The power of greatest size, watts; negative: the drive brakes.
+    #: Power of the greatest size, watts; negative where the drive brakes.
     power_w: Union[ExtremeRecord, None]
 
 
 class LegSlideRecord(Record):
-    """One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose."""
+    """One leg that moves along the line of two legs with a joint in common: X, Y, Q and F are in one plane at every pose."""
 
-    #: The moved leg, from 1.
+    #: The leg that moves, from 1.
     leg: int
     #: The legs X F and Y F, from 1.
     between: tuple[int, ...]
     #: The names of X and Y.
     ends: tuple[str, ...]
-    #: The name of Q = X + t (Y - X), the new joint of the leg.
+    #: The name of Q = X + t (Y - X), the joint that the leg gets.
     moved: str
-    #: The name of F, the joint that the leg keeps.
+    #: The name of F, the joint that it keeps.
     fixed: str
-    #: The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
+    #: t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
     share: ExactNumberRecord
-    #: The number 1 - t.
+    #: 1 - t.
     rest: ExactNumberRecord
-    #: The squared edge d^2 = |XY|^2, design units squared.
+    #: d^2 = |XY|^2, design units squared.
     square: ExactNumberRecord
     #: |XQ|^2 and |YQ|^2, design units squared.
     squares_to_ends: tuple[ExactNumberRecord, ...]
@@ -2536,99 +2515,99 @@ class LibraryCallsRecord(Record):
 
 
 class LightestDriveRecord(Record):
-    """The lightest drive of the table with which the requirements of a design are met."""
+    """The lightest drive of the table that a design names with which its requirements are met."""
 
-    #: The name of the drive; null: no drive is proved to suffice.
+    #: Its name; null: none is proved to suffice.
     name: Union[str, None]
-    #: The mass of the drive; null: the table has none, or no drive is proved to suffice.
+    #: Its mass; null: the table has none, or there is no such drive.
     mass: Union[float, None]
-    #: The unit of the mass.
+    #: Of the mass.
     mass_unit: str
-    #: Undecided lighter drives; all undecided drives if none is proved to suffice.
+    #: Drives that are lighter, or all where none is proved to suffice, of which neither is proved.
     undecided: tuple[str, ...]
-    #: The result in one sentence.
+    #: One sentence.
     message: str
 
 
 class LimitRecord(Record):
-    """A requirement that is active or violated."""
+    """A requirement that binds or is violated."""
 
     #: The kind; null: a singular pose, where det J vanishes.
     name: Union[TermKind, None]
-    #: The margin, negative for a violation; for a singular pose det J divided by its value at home.
+    #: By how much it is met, a violation below 0; of a singular pose det J over that at home.
     margin: Union[float, None]
-    #: The unit of the margin; null: a pure ratio.
+    #: Of the margin; null: a share.
     unit: Union[str, None]
-    #: The legs, joints, keep-out or load concerned.
+    #: Legs, joints, keep-out or load.
     between: tuple[str, ...]
-    #: The legs concerned, from 1.
+    #: The legs among them, from 1.
     legs: tuple[int, ...]
 
 
 class LimitsAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The pose of `--at`.
     pose: PoseQuaternionRecord
-    #: Whether every requirement is met at the pose, and det J has the sign that it has at home.
+    #: Every requirement is met there, and det J has the sign that it has at home.
     allowed: bool
-    #: The requirements violated at the pose, the worst first.
+    #: What is violated there, the worst first.
     violated: tuple[LimitRecord, ...]
-    #: The free travel of x, y, z, roll, pitch and yaw, each while the others stay fixed; empty: the pose
-    #: is not allowed.
-    axes: tuple[FreeRangeRecord, ...]
-    #: The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is
+    #: x, y, z, roll, pitch, yaw: how far each may move while the others stay; nothing where the pose is
     #: not allowed.
+    axes: tuple[FreeRangeRecord, ...]
+    #: The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not
+    #: allowed.
     way: Union[StraightWayRecord, None]
-    #: The allowed pose nearest to the pose of `--to`, or nearest to the pose of `--at` if that is not
-    #: allowed. Null: every requested pose is allowed, or no allowed pose was found.
+    #: The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all
+    #: that was asked for is allowed, or no allowed pose was found.
     nearest_allowed: Union[NearestAllowedRecord, None]
-    #: The size of the workspace around home; null: `--workspace` was not given, or home is not allowed.
+    #: How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
     workspace: Union[WorkspaceSizeRecord, None]
-    #: The unit of lengths.
+    #: Of lengths.
     length_unit: str
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class LocalOptimalityRecord(Record):
     """Evidence of local optimality."""
 
-    #: Whether the search converged: the model of the last step promised no further gain.
+    #: The model of the last step promised no further gain.
     converged: bool
-    #: The remaining first-order gain for a unit of the variables.
+    #: Gain still promised for a unit of the variables.
     stationarity: Union[float, None]
-    #: The gain of a pattern search from there; null: none was made.
+    #: Gained by a pattern search from there; null: none was made.
     pattern_gain: Union[float, None]
-    #: Number of points tried by the pattern search.
+    #: Points it tried.
     pattern_trials: Union[int, None]
 
 
 class LossRecord(Record):
-    """The loss function of the fit, which limits the weight of outliers."""
+    """How much far measurements cost."""
 
-    #: The kind of loss.
+    #: The loss.
     loss: Loss
-    #: The unit that is rejected together: a pose or a single leg length.
+    #: What is doubted together.
     of: LossUnit
 
 
 class MapAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The relation of the two designs; null: undecided, exit 3.
+    #: What the designs have to do with each other; null: undecided, exit 3.
     relation: Union[Relation, None]
-    #: The level of the proof; within rounding: nothing is proved.
+    #: What the relation is proved about; within rounding: nothing is proved.
     level: Level
-    #: Whether the relation holds exactly, or within rounding of the joints.
+    #: It holds within rounding of the joints, or exactly.
     holds_within_rounding: bool
-    #: The relation in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: str
     #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
     A: tuple[tuple[Union[float, None], ...], ...]
@@ -2636,21 +2615,20 @@ class MapAnswer(Record):
     c: tuple[Union[float, None], ...]
     #: The determinant of A.
     det: Union[float, None]
-    #: The determinant as an exact number, such as 64/243. Null: the identity of leg vectors is not proved
-    #: in exact arithmetic, or the number is too long to read.
+    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact
+    #: arithmetic; null elsewhere, and for numbers too long to be read.
     det_exact: Union[str, None]
-    #: Rows of A as exact numbers; null if `det_exact` is null.
+    #: Rows of A as exact numbers; null where `det_exact` is.
     A_exact: Union[tuple[tuple[str, ...], ...], None]
-    #: The constant terms as exact numbers, design units squared; null if `det_exact` is null.
+    #: The constant terms as exact numbers; null where `det_exact` is.
     c_exact: Union[tuple[str, ...], None]
-    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t.
-    #: Its row of A has the entries 1 - t and t, the others zero. The list has the t for which det A
-    #: vanishes while other legs stay fixed. An entry is null for other legs, or if no t exists. The list
-    #: is null if `det_exact` is null.
+    #: For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the
+    #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
+    #: other legs and where there is none; null as a whole where `det_exact` is.
     singular_shares: Union[tuple[Union[str, None], ...], None]
-    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other
-    #: legs fixed. TO is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is
-    #: null.
+    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the
+    #: other legs as they stand: TO is singular where it is zero, and only there; null where there is no
+    #: such leg, and where `det_exact` is.
     det_of_shares: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
@@ -2662,17 +2640,17 @@ class MapAnswer(Record):
     singular_values: tuple[Union[float, None], ...]
     #: Smallest over largest singular value of A.
     inverse_condition: Union[float, None]
-    #: The thresholds of the decision.
+    #: What the numbers were compared with.
     tolerances: MapTolerancesRecord
-    #: The correspondence of the legs of both designs.
+    #: Which leg is which.
     correspondence: CorrespondenceRecord
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
     #: Leg lengths taken from one design to the other, with `--lengths`.
     lengths: Union[MappedLengthsRecord, None]
-    #: Whether base and platform of the second design were exchanged first.
+    #: Base and platform of the second design were exchanged first.
     exchanged: Union[bool, None]
     #: The rigid motions that make the second design equivalent to the first, with `--align`.
     alignment: Union[AlignmentRecord, None]
@@ -2683,13 +2661,13 @@ class MapAnswer(Record):
 class MapRecord(Record):
     """The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs."""
 
-    #: The relation of the two designs; null: undecided, exit 3.
+    #: What the designs have to do with each other; null: undecided, exit 3.
     relation: Union[Relation, None]
-    #: The level of the proof; within rounding: nothing is proved.
+    #: What the relation is proved about; within rounding: nothing is proved.
     level: Level
-    #: Whether the relation holds exactly, or within rounding of the joints.
+    #: It holds within rounding of the joints, or exactly.
     holds_within_rounding: bool
-    #: The relation in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: str
     #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
     A: tuple[tuple[Union[float, None], ...], ...]
@@ -2697,21 +2675,20 @@ class MapRecord(Record):
     c: tuple[Union[float, None], ...]
     #: The determinant of A.
     det: Union[float, None]
-    #: The determinant as an exact number, such as 64/243. Null: the identity of leg vectors is not proved
-    #: in exact arithmetic, or the number is too long to read.
+    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact
+    #: arithmetic; null elsewhere, and for numbers too long to be read.
     det_exact: Union[str, None]
-    #: Rows of A as exact numbers; null if `det_exact` is null.
+    #: Rows of A as exact numbers; null where `det_exact` is.
     A_exact: Union[tuple[tuple[str, ...], ...], None]
-    #: The constant terms as exact numbers, design units squared; null if `det_exact` is null.
+    #: The constant terms as exact numbers; null where `det_exact` is.
     c_exact: Union[tuple[str, ...], None]
-    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t.
-    #: Its row of A has the entries 1 - t and t, the others zero. The list has the t for which det A
-    #: vanishes while other legs stay fixed. An entry is null for other legs, or if no t exists. The list
-    #: is null if `det_exact` is null.
+    #: For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the
+    #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
+    #: other legs and where there is none; null as a whole where `det_exact` is.
     singular_shares: Union[tuple[Union[str, None], ...], None]
-    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other
-    #: legs fixed. TO is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is
-    #: null.
+    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the
+    #: other legs as they stand: TO is singular where it is zero, and only there; null where there is no
+    #: such leg, and where `det_exact` is.
     det_of_shares: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
@@ -2723,29 +2700,29 @@ class MapRecord(Record):
     singular_values: tuple[Union[float, None], ...]
     #: Smallest over largest singular value of A.
     inverse_condition: Union[float, None]
-    #: The thresholds of the decision.
+    #: What the numbers were compared with.
     tolerances: MapTolerancesRecord
 
 
 class MapTolerancesRecord(Record):
-    """The thresholds of the decision about a map."""
+    """Limits of the decision about a map."""
 
-    #: The greatest `residual` of a map that holds.
+    #: Of `residual`.
     residual: float
-    #: The threshold of the singular values, relative to the largest.
+    #: Of the singular values, relative to the largest.
     rank: float
-    #: The least `inverse_condition` of a regular map.
+    #: Of `inverse_condition`.
     inverse_condition: float
 
 
 class MappedLengthsRecord(Record):
     """Lengths of the legs of both designs at the same poses, as the legs show them, design units."""
 
-    #: The given lengths of FROM.
+    #: Of FROM, as given.
     from_: tuple[Union[float, None], ...]
-    #: The lengths of TO; null: there are none.
+    #: Of TO; null: there are none.
     to: Union[tuple[Union[float, None], ...], None]
-    #: The reason why there are none: no regular map, or a squared length that is not positive.
+    #: Why there are none: no regular map, or a squared length that is not positive.
     why_not: Union[str, None]
 
 
@@ -2754,194 +2731,189 @@ class MarginRecord(Record):
 
     #: The kind.
     name: TermKind
-    #: The least margin over the sampled poses, negative for a violation.
+    #: Least over the poses looked at; a violation below 0.
     margin: Union[float, None]
-    #: The safety margin (reserve) that the design requires for this limit, in the unit of the margin; 0:
-    #: none.
+    #: What has to remain of the limit, in the unit of the margin; 0: no reserve is asked for.
     reserve: Union[float, None]
-    #: The margin minus the safety margin.
+    #: The margin less the reserve.
     margin_with_reserve: Union[float, None]
-    #: Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at
-    #: the sampled poses.
+    #: The reserve is kept: proved in `assess` (null where it is not), at the poses looked at elsewhere.
     reserve_kept: Union[bool, None]
-    #: Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other
-    #: answers it holds at the sampled poses.
+    #: Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked
+    #: at elsewhere.
     met: Union[bool, None]
-    #: Whether the margin is 0 to rounding.
+    #: Rounding does not tell the margin from 0.
     at_limit: bool
-    #: The status of the requirement.
+    #: What is known of it.
     status: MarginVerdict
-    #: The proved lower bound of the margin over the whole workspace; null: nothing is proved.
+    #: No pose of the workspace has a smaller margin; null where nothing is proved.
     proved_margin: Union[float, None]
-    #: The unit of the margins.
+    #: Of the margins.
     unit: str
-    #: The legs, joints, keep-out or load with the least margin.
+    #: Legs, joints, keep-out or load.
     between: tuple[str, ...]
-    #: The legs concerned, from 1; for a requirement on joints, the legs of the joint.
+    #: The legs among them, from 1; those of a joint where the requirement is about joints.
     legs: tuple[int, ...]
-    #: The pose with the least margin; null: the margin is the same at every pose.
+    #: Where it is least; null where the pose has no influence.
     pose: Union[PoseQuaternionRecord, None]
 
 
 class MotionAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
-    #: Whether every requirement is met at the sampled instants, and every pose of the motions is regular.
+    #: No requirement is violated at the instants looked at, and no pose of the motions is singular.
     met: bool
-    #: The unit of lengths; speeds are in this unit per second, accelerations per second squared.
+    #: Of lengths; speeds are in it per second, accelerations per second squared.
     length_unit: str
-    #: The unit of forces.
+    #: Of forces.
     force_unit: str
-    #: Assumed values that the file does not state, one sentence each.
+    #: What the file does not say and was taken instead, a sentence each.
     assumptions: tuple[str, ...]
-    #: The motions in the order trajectory, sines, accelerations.
+    #: In the order asked for: the trajectory, sines, accelerations.
     motions: tuple[MotionRunRecord, ...]
-    #: The stiffness of the platform at the pose of `--about`; null: not requested.
+    #: How stiff the platform is at the pose of `--about`; null: it was not asked for.
     stiffness: Union[StiffnessRecord, None]
-    #: The table of instants written; null: none.
+    #: The table of instants that was written; null: none.
     csv: Union[str, None]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class MotionRecord(Record):
     """A pair of rigid motions of the second design."""
 
-    #: The motion of its base.
+    #: Of its base.
     base: PoseRecord
-    #: The motion of its platform.
+    #: Of its platform.
     platform: PoseRecord
-    #: The residual of the leg map to the moved design.
+    #: The residual of the map to the moved design.
     residual: Union[float, None]
-    #: The determinant of this map.
+    #: The determinant of that map.
     det: Union[float, None]
-    #: The relation of the moved design to the first; null: undecided.
+    #: What the moved design has to do with the first; null: undecided.
     relation: Union[Relation, None]
 
 
 class MotionRunRecord(Record):
-    """The legs along one motion."""
+    """The legs along a motion."""
 
-    #: The file of the trajectory, or the manoeuvre as requested.
+    #: The file of the trajectory, or the manoeuvre as it was asked for.
     motion: str
-    #: Number of sampled instants.
+    #: Instants looked at.
     instants: int
-    #: Time from the first to the last instant, seconds.
+    #: From the first to the last of them.
     duration_s: float
-    #: Whether this motion meets every requirement at the sampled instants, and every pose is regular.
+    #: As in the answer, of this motion.
     met: bool
-    #: The legs in order; empty: a leg has no length at some instant, or the legs are rods on cranks.
+    #: By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
     legs: tuple[LegMotionRecord, ...]
-    #: The least margin of each kind of requirement, with the forces and speeds of this motion.
+    #: The least margin of each kind of requirement, force and speed by this motion.
     requirements: tuple[TimedMarginRecord, ...]
     #: Whether every pose of the motion is regular.
     regularity: MotionRegularity
-    #: The time of the first singular pose, seconds; null: none was found.
+    #: When the first singular pose is passed; null: none was found.
     singular_at_s: Union[float, None]
-    #: The first singular pose; null: none was found.
+    #: That pose.
     singular_pose: Union[PoseQuaternionRecord, None]
-    #: The evidence that it is singular.
+    #: What shows that it is singular.
     singular_evidence: Union[SingularEvidenceWord, None]
-    #: The cranks in leg order, for legs that are rods on cranks; empty: a rod does not reach at some
-    #: instant.
+    #: By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
     cranks: Union[tuple[CrankMotionRecord, ...], None]
-    #: The time at which a rod first does not reach from its crank to the platform, seconds.
+    #: When a rod first does not reach from its crank to the platform, where one does not.
     unreached_at_s: Union[float, None]
 
 
 class MovesFoundRecord(Record):
-    """A summary of a search for equivalent platforms."""
+    """A search for equivalent platforms in short."""
 
-    #: The outcome of the search.
+    #: What came out.
     outcome: SearchWord
-    #: Legs of the written platform that differ from the design's legs, from 1; null: no platform is
-    #: written.
+    #: Legs of the platform written that are not legs of the design, from 1; null: none is written.
     moved_legs: Union[tuple[int, ...], None]
-    #: det A of the leg map to the written platform; null: no platform is written.
+    #: det A of the map to it; null: none is written.
     det: Union[float, None]
 
 
 class NaturalMotionRecord(Record):
     """A natural motion."""
 
-    #: The frequency, hertz.
+    #: Its frequency.
     frequency_hz: Union[float, None]
-    #: The mode shape, base frame: shift of the platform origin in design units and rotation vector in
-    #: radians. It is normalised to `v^T M v = 1` in kilograms and design units.
+    #: Its shape: shift of the platform origin in design units and rotation vector in radians, base frame,
+    #: for which `v^T M v` is 1 in kilograms and design units.
     shape: tuple[Union[float, None], ...]
 
 
 class NearRecord(Record):
-    """The path from the start to the pose reached, with the numbers that prove that it holds no singular pose."""
+    """The way from the start to the pose reached, with the numbers that prove it free of singularities."""
 
-    #: The outcome of the tracking.
+    #: What came of it.
     outcome: NearWord
-    #: The reason for losing the pose; null: it was not lost.
+    #: Why it was lost.
     reason: Union[str, None]
     #: The pose at the beginning.
     start: PoseRecord
     #: The pose at the end.
     reached: PoseRecord
-    #: The fraction of the straight line of squared lengths that was covered; 1: all.
+    #: How far on the straight line of squared lengths; 1 at its end.
     fraction: float
-    #: Largest error of the leg equations divided by the squared size.
+    #: Largest error of the leg equations over the squared size.
     residual: Union[float, None]
-    #: Inverse condition number of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a
-    #: singular pose.
+    #: Of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singularity.
     inverse_condition: Union[float, None]
-    #: Number of segments of the line.
+    #: Segments the line was divided into.
     segments: int
-    #: Number of Newton steps in all.
+    #: Newton steps in all.
     newton_steps: int
-    #: The largest Kantorovich number; below 1, no segment holds a singular pose.
+    #: The largest Kantorovich number; below 1 every segment is free of singularities.
     kantorovich: Union[float, None]
-    #: Displacement of the platform centroid since the start, design units.
+    #: How far the centroid of the platform moved, design units.
     distance: Union[float, None]
-    #: Angle of rotation since the start, degrees.
+    #: The angle the platform turned by.
     angle_deg: Union[float, None]
-    #: Uncertainty of the pose reached. Present for ideal joints and a design with standard deviations of a
-    #: calibration.
+    #: How uncertain the pose reached is, where the design has standard deviations of a calibration and
+    #: joints are ideal.
     uncertainty: Union[PoseUncertaintyRecord, None]
 
 
 class NearestAllowedRecord(Record):
-    """The allowed pose found near a pose that is not allowed."""
+    """An allowed pose near one that is not."""
 
     #: The pose.
     pose: PoseQuaternionRecord
-    #: The position, base frame, design units.
+    #: Its position, design units.
     position: tuple[float, ...]
-    #: Roll, pitch and yaw, degrees.
+    #: Its roll, pitch and yaw.
     rpy_deg: tuple[float, ...]
-    #: Distance from the requested pose, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
+    #: Distance from the pose asked for, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     distance: float
-    #: The `L` of the distance, design units per radian.
+    #: The `L` of the distance, design units a radian.
     characteristic_length: float
-    #: The active requirements that keep the pose from being nearer.
+    #: What keeps it from being nearer.
     binds: tuple[LimitRecord, ...]
-    #: Whether no small step leads nearer, as far as margins are smooth: the pose is then locally nearest.
-    #: False: the search ended early.
+    #: Whether no small step leads nearer, as far as margins are smooth: then it is locally nearest. False:
+    #: the search ended before that was so.
     stationary: bool
-    #: Whether the straight path from home to the pose violates nothing.
+    #: Whether the straight way from home to it violates nothing.
     straight_from_home: bool
 
 
 class NearestErrorRecord(Record):
-    """A summary of the nearest octahedral platform."""
+    """The nearest octahedral platform in short."""
 
     #: The largest displacement of a leg end, design units.
     largest_displacement: Union[float, None]
-    #: The largest displacement divided by the size of the design.
+    #: The same over the size of the design.
     relative_displacement: Union[float, None]
-    #: The largest difference of leg lengths over the poses of the workspace, design units.
+    #: The largest difference of leg lengths over the poses of the workspace.
     largest_length_deviation: Union[float, None]
-    #: det A of the leg map from the octahedral platform to the equivalent one near the design.
+    #: det A of the map from the octahedral platform to the one beside the design.
     det: Union[float, None]
 
 
@@ -2957,156 +2929,157 @@ class NearestMotionRecord(Record):
 
 
 class NearestPlatformRecord(Record):
-    """The platform with the least violation of its requirements."""
+    """The platform that comes nearest to its requirements."""
 
-    #: The chosen variables, without axes.
+    #: What was chosen, axes left out.
     variables: tuple[VariableRecord, ...]
-    #: Margins of the requirements, over many poses and computed independently of the search.
+    #: The requirements, over many poses and by other code.
     constraint_margins: tuple[MarginRecord, ...]
-    #: The result of `assess`; null: the design has no requirements.
+    #: What `assess` says of it; null: the design requires nothing.
     assessment: Union[AssessAnswer, None]
     #: The platform.
     design: Design
 
 
 class NearestRoundingOutcome(Record):
-    """The nearest rounding, or the reason why there is none."""
+    """The nearest rounding, or why there is none."""
 
     #: The grids used.
     grids: Union[GridsRecord, None]
-    #: The verdict of leg map and forward kinematics against the given design.
+    #: What leg map and forward kinematics say of it and the wanted design.
     verdict: Union[RoundingVerdict, None]
-    #: The residual of the leg map; null: it could not be computed.
+    #: The residual of the leg map; null where it could not be computed.
     map_residual: Union[float, None]
     #: The joints.
     joints: Union[tuple[RoundedJointRecord, ...], None]
-    #: The figures of the rounded design.
+    #: How good it is.
     judgement: Union[JudgementRecord, None]
-    #: The error of the pose when the formula of the given design is used.
+    #: The error of the pose by the formula of the wanted design.
     pose_error: Union[RoundingErrorRecord, None]
-    #: Number of joints that are not on the nearest hole.
+    #: Joints that are not on the nearest hole.
     not_nearest: Union[int, None]
-    #: Whether rotations by 120 degrees map the joints of both bodies to themselves.
+    #: Turns by 120 degrees take the joints of both bodies to themselves.
     three_fold: Union[bool, None]
-    #: The obstacle.
+    #: What stands against it.
     error: Union[NoRoundingError, None]
 
 
 class NearestRoundingRecord(Record):
-    """A rounding with all joints on holes near their given positions."""
+    """All joints on holes next to where they are wanted."""
 
     #: The grids used.
     grids: GridsRecord
-    #: The verdict of leg map and forward kinematics against the given design.
+    #: What leg map and forward kinematics say of it and the wanted design.
     verdict: RoundingVerdict
-    #: The residual of the leg map; null: it could not be computed.
+    #: The residual of the leg map; null where it could not be computed.
     map_residual: Union[float, None]
     #: The joints.
     joints: tuple[RoundedJointRecord, ...]
-    #: The figures of the rounded design.
+    #: How good it is.
     judgement: JudgementRecord
-    #: The error of the pose when the formula of the given design is used.
+    #: The error of the pose by the formula of the wanted design.
     pose_error: RoundingErrorRecord
-    #: Number of joints that are not on the nearest hole.
+    #: Joints that are not on the nearest hole.
     not_nearest: int
-    #: Whether rotations by 120 degrees map the joints of both bodies to themselves.
+    #: Turns by 120 degrees take the joints of both bodies to themselves.
     three_fold: bool
 
 
 class NearestSingularRecord(Record):
-    """The nearest singular design found."""
+    """The nearest singular design that was found."""
 
     #: Norm of the change of all joints, design units.
     distance: Union[float, None]
-    #: Always `upper`: the distance is an upper bound of the least distance.
+    #: The distance found is an upper bound of the least one.
     bound: Literal["upper"]
-    #: A lower bound: no singular design is nearer, design units.
+    #: No singular design is nearer.
     distance_at_least: Union[float, None]
-    #: The kind of singularity.
+    #: What becomes singular.
     kind: str
-    #: The dependent legs, from 1.
+    #: The legs in it, from 1.
     legs: tuple[int, ...]
-    #: The coefficients of the dependency of the leg vectors.
+    #: The dependency of their leg vectors.
     coefficients: Union[tuple[Union[float, None], ...], None]
-    #: The residual of the dependency.
+    #: What is left of the dependency.
     residual: Union[float, None]
-    #: Whether the two designs differ by no more than rounding of the file.
+    #: Rounding of the file may be the only difference.
     within_rounding: bool
-    #: Half a unit of the last digit given, design units; null: some coordinate differs by more.
+    #: Half a unit of the last digit given, design units, where no coordinate differs by more; null
+    #: otherwise.
     within_digits: Union[float, None]
-    #: The base joints of the singular design by name, base frame.
+    #: Its base joints by name, base frame.
     base: dict[str, tuple[Union[float, None], ...]]
-    #: The platform joints of the singular design by name, platform frame.
+    #: Its platform joints by name, platform frame.
     platform: dict[str, tuple[Union[float, None], ...]]
 
 
 class NextPoseRecord(Record):
     """A pose to measure next."""
 
-    #: The pose, in the design frames if joints are carried to them, else in the frames of the
+    #: The pose, in the frames of the design where joints are carried to them, else in those of the
     #: measurements.
     pose: PoseQuaternionRecord
-    #: Roll, pitch and yaw of the pose, degrees.
+    #: Roll, pitch and yaw of it, degrees.
     rpy_deg: tuple[Union[float, None], ...]
-    #: The factor by which this measurement shrinks the error ellipsoid: the geometric mean of the
-    #: deviations along its axes.
+    #: By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes
+    #: smaller with it.
     shrinks: Union[float, None]
-    #: The greatest standard deviation of a coordinate or offset after this pose and those before it,
-    #: design units.
+    #: The greatest standard deviation of a coordinate or offset after it and those before it, design
+    #: units.
     greatest_deviation: Union[float, None]
 
 
 class NoRoundingError(Record):
-    """The obstacle to a rounding."""
+    """What stands against a rounding."""
 
     #: A short code.
     code: NoRoundingWord
-    #: The message in one sentence.
+    #: One sentence.
     message: str
 
 
 class NoRoundingRecord(Record):
-    """The reason why there is no rounding."""
+    """Why there is no rounding."""
 
-    #: The obstacle.
+    #: What stands against it.
     error: NoRoundingError
 
 
 class NoiseRecord(Record):
     """Standard deviations of measurements."""
 
-    #: The source of the values.
+    #: Where they come from.
     source: NoiseSource
-    #: Standard deviation of a length, design units.
+    #: Of a length, design units.
     length: Union[float, None]
-    #: Standard deviation of each coordinate of the platform origin, design units.
+    #: Of each coordinate of the platform origin, design units.
     position: Union[float, None]
-    #: Standard deviation of each component of the rotation vector, degrees.
+    #: Of each component of the rotation vector, degrees.
     rotation_deg: Union[float, None]
 
 
 class ObjectiveRecord(Record):
     """An objective and its value."""
 
-    #: The name of the objective.
+    #: Which.
     name: Objective
-    #: The value over many poses, computed independently of the search.
+    #: By the dense evaluation.
     value: Union[float, None]
-    #: The value over the poses at which the search held the requirements.
+    #: Over the poses at which the search held the requirements.
     at_held_poses: Union[float, None]
-    #: The unit; empty for a pure number.
+    #: Empty for a pure number.
     unit: str
 
 
 class ObservabilityRecord(Record):
-    """Observability of the machine's parameters by the measurements."""
+    """Which changes of the machine the measurements see, and how well."""
 
-    #: Number of identified directions.
+    #: Directions identified.
     rank: int
-    #: Singular values of the identification matrix, whitened and multiplied by the deviation of a length,
-    #: largest first; no unit.
+    #: Of the identification matrix, whitened and multiplied by the deviation of a length; largest first,
+    #: without unit.
     singular_values: tuple[Union[float, None], ...]
-    #: The threshold: smaller singular values count as not identified.
+    #: Smaller values are directions that are not identified.
     tolerance: Union[float, None]
     #: `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
     volume_index: Union[float, None]
@@ -3116,214 +3089,212 @@ class ObservabilityRecord(Record):
     noise_amplification: Union[float, None]
     #: `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
     harmonic_index: Union[float, None]
-    #: Changes of the machine that are not identified, each normalised to 1 over all unknowns.
+    #: Changes of the machine that are not identified, each of norm 1 over all unknowns.
     unobservable: tuple[UnobservableRecord, ...]
 
 
 class OffsetProductsRecord(Record):
     """Products over the six offsets of the platform without shared joints."""
 
-    #: The product (1 - t1) .. (1 - t6).
+    #: The product of all `1 - t_i`.
     rest: ExactNumberRecord
-    #: The product t1 .. t6.
+    #: The product of all `t_i`.
     own: ExactNumberRecord
 
 
 class OffsetShiftRecord(Record):
-    """The change of an offset."""
+    """How an offset changes."""
 
-    #: The leg, from 1.
+    #: From 1.
     leg: int
-    #: The change of the offset; relative, the whole change has norm 1.
+    #: The change.
     change: Union[float, None]
 
 
 class OnHolesRecord(Record):
-    """A summary of a platform with its joints on the holes that its design states."""
+    """A platform with its joints on the holes that its design states, in short."""
 
-    #: The rounding chosen; null: there is none.
+    #: Which rounding was taken; null: there is none.
     variant: Union[VariantWord, None]
-    #: Whether rotations by 120 degrees map both triangles with their joints to themselves.
+    #: Turns by 120 degrees take both triangles with their joints to themselves.
     three_fold: bool
-    #: The largest displacement of a joint to its hole, design units.
+    #: The farthest that a joint went to its hole.
     largest_displacement: Union[float, None]
-    #: Variables optimised again after rounding.
+    #: Variables that were chosen again after rounding.
     refitted: tuple[str, ...]
-    #: Number of passes of search and rounding.
+    #: How often a platform was sought and rounded.
     passes: int
-    #: The reason why there is no rounding; null: there is one.
+    #: Why there is no rounding; null: there is one.
     error: Union[NoRoundingError, None]
 
 
 class OptimizeAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The status of the search.
+    #: What came of the search.
     status: OptimizeWord
-    #: The evidence of optimality; null: none, or there is no platform.
+    #: What is known of better ones; null: nothing, or there is no platform.
     optimality: Union[OptimalityWord, None]
     #: Value of the first objective.
     objective: Union[float, None]
-    #: All objectives.
+    #: All of them.
     objectives: Union[tuple[ObjectiveRecord, ...], None]
-    #: The chosen variables, without axes.
+    #: What was chosen, axes left out.
     variables: Union[tuple[VariableRecord, ...], None]
-    #: The offsets `t_i` in cyclic order; null: no offsets were chosen.
+    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: The displacements `t_i d_i`, design units; null if `edge_lengths` is null.
+    #: `t_i d_i`, design units; null as `edge_lengths`.
     shifts: Union[tuple[Union[float, None], ...], None]
-    #: The edges `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    #: `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     edge_lengths: Union[tuple[Union[float, None], ...], None]
     #: The legs of the cycle, from 1; null: no offsets were chosen.
     cyclic_order: Union[tuple[int, ...], None]
-    #: Zone of each offset: before, inside or beyond its edge; null: no offsets were chosen.
+    #: Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
     branch: Union[str, None]
-    #: det A of the leg map; null: the variables leave the equivalence class of the design.
+    #: det A of the leg map; null: the variables do not keep the class of the design.
     det: Union[float, None]
-    #: Rows of A: s' = A s + c of squared leg lengths, legs in the order of the design. Null if `det` is
-    #: null.
+    #: s' = A s + c, legs in the order of the design; rows. Null as `det`.
     A: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: The constant terms, design units squared; null if `det` is null.
+    #: The constant terms, design units squared; null as `det`.
     c: Union[tuple[Union[float, None], ...], None]
-    #: The home pose, raised if its height was chosen.
+    #: Home, lifted when its height was chosen.
     home: Union[PoseQuaternionRecord, None]
-    #: The chosen joint axes.
+    #: The axes chosen.
     joint_axes: Union[JointAxesRecord, None]
-    #: Margins of the requirements, over many poses and computed independently of the search.
+    #: The requirements, over many poses and by other code.
     constraint_margins: Union[tuple[MarginRecord, ...], None]
-    #: Margins of the extra conditions of the search.
+    #: By how much what the search demands besides them is met.
     search_margins: Union[SearchMarginsRecord, None]
-    #: The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null:
-    #: none.
+    #: What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies
+    #: have grown; null: nothing.
     riding: Union[RidingRecord, None]
-    #: Whether the platform is proved to meet its requirements; null: some are unproved.
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
-    #: The result of `assess` for the platform; null: the design has no requirements.
+    #: What `assess` says of the platform; null: the design requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: Whether it is equivalent to the design; null: the variables leave the equivalence class.
+    #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
-    #: The held pose with the value of the first objective; null: the objective is not the worst
-    #: conditioning.
+    #: Where the first objective is reached among the poses held; null: it is not the worst conditioning.
     worst_pose: Union[WorstPoseRecord, None]
     #: Evidence of local optimality.
     local_optimality: Union[LocalOptimalityRecord, None]
-    #: Steps of the run that found it; null: a member of a front.
+    #: Steps of the run that found it; null in a front.
     history: Union[tuple[SearchStepRecord, ...], None]
-    #: Numbers of poses held and checked.
+    #: Numbers of poses.
     poses: Union[HeldPosesRecord, None]
     #: The platform as a design; null: there is none.
     design: Union[Design, None]
-    #: The file written, with the best platform or the one with the least violation.
+    #: The file written, with the platform or the one that comes nearest.
     output: Union[str, None]
-    #: The platform with the least violation; null: a platform meets the requirements.
+    #: Where none that meets the requirements was found: the one with the least violation, which misses
+    #: some of them.
     nearest: Union[NearestPlatformRecord, None]
-    #: The requirements in conflict; null: no conflict is known.
+    #: What cannot be met together, where that is why there is no platform.
     conflict: Union[ConflictRecord, None]
-    #: The reason why the search did not decide, one sentence; null: it decided, or nothing failed.
+    #: Why the search failed to decide, a sentence; null: it decided, or nothing failed.
     failure: Union[str, None]
-    #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
-    #: the requirements, or no freedom was tried.
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; null where none was looked at.
     freedoms: Union[tuple[FreedomRecord, ...], None]
-    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
-    #: search could not break it or did not check it.
+    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
+    #: search could not break it or did not look at it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table with the search result for each; null: no table was given. The rest of the
-    #: answer is about the chosen drive, or else about the drive with the best result.
+    #: The drives of a table, with what the search came to with each; null where no table was given. The
+    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
     drive_search: Union[DriveSearchRecord, None]
-    #: Other local optima that meet the requirements at the poses held, best first; null: not requested.
+    #: Other local optima that meet the requirements at the poses that were held, best first; null where
+    #: they were not asked for.
     candidates: Union[tuple[OptimumRecord, ...], None]
-    #: The Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted
-    #: by falling gain of the first objective; null in other modes.
+    #: With mode = "pareto": platforms of which none is better in every objective, by falling gain of the
+    #: first objective; else null.
     front: Union[tuple[FrontMemberRecord, ...], None]
-    #: The reason why the sizes of the bodies and the height of home are chosen, one sentence. Null: the
-    #: variables come from the design or are the usual ones.
+    #: Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are
+    #: those of the design, or the usual ones.
     choice: Union[str, None]
-    #: Limits of the search itself.
+    #: What the search itself was held to.
     limits: SearchLimitsRecord
-    #: The poses required.
+    #: The poses that were asked for.
     region: PoseRegionRecord
-    #: Statistics of the search.
+    #: How the search went.
     search: SearchRecord
-    #: An upper bound on the objective of every platform at the poses held; null: not proved, or there is
-    #: no solution.
+    #: What no platform that could be chosen can exceed at the poses held; null: not proved, or there is no
+    #: solution.
     global_bound: Union[GlobalBoundRecord, None]
-    #: Greatest gap to this bound at which the answer counts as optimal; null: the search proves no bound.
+    #: Greatest gap to that bound at which the answer counts as optimal; null: the search proves no bound.
     tolerance: Union[float, None]
-    #: Numbers of branches by outcome; null: the search has none.
+    #: What became of the branches; null: the search has none.
     branch_counts: Union[BranchCountsRecord, None]
     #: The best other branches.
     runners_up: Union[tuple[BranchRecord, ...], None]
-    #: All branches, with one zone for each offset.
+    #: All branches: a zone for each offset.
     branches: Union[tuple[BranchRecord, ...], None]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class OptimizedRecord(Record):
-    """A summary of the platform: the main fields of the answer of `optimize`."""
+    """The platform in short: the fields of the answer of `optimize` that say most."""
 
-    #: The status of the search.
+    #: What came of the search.
     status: OptimizeWord
-    #: The evidence of optimality; null: none.
+    #: What is known of better ones; null: nothing.
     optimality: Union[OptimalityWord, None]
     #: Value of the first objective.
     objective: Union[float, None]
-    #: The chosen variables, without axes.
+    #: What was chosen, axes left out.
     variables: tuple[VariableRecord, ...]
-    #: The offsets `t_i` in cyclic order; null: no offsets were chosen.
+    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: The displacements `t_i d_i`, design units; null: no offsets were chosen, or the triangles were
-    #: chosen too.
+    #: `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     shifts: Union[tuple[Union[float, None], ...], None]
-    #: det A of the leg map; null: the variables leave the equivalence class of the design.
+    #: det A of the leg map; null: the variables do not keep the class of the design.
     det: Union[float, None]
-    #: The active bounds of the platform; null: none.
+    #: What the platform rides on; null: nothing.
     riding: Union[RidingRecord, None]
 
 
 class OptimumRecord(Record):
-    """A local optimum other than the best one."""
+    """A local optimum beside the best one."""
 
     #: All objectives.
     objectives: tuple[ObjectiveRecord, ...]
-    #: The chosen variables, without axes.
+    #: What was chosen, axes left out.
     variables: tuple[VariableRecord, ...]
-    #: Whether the platform is proved to meet its requirements; null: some are unproved.
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
-    #: The result of `assess`; null: the design has no requirements.
+    #: What `assess` says of it; null: the design requires nothing.
     assessment: Union[AssessAnswer, None]
     #: The platform.
     design: Design
-    #: The design file written; null: none.
+    #: The file it was written to.
     output: Union[str, None]
 
 
 class OtherAlignmentRecord(Record):
-    """The result for the exchanged or mirrored second design."""
+    """What was found for the second design taken otherwise."""
 
-    #: Whether such motions exist.
+    #: Whether there are motions.
     status: AlignmentWord
-    #: Number of motions.
+    #: How many.
     motions: int
 
 
 class OutlierRecord(Record):
-    """A measurement that contradicts the others."""
+    """A measurement that does not belong to the others."""
 
     #: Line of the table of measurements.
     line: int
-    #: The leg, from 1; null: the whole pose.
+    #: From 1; null: the whole pose.
     leg: Union[int, None]
-    #: Distance of the measurement from the model, standard deviations.
+    #: How far it is from the model, standard deviations.
     distance: Union[float, None]
-    #: The rejection threshold, standard deviations: correct measurements all stay below it with a
-    #: probability of 99 %.
+    #: Right measurements are all nearer with a probability of 99 %.
     threshold: Union[float, None]
-    #: The weight of the measurement in the fit.
+    #: Its weight in the fit.
     weight: Union[float, None]
 
 
@@ -3353,9 +3324,9 @@ class PathRecord(Record):
 class PatternLegRecord(Record):
     """One leg of a pattern."""
 
-    #: The base joint of the leg.
+    #: Its base joint.
     base: str
-    #: The platform joint of the leg.
+    #: Its platform joint.
     platform: str
     kind: Union[Literal["vertex", "inner"], None]
     #: The side, from 1.
@@ -3367,17 +3338,17 @@ class PatternLegRecord(Record):
 
 
 class PatternRecord(Record):
-    """A pattern: the kept legs, and the moved legs with their edges."""
+    """Which legs are kept and which are moved along which edge."""
 
-    #: The name of the pattern: V and the vertices kept, S and the sides of the moved ones.
+    #: Its name: V and the vertices kept, S and the sides of the moved ones.
     id: str
-    #: The class of the pattern up to symmetry, from 1.
+    #: Its class up to symmetry, from 1.
     class_: int
-    #: The class of the pattern up to all symmetries, from 1.
+    #: Its class up to all symmetries, from 1.
     class_exchange: int
-    #: The topology of the pattern, from 1.
+    #: Its topology, from 1.
     topology: int
-    #: Whether offsets introduced one at a time lead to it.
+    #: It is reached by offsets introduced one at a time.
     sequential: bool
     #: The legs, in the order of the design.
     legs: tuple[PatternLegRecord, ...]
@@ -3387,11 +3358,11 @@ class PatternRecord(Record):
     shared_joints: tuple[SharedJointRecord, ...]
     #: Joints on one line.
     alignments: tuple[tuple[str, ...], ...]
-    #: Formulas of the entries of A, with legs in the order of the design.
+    #: Formulas of the entries of A, legs in the order of the design.
     A: tuple[tuple[str, ...], ...]
     #: The formula of det A.
     det: str
-    #: The equations of the factors of det A = 0.
+    #: Equations for det A = 0, one a factor.
     det_zero: tuple[str, ...]
 
 
@@ -3414,29 +3385,28 @@ class PolynomialRecord(Record):
 
     #: The unknowns by their names.
     unknowns: tuple[str, ...]
-    #: The degree before spurious factors are removed.
+    #: The degree before factors without meaning are removed.
     degree_before: int
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The spurious factors removed.
+    #: The factors that were removed.
     removed: tuple[RemovedFactorRecord, ...]
-    #: Number of distinct complex roots; null: several unknowns, or not proved.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
-    #: The representation of the coefficients.
+    #: How the coefficients are known.
     coefficients_known: CoefficientsWord
     #: The exponents of the unknowns in each term.
     exponents: tuple[tuple[int, ...], ...]
-    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
-    #: first.
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: tuple[str, ...]
-    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
-    #: that are not exact.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: The multiplicity of each real root.
+    #: How often each of them is a root.
     real_root_multiplicities: tuple[int, ...]
-    #: Bounds [low, high] of the coefficients; null: they are exact.
+    #: Bounds [low, high] of the coefficients, where they are not exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
@@ -3445,40 +3415,41 @@ class PoseBoundRecord(Record):
 
     #: The bound.
     poses: int
-    #: The theorem that gives the bound.
+    #: Why there are not more.
     theorem: str
 
 
 class PoseCountRecord(Record):
     """The finite poses of the design, counted without finding them."""
 
-    #: The number with multiplicity; null: not finite, or undecided.
+    #: Their number with multiplicity; null: not finite, or undecided.
     finite: Union[int, None]
-    #: Number of standard monomials of each degree.
+    #: Standard monomials of each degree.
     by_degree: Union[tuple[int, ...], None]
     #: Dimension of a set of positive dimension.
     dimension: Union[int, None]
     #: Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
     degree: Union[int, None]
-    #: The reason why there is no count.
+    #: Why there is no count.
     undecided: Union[CountUndecided, None]
-    #: The counted lengths: the exact ones given, or generic ones, which have at least as many isolated
-    #: poses. Lengths known only to rounding, such as images under a leg map, are counted as generic.
+    #: The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as
+    #: many isolated poses as any or more. Where the lengths are known to rounding only, as images under a
+    #: leg map are, the latter are counted.
     lengths: CountedLengths
-    #: The evidence: a theorem with certificates, or counting modulo random primes.
+    #: By a theorem and certificates, or modulo random primes.
     evidence: EvidenceWord
-    #: A bound on the probability of a wrong count; null: proved, or undecided.
+    #: A bound; null: proved, or undecided.
     error_probability: Union[float, None]
-    #: The primes in decimal, as text: they have more digits than a double.
+    #: In decimal, as text: they have more digits than a double.
     primes: tuple[str, ...]
 
 
 class PoseErrorRecord(Record):
     """The error of a pose."""
 
-    #: Error of the tool point, design units.
+    #: Of the tool point, design units.
     position: Union[float, None]
-    #: Error of the orientation, degrees.
+    #: Of the orientation.
     rotation_deg: Union[float, None]
 
 
@@ -3510,39 +3481,39 @@ class PoseRecord(Record):
 
 
 class PoseRegionRecord(Record):
-    """The poses that a design requires."""
+    """The poses that a design asks for."""
 
-    #: The source of home.
+    #: Where home comes from.
     home: SourceWord
-    #: The position of home in the starting design, base frame, design units.
+    #: Its position in the design that the search began with.
     home_position: tuple[Union[float, None], ...]
-    #: The source of the workspace.
+    #: Where the workspace comes from.
     workspace: SourceWord
 
 
 class PoseTotalsRecord(Record):
-    """Numbers of poses."""
+    """Poses counted."""
 
-    #: The source of the lengths.
+    #: Where the lengths come from.
     lengths_from: LengthsOrigin
-    #: Number of finite poses, real and complex.
+    #: Finite poses, real and complex.
     finite_count: int
-    #: Number of real poses.
+    #: Real ones.
     real_count: int
-    #: Number of poses with a certificate.
+    #: Poses with a certificate.
     certified_count: int
-    #: Whether every path is accounted for; false: poses may be missing.
+    #: False: poses may be missing.
     all_paths_accounted: bool
 
 
 class PoseUncertaintyRecord(Record):
-    """The uncertainty of a pose computed from lengths with the calibrated machine, to first order. It covers the errors of the calibration; the noise of the lengths adds to it."""
+    """How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not know, to first order; the noise of these lengths comes on top."""
 
     #: Whether the design file has correlations.
     correlations: CorrelationsWord
-    #: Root mean square error of the platform origin, design units.
+    #: Root mean square of the distance by which the platform origin is off, design units.
     position: Union[float, None]
-    #: Root mean square error of the orientation, degrees.
+    #: Root mean square of the angle by which the orientation is off, degrees.
     rotation_deg: Union[float, None]
     #: Covariance of the shift of the platform origin (design units) and the rotation vector (degrees),
     #: base frame.
@@ -3552,31 +3523,30 @@ class PoseUncertaintyRecord(Record):
 class PriceRecord(Record):
     """Figures of a design and of the platform with separate joints made from it, in this order."""
 
-    #: Worst conditioning over the poses of the workspace; both use the characteristic length of the
-    #: design.
+    #: Worst conditioning over the poses of the workspace, both by the characteristic length of the design.
     conditioning: tuple[Union[float, None], ...]
-    #: Least distance of the ends of two legs on the base, design units; 0 for a shared joint.
+    #: Least distance of the ends of two legs on the base, design units; 0 where they share a joint.
     base_spacing: tuple[Union[float, None], ...]
-    #: Least distance of the ends of two legs on the platform, design units; 0 for a shared joint.
+    #: The same on the platform.
     platform_spacing: tuple[Union[float, None], ...]
-    #: Greatest distance of a base joint from the centre of the base joints, design units.
+    #: Greatest distance of a base joint from the centre of the joints.
     base_radius: tuple[Union[float, None], ...]
-    #: Greatest distance of a platform joint from the centre of the platform joints, design units.
+    #: The same of the platform.
     platform_radius: tuple[Union[float, None], ...]
-    #: The comparison in one sentence.
+    #: One sentence.
     message: str
 
 
 class ProvenanceRecord(Record):
-    """The data needed to compute an answer again: the program, the seed and the files. It holds no time and no name of a machine."""
+    """What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it."""
 
     #: The version of the program.
     version: str
-    #: The seed of the computation; null: it takes none.
+    #: The seed that was handed to the computation; null where it takes none.
     seed: Union[int, None]
-    #: The designs in the order given.
+    #: The designs, in the order in which they were given.
     designs: tuple[DesignSourceRecord, ...]
-    #: The other files read: tables of lengths or poses, fronts.
+    #: Other texts that were read: tables of lengths or poses, fronts.
     files: tuple[FileSourceRecord, ...]
 
 
@@ -3594,18 +3564,18 @@ class QuantilesRecord(Record):
 
 
 class RayEndRecord(Record):
-    """A limit that ends paths."""
+    """What ends ways."""
 
-    #: The kind of requirement; null: a singular pose, or no limit within ten sizes of the design.
+    #: The kind of requirement; null: a singular pose, or nothing within ten sizes.
     name: Union[TermKind, None]
-    #: The limit in a word.
+    #: The same in a word.
     end: str
-    #: The share of the paths that it ends, a share of solid angle.
+    #: The share of the ways, which is one of solid angle.
     share: float
 
 
 class RealPoseRecord(Record):
-    """A real pose as real numbers."""
+    """A real pose in real numbers."""
 
     #: Position of the platform origin, base frame, design units.
     position: tuple[float, ...]
@@ -3615,48 +3585,48 @@ class RealPoseRecord(Record):
     rpy_deg: tuple[float, ...]
     #: Unit quaternion, scalar part first.
     quat_wxyz: tuple[float, ...]
-    #: The side of the base on which the platform is; null: its centre is in the plane of the base, here or
-    #: at home.
+    #: On which side of the base the platform is; null: its centre is in the plane of the base, there or at
+    #: home.
     mode: Union[SideWord, None]
     #: Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position
-    #: divided by the size of the design.
+    #: over the size of the design.
     distance_from_home: float
-    #: Whether this is the real pose nearest to home.
+    #: Whether none of the other real poses listed is nearer to home.
     nearest_home: bool
-    #: Whether each crank is on the side (elbow) that the design names; null: no cranks. A crank changes
-    #: its side only through a singular pose, with crank, rod and axis in one plane.
+    #: Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks:
+    #: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
     elbow_kept: Union[tuple[bool, ...], None]
 
 
 class RegularBoxRecord(Record):
-    """A box of regular poses around a pose."""
+    """A box of poses about a pose that holds no singular one."""
 
     #: Half widths of positions at scale 1, design units, base frame.
     translation: tuple[float, ...]
-    #: Half widths of the rotation vector at scale 1, base frame, degrees.
+    #: Half widths of the rotation vector at scale 1, base frame.
     rotation_deg: tuple[float, ...]
-    #: The shape of the region.
+    #: Its shape.
     region: RegionWord
-    #: Proved: no pose up to this scale is singular.
+    #: No singular pose up to this scale, proved.
     proved_scale: Union[float, None]
-    #: A pose in the smallest box known to hold a singular one; null: no such box is known.
+    #: A pose of the smallest box known to hold a singular one.
     singular_within: Union[ScaledPoseRecord, None]
-    #: The greatest scale searched for a change of sign.
+    #: Up to this scale a change of sign was looked for.
     searched_scale: Union[float, None]
-    #: Number of cells in the proof.
+    #: Cells the proof took.
     cells: int
 
 
 class RegularityRecord(Record):
-    """Whether det J is nonzero at every pose of the workspace."""
+    """Whether det J vanishes at no pose of the workspace."""
 
-    #: Whether every pose is regular; null: undecided.
+    #: Null: undecided.
     met: Union[bool, None]
-    #: The result in a word.
+    #: The same in a word.
     status: RegularityWord
-    #: The pose at which det J has the opposite sign to home, or is undecided.
+    #: Where det J has the other sign than at home, or where it is undecided.
     pose: Union[PoseQuaternionRecord, None]
-    #: Number of cells of the workspace examined.
+    #: Cells of the workspace that were looked at.
     cells: int
 
 
@@ -3670,26 +3640,25 @@ class RejectedRecord(Record):
 
 
 class RemovedFactorRecord(Record):
-    """A spurious factor: it comes from the derivation of the polynomial and has no meaning for the poses."""
+    """A factor that belongs to the way to the polynomial, not to its meaning."""
 
     #: The factor in the unknowns, or in words.
     factor: str
-    #: The degree of the factor.
+    #: Its degree.
     degree: int
-    #: The number of times it was removed.
+    #: How often it was removed.
     times: int
 
 
 class RequiredSizeRecord(Record):
-    """The workspace that a design requires."""
+    """The region that a design asks for."""
 
-    #: Volume of its translations, design units cubed.
+    #: Of its translations, design units cubed.
     volume: float
-    #: The volume of its translations divided by the volume that straight paths reach at the orientation of
-    #: home.
+    #: The same over the volume that straight ways reach at the orientation of home.
     share: Union[float, None]
-    #: The factor by which its translations and rotations together can grow; 1 or more: the whole region is
-    #: free.
+    #: The factor by which its translations and rotations together may be multiplied; 1 and more: the
+    #: region is free.
     factor: FreeSizeRecord
 
 
@@ -3703,43 +3672,41 @@ class RequirementMarginRecord(Record):
 
 
 class ResidualsRecord(Record):
-    """Statistics of residuals, design units."""
+    """Sizes of residuals, design units."""
 
-    #: Root mean square of the residuals.
+    #: Root mean square.
     rms: Union[float, None]
-    #: Root mean square of the residuals of each leg.
+    #: Of each leg.
     legs: tuple[Union[float, None], ...]
-    #: The residual of greatest size; null: none was counted.
+    #: The one of the largest size; null: none was counted.
     greatest: Union[GreatestResidualRecord, None]
-    #: Number of lengths counted.
+    #: Lengths counted.
     count: int
 
 
 class RiddenBoundRecord(Record):
-    """An active bound."""
+    """A bound of which nothing is left."""
 
-    #: The name of a variable or a requirement, or `abs_det`.
+    #: A variable, a requirement, or `abs_det`.
     name: str
-    #: The kind of bound.
+    #: What bounds it.
     kind: RiddenWord
-    #: The value of the variable, or the margin of the limit.
+    #: The value of a variable; what is left of a limit.
     value: Union[float, None]
-    #: The unit of the value; empty for a pure number.
+    #: Of the value; empty for a pure number.
     unit: str
 
 
 class RidingRecord(Record):
-    """The active bounds of a platform, and the growth of its bodies."""
+    """The bounds that decide about a platform, and the growth of its bodies."""
 
-    #: Active ranges of variables and active limits.
+    #: Ranges of variables and limits of which nothing is left.
     bounds: tuple[RiddenBoundRecord, ...]
-    #: Greatest distance of a base joint from the centre of the base joints, divided by its value in the
-    #: design.
+    #: Greatest distance of a base joint from the centre of the joints, over that in the design.
     base_growth: Union[float, None]
-    #: Greatest distance of a platform joint from the centre of the platform joints, divided by its value
-    #: in the design.
+    #: The same of the platform.
     platform_growth: Union[float, None]
-    #: The bounds in one sentence.
+    #: One sentence.
     message: str
 
 
@@ -3748,38 +3715,37 @@ class RotationPolynomialRecord(Record):
 
     #: The unknowns by their names.
     unknowns: Union[tuple[str, ...], None]
-    #: The degree before spurious factors are removed.
+    #: The degree before factors without meaning are removed.
     degree_before: Union[int, None]
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The spurious factors removed.
+    #: The factors that were removed.
     removed: Union[tuple[RemovedFactorRecord, ...], None]
-    #: Number of distinct complex roots; null: several unknowns, or not proved.
+    #: Different complex roots; null with several unknowns, and where that is not proved.
     distinct_roots: Union[int, None]
-    #: The representation of the coefficients.
+    #: How the coefficients are known.
     coefficients_known: Union[CoefficientsWord, None]
     #: The exponents of the unknowns in each term.
     exponents: Union[tuple[tuple[int, ...], ...], None]
-    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
-    #: first.
+    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
     coefficients: Union[tuple[str, ...], None]
-    #: Bounds [low, high] of the coefficients; null: they are exact.
+    #: Bounds [low, high] of the coefficients, where they are not exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
-    #: that are not exact.
+    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
+    #: are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: The multiplicity of each real root.
+    #: How often each of them is a root.
     real_root_multiplicities: Union[tuple[int, ...], None]
-    #: The reason.
+    #: Why not.
     error: Union[str, None]
 
 
 class RoundAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
@@ -3787,78 +3753,77 @@ class RoundAnswer(Record):
     units: str
     #: The grids asked for.
     grids: GridsRecord
-    #: Whether origins and angles of the grids are optimised too.
+    #: Origins and angles of the grids are chosen too.
     free_grid: bool
-    #: The figures of the given design.
+    #: The design as it is wanted.
     wanted: JudgementRecord
     #: The best rounding that is exactly equivalent to an octahedral platform.
     exact: ExactRoundingOutcome
-    #: The rounding of every joint to a hole near its given position.
+    #: The rounding with every joint next to where it is wanted.
     nearest: NearestRoundingOutcome
-    #: The result of `assess` for the rounded design; null: there is none, or the design has no
-    #: requirements.
+    #: What `assess` says of the rounded design; null: there is none, or the design requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: The rounding chosen; null: none meets the requirements.
+    #: Which of them the rule takes; null: none meets the requirements.
     chosen: Union[VariantWord, None]
-    #: The rounding with the least violation, measured by the greatest violation as a share of its limit;
-    #: null: a rounding meets the requirements.
+    #: Where none meets the requirements, the one that misses them least, by the greatest violation as a
+    #: share of what is limited; null otherwise.
     least_missed: Union[VariantWord, None]
-    #: The rounded design: the chosen one, or the one with the least violation.
+    #: The rounded design: the one chosen, or the one that misses the requirements least.
     design: Union[Design, None]
     #: The file written.
     output: Union[str, None]
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class RoundedJointRecord(Record):
     """A joint on a hole."""
 
-    #: The body of the joint.
+    #: Its body.
     body: Body
-    #: The name of the joint.
+    #: Its name.
     joint: str
-    #: The hole: its counts along the axes of the grid, or its circle and its number on the circle. Null:
-    #: the joint stays in place.
+    #: The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint
+    #: stays where it was.
     cell: Union[tuple[int, ...], None]
-    #: The displacement, body frame, design units.
+    #: How it moved, frame of the body.
     moved: tuple[Union[float, None], ...]
-    #: The size of the displacement, design units.
+    #: How far.
     distance: Union[float, None]
-    #: Distance from the line of its side, design units; null for corners.
+    #: Distance from the line of its side; null for corners.
     off_line: Union[float, None]
 
 
 class RoundingErrorRecord(Record):
-    """The error of the pose if a rounded platform is controlled like the given one."""
+    """The error of the pose when a rounded platform is controlled as the wanted one."""
 
-    #: The error to first order.
+    #: To first order.
     first_order: PoseErrorRecord
-    #: The error to first order with every joint on the nearest hole.
+    #: The same with every joint on the nearest hole.
     first_order_nearest_points: PoseErrorRecord
-    #: The error solved at random poses.
+    #: Solved at random poses.
     solved: PoseErrorsRecord
-    #: Number of random poses.
+    #: How many.
     solved_poses: int
 
 
 class RoundingSearchRecord(Record):
-    """Statistics of the search for an exact rounding."""
+    """How an exact rounding was found."""
 
-    #: Numbers of triangles of base and platform that were combined.
+    #: Triangles of base and platform that were combined.
     triangles: tuple[int, ...]
-    #: The distances up to which all triangles of base and platform were combined, design units.
+    #: All triangles up to this distance were.
     complete_to: tuple[Union[float, None], ...]
-    #: Number of improvements by replacing one triangle.
+    #: Improvements by replacing one triangle.
     replacements: int
 
 
 class RowFailure(Record):
-    """The reason why a row has no poses."""
+    """Why a row has no poses."""
 
-    #: The failure, as the command reports it for this row alone.
+    #: The failure, as the command would have reported it for this row alone.
     error: FailureRecord
 
 
@@ -3867,38 +3832,38 @@ class SampleRecord(Record):
 
     #: Leg lengths of A, design units.
     lengths_a: tuple[Union[float, None], ...]
-    #: Leg lengths of B, design units.
+    #: Leg lengths of B.
     lengths_b: tuple[Union[float, None], ...]
     #: The poses of A.
     a: SolvedSampleRecord
     #: The poses of B.
     b: SolvedSampleRecord
-    #: Number of pairs of poses.
+    #: Pairs of poses.
     matched: int
-    #: Number of unmatched poses of A.
+    #: Poses of A without partner.
     only_a: int
-    #: Number of unmatched poses of B.
+    #: Poses of B without partner.
     only_b: int
-    #: Number of poses of A set aside.
+    #: Poses of A that were set aside.
     beyond_precision_a: int
-    #: Number of poses of B set aside.
+    #: Poses of B that were set aside.
     beyond_precision_b: int
-    #: The largest distance within a pair.
+    #: The largest distance of a pair.
     worst_distance: Union[float, None]
-    #: Whether this sample supports equivalence.
+    #: Whether this sample speaks for equivalence.
     agrees: bool
 
 
 class SamplingRecord(Record):
     """The random poses at which designs were compared."""
 
-    #: Number of poses.
+    #: How many.
     count: int
-    #: The centre of the box, base frame, design units.
+    #: The middle of the box.
     home_position: tuple[float, ...]
     #: Half widths of the box of positions, design units.
     translation_half_widths: tuple[float, ...]
-    #: Half widths of the box of rotation vectors, radians.
+    #: Half widths of the box of rotation vectors.
     rotation_half_widths_rad: tuple[float, ...]
 
 
@@ -3914,20 +3879,20 @@ class ScaledPoseRecord(Record):
 
 
 class SearchLimitsRecord(Record):
-    """Limits of a search beside the requirements of the design."""
+    """What a search is held to besides the requirements of the design."""
 
-    #: Least distance of joint centres of a body, design units; null: none.
+    #: Of joint centres of a body, design units; null: none.
     min_joint_distance: Union[float, None]
-    #: Least |det A| of platforms equivalent to the design.
+    #: The least |det A| of platforms equivalent to the design.
     min_abs_det: float
-    #: The characteristic length, by which moments in the Jacobian are divided, design units.
+    #: By which the lengths in the Jacobian are divided.
     characteristic_length: float
     #: Label of the length unit.
     units: str
 
 
 class SearchMarginsRecord(Record):
-    """Margins of the extra conditions of a search."""
+    """By how much what a search demands besides the requirements is met."""
 
     #: |det A| less the required value; null: the variables do not keep the class of the design.
     abs_det: Union[float, None]
@@ -3936,74 +3901,72 @@ class SearchMarginsRecord(Record):
 
 
 class SearchRecord(Record):
-    """Statistics of a search."""
+    """How a search went."""
 
-    #: The search method.
+    #: Which search it was.
     method: SearchMethodWord
-    #: Number of starts; null: the search begins in the branches.
+    #: Starts that were climbed from; null: it begins in the branches.
     starts: Union[int, None]
-    #: Number of starts that led to a feasible point.
+    #: Starts that led to a feasible point.
     feasible: Union[int, None]
     #: Gains of the polished runs; null in the list: not feasible.
     polished: Union[tuple[Union[float, None], ...], None]
-    #: Number of runs of a Pareto front that met their bounds and were dominated by or equal to others;
-    #: null: no front.
+    #: Of a front: runs that met their bounds, and were dominated by others or equal to one.
     dominated: Union[int, None]
-    #: Number of bounds of a Pareto front that no run met; null: no front.
+    #: Of a front: bounds that no run met.
     unmet: Union[int, None]
-    #: Number of conic programs solved by the library clarabel in this search; searches with other drives
-    #: and for freedoms are not counted.
+    #: Conic programs that the library clarabel solved in this search; those with other drives and for
+    #: freedoms are not counted.
     conic_programs: int
 
 
 class SearchStepRecord(Record):
-    """A step of the run that found the platform."""
+    """A step of the run that found a platform."""
 
-    #: Value after the step: the weighted gain of the objectives; for offsets the worst inverse condition
+    #: Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition
     #: number.
     objective: Union[float, None]
-    #: Greatest violation in the scale of its constraint; lengths relative to the size.
+    #: In the scale of its constraint; lengths relative to the size.
     violation: Union[float, None]
-    #: Radius of the trust region.
+    #: Of the trust region.
     radius: Union[float, None]
-    #: Number of poses held.
+    #: Poses held.
     poses: int
-    #: Whether the step was accepted.
+    #: The step was taken.
     accepted: bool
-    #: Gain of the merit function predicted by the model.
+    #: Gain of the merit that the model promised.
     predicted: Union[float, None]
-    #: Actual gain of the merit function; for a rejected step, at the poses that rejected it.
+    #: Gain of the merit found; for a refused step at the poses that refused it.
     actual: Union[float, None]
 
 
 class SearchedDriveRecord(Record):
-    """A drive of the table in the units of the design, with its search result."""
+    """A drive of the table, in the units of the design, with what the search came to."""
 
-    #: The name of the drive.
+    #: Its name.
     name: str
     #: Line of the table, from 1.
     line: int
-    #: Price; null: not in the table.
+    #: Price; null: the table does not say it.
     price: Union[float, None]
-    #: Mass; null: not in the table.
+    #: Mass; null: the table does not say it.
     mass: Union[float, None]
-    #: Least and greatest length from joint centre to joint centre, design units.
+    #: Least and greatest length from joint centre to joint centre.
     leg_length: tuple[Union[float, None], ...]
-    #: Greatest force; null: not in the table.
+    #: Greatest force; null: the table does not say it.
     force: Union[float, None]
-    #: Greatest speed; null: not in the table.
+    #: Greatest speed; null: the table does not say it.
     speed: Union[float, None]
-    #: The outcome for the drive.
+    #: What came of it.
     outcome: DriveSearchWord
-    #: Value of the first objective of the platform found; null: no platform was found.
+    #: Value of the first objective of the platform found; null: none was.
     objective: Union[float, None]
-    #: Margins against the drive's limits of length, force and speed, for the platform found or the one
-    #: with the least violation. Empty: the drive was not searched.
+    #: What the platform found, or the one that misses the requirements least, leaves of the lengths, the
+    #: force and the speed of the drive; empty where the drive was not searched.
     margins: tuple[MarginRecord, ...]
-    #: The result for the three-fold symmetry of the design; null under the same conditions as without a
-    #: table.
+    #: What became of the three-fold symmetry of the design; null as in an answer without a table.
     symmetry: Union[SymmetryRecord, None]
-    #: The reason why this drive is not the answer, one sentence; null: it is the answer.
+    #: Why it is not the answer, a sentence; null: it is.
     reason: Union[str, None]
 
 
@@ -4012,7 +3975,7 @@ class SharedJointRecord(Record):
 
     #: The body it is on.
     body: Body
-    #: The name of the joint.
+    #: Its name.
     joint: str
     #: The legs, from 1.
     legs: tuple[int, ...]
@@ -4021,24 +3984,24 @@ class SharedJointRecord(Record):
 class SignPairRecord(Record):
     """The straight path between two assembly modes."""
 
-    #: The numbers of the two modes, from 1.
+    #: Their numbers, from 1.
     modes: tuple[int, ...]
-    #: The sign of det J along the straight path.
+    #: What det J does on the straight path.
     straight: SignOutcome
-    #: Number of proved changes of sign on the straight path.
+    #: Proved changes of sign on it.
     changes: int
-    #: Whether some path without singular pose joins the two modes; null: none was found.
+    #: Whether some path without singular pose joins them; null: none was found.
     joined: Union[bool, None]
 
 
 class SignPairsRecord(Record):
-    """The assembly modes joined by paths without singular pose."""
+    """Which assembly modes paths without singular pose join."""
 
     #: The sign of det J at each assembly mode.
     signs: tuple[SignRecord, ...]
-    #: All pairs of assembly modes.
+    #: All pairs.
     pairs: tuple[SignPairRecord, ...]
-    #: Groups of assembly modes joined by such paths, numbers from 1.
+    #: Groups of modes that such paths join, from 1.
     groups: tuple[tuple[int, ...], ...]
     #: The paths found.
     ways: tuple[WayRecord, ...]
@@ -4047,43 +4010,43 @@ class SignPairsRecord(Record):
 class SignPartRecord(Record):
     """det J along a straight part of a path, with parameter u from 0 to 1."""
 
-    #: The sign of det J along the part.
+    #: What it does.
     outcome: SignOutcome
-    #: Number of proved changes of sign.
+    #: Proved changes of sign.
     changes: int
-    #: Number of pieces without a proved sign or change.
+    #: Pieces where neither a sign nor a change is proved.
     doubtful: int
-    #: The pieces with their signs.
+    #: Pieces with their signs.
     pieces: tuple[SignPieceRecord, ...]
-    #: Sampled values [u, det J].
+    #: [u, det J].
     values: tuple[tuple[Union[float, None], ...], ...]
 
 
 class SignPathRecord(Record):
     """det J along a path of straight parts."""
 
-    #: Number of the first assembly mode, from 1; 0: the given pose.
+    #: Number of the assembly mode it begins at, from 1; 0: the pose.
     from_: int
-    #: Number of the last assembly mode, from 1.
+    #: Number of the assembly mode it ends at.
     to: int
-    #: The poses that the path joins.
+    #: Its poses.
     poses: tuple[PoseQuaternionRecord, ...]
-    #: Whether det J keeps its sign: true and false are proved; null: neither.
+    #: Whether det J keeps its sign: true and false are proved.
     keeps_sign: Union[bool, None]
-    #: The straight parts in order.
+    #: One for each straight part.
     parts: tuple[SignPartRecord, ...]
 
 
 class SignPieceRecord(Record):
     """A piece of a straight path."""
 
-    #: The parameter u at the beginning.
+    #: Where it begins.
     from_: Union[float, None]
-    #: The parameter u at the end.
+    #: Where it ends.
     to: Union[float, None]
-    #: The sign of det J on the piece.
+    #: The sign of det J on it.
     sign: SignRecord
-    #: Whether the piece holds a singular pose: det J has proved, opposite signs before and after it.
+    #: It holds a singular pose: det J has proved signs before and after it, and they differ.
     singular: bool
 
 
@@ -4099,58 +4062,58 @@ class SingularFactorRecord(Record):
 
 
 class SingularLocusAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
     #: The unit of its lengths.
     units: str
-    #: The family of poses on which det J is a polynomial.
+    #: The poses over which det J is a polynomial.
     family: PoseFamilyWord
-    #: The position of the given pose, as exact expressions, base frame.
+    #: The position of the pose given, as exact expressions.
     position: tuple[str, ...]
-    #: A quaternion of the given orientation, scalar part first, of any norm, as exact expressions.
+    #: A quaternion of its orientation, scalar part first, of any norm, as exact expressions.
     quaternion: tuple[str, ...]
-    #: The direction of the line, or the axis of the rotations, base frame; null: a family of positions.
+    #: The direction of the line, or the axis of the rotations, in the base frame; null for positions.
     direction: Union[tuple[str, ...], None]
-    #: The squared length of the axis; u is the tangent of half the angle divided by this length. Null: no
-    #: axis.
+    #: The square of the length of the axis: u is the tangent of half the angle over that length; null
+    #: without an axis.
     axis_squared: Union[float, None]
-    #: det J up to a constant factor; the zero polynomial means that every pose is singular.
+    #: det J up to a constant factor. The zero polynomial: every pose is singular.
     polynomial: PolynomialRecord
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class SingularPosesAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
     #: The name of the design.
     name: str
     #: The unit of its lengths.
     units: str
-    #: Whether the workspace of the design, or the region of `--box` about the pose, holds no singular
-    #: pose; null: no region is given.
+    #: Whether the workspace of the design, or the region of `--box`, about the pose is free of singular
+    #: poses; null where neither is given.
     regular: Union[RegularityRecord, None]
-    #: The given pose.
+    #: The pose asked about.
     pose: JudgedPoseRecord
     #: The leg lengths, design units.
     lengths: tuple[float, ...]
     #: The real poses with these lengths.
     assembly_modes: tuple[JudgedPoseRecord, ...]
-    #: Whether every path is accounted for; false: poses may be missing.
+    #: False: some may be missing.
     assembly_modes_accounted: bool
-    #: A box of regular poses around the pose.
+    #: A box of poses about the pose that holds no singular one.
     box: RegularBoxRecord
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
     #: det J along a path, with `--path`.
     path: Union[SignPathRecord, None]
@@ -4165,21 +4128,21 @@ class SolutionRecord(Record):
     R: ComplexRecord2
     #: Position, base frame, design units.
     p: ComplexRecord3
-    #: Whether the pose is real; null: undecided.
+    #: Null: undecided.
     real: Union[bool, None]
     #: Whether there is a certificate.
     certified: bool
-    #: The proof; null: there is none.
+    #: The proof; null where there is none.
     certificate: Union[CertificateRecord, None]
-    #: Number of paths, or roots of a polynomial, that end here.
+    #: Paths, or roots of a polynomial, that end here.
     multiplicity: int
-    #: Largest error of the leg equations divided by the squared size.
+    #: Largest error of the leg equations over the squared size.
     residual: Union[float, None]
-    #: An estimate of the condition number.
+    #: Estimate of the condition number.
     condition: Union[float, None]
-    #: The dual quaternion (e, g): scalar part of e first, g = p e in design units, `max |e_k| = 1`.
+    #: (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
     dual_quaternion: Union[ComplexRecord4, None]
-    #: The pose in real numbers; null: it is not real.
+    #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
 
 
@@ -4193,13 +4156,13 @@ class Solvability(Record):
 
 
 class SolvedBudgetRecord(Record):
-    """The exact check of the first-order radius."""
+    """What solving says about the radius, which is of first order."""
 
-    #: Whether the solved pose stays within the bound for every sampled error in the budget.
+    #: No error looked at in the budget goes beyond the bound when its pose is solved.
     within_bound: bool
-    #: The largest share of the bound that was reached; null: a pose was lost.
+    #: The largest share of the bound that was used up; null: a pose was lost.
     largest_share: Union[float, None]
-    #: A radius for which the worst joint errors keep the bound, solved exactly at their pose.
+    #: The worst errors of this length at their pose keep the bound when they are solved.
     radius: Union[float, None]
 
 
@@ -4208,26 +4171,26 @@ class SolvedSampleRecord(Record):
 
     #: The method.
     method: Method
-    #: The level of completeness of the list.
+    #: Whether these are known to be all poses.
     completeness: CompletenessWord
-    #: The evidence for completeness in one sentence.
+    #: One sentence on what is known.
     completeness_reason: str
-    #: Whether every path is accounted for; false: poses may be missing.
+    #: False: poses may be missing.
     all_paths_accounted: bool
-    #: Number of finite poses, real and complex.
+    #: Finite poses, real and complex.
     finite_count: int
-    #: Number of real poses.
+    #: Real poses.
     real_count: int
-    #: Number of poses with a certificate.
+    #: Poses with a certificate.
     certified_count: int
 
 
 class StageRecord(Record):
-    """The result of one stage of `explore`."""
+    """What a stage of `explore` did."""
 
-    #: The name of the stage.
+    #: Which.
     stage: StageWord
-    #: The result in one sentence.
+    #: What came out, a sentence.
     explanation: str
 
 
@@ -4251,38 +4214,38 @@ class StiffnessRecord(Record):
 
     #: The pose.
     pose: PoseQuaternionRecord
-    #: The stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units
-    #: and radians. It maps a shift and a small rotation to force and torque.
+    #: `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base
+    #: frame; force units, design units and radians.
     K: tuple[tuple[Union[float, None], ...], ...]
     #: Least stiffness against a force through the platform origin, force units per design unit; 0 at a
     #: singular pose.
     linear: Union[float, None]
     #: Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
     angular: Union[float, None]
-    #: The natural motions, the slowest first; null: masses are unknown, or no inertia resists some
-    #: rotation.
+    #: The natural motions, the slowest first; null: masses are not known, or no inertia is held against
+    #: turns.
     natural: Union[tuple[NaturalMotionRecord, ...], None]
 
 
 class StraightWayRecord(Record):
-    """The straight path to another pose: the platform origin moves on a line while the platform rotates about one axis."""
+    """The straight way to another pose: the platform origin moves on a line while the platform turns about one axis."""
 
-    #: The end of the path.
+    #: Where it ends.
     to: PoseQuaternionRecord
-    #: The free share of the path from its beginning; 1: the whole path.
+    #: The share of it that is free from its beginning, 1: all.
     free: float
-    #: The pose at the end of the free share.
+    #: Where that share ends.
     pose: PoseQuaternionRecord
-    #: The requirement violated beyond this pose; null: none.
+    #: What is violated beyond; null: nothing.
     binds: Union[LimitRecord, None]
 
 
 class SymmetryRecord(Record):
-    """The search result for the three-fold symmetry that a design has at home and does not require."""
+    """What became of the three-fold symmetry that a design has at home and does not ask for."""
 
-    #: The result for the symmetry.
+    #: What became of it.
     three_fold: SymmetryWord
-    #: The reason, and the way to switch this off, in one sentence.
+    #: One sentence: why, and how it is turned off.
     message: str
 
 
@@ -4291,110 +4254,109 @@ class TightestRecord(Record):
 
     #: The kind.
     name: TermKind
-    #: The least margin divided by its limit, such as the travel of the legs or the greatest force;
-    #: negative for a violation.
+    #: Its least margin over its limit (travel of the legs, greatest force and so on); below 0 for a
+    #: violation.
     share: Union[float, None]
 
 
 class TimedMarginRecord(Record):
-    """A least margin with its time."""
+    """A margin with its time."""
 
-    #: The time of the least margin, seconds.
+    #: When the margin is least.
     time_s: float
     #: The margin.
     margin: MarginRecord
 
 
 class TolerancesAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The result of `assess` for the design; null: it has no requirements.
+    #: What `assess` says of the design; null: it requires nothing.
     assessment: Union[AssessAnswer, None]
-    #: The greatest error of the pose allowed.
+    #: The greatest error allowed.
     bound: PoseErrorRecord
     #: The tool point, platform frame.
     tool: tuple[Union[float, None], ...]
     #: The unit of lengths.
     units: str
-    #: The error allowed at all joints at once, in any direction, to first order.
+    #: How far every joint may be off in any direction, to first order.
     all_joints_radius: JointLimitRecord
-    #: The error allowed in all coordinates at once, to first order.
+    #: How far every coordinate may be off, to first order.
     all_coordinates: JointLimitRecord
     #: The joints, the most critical first.
     joints: tuple[JointBudgetRecord, ...]
-    #: Errors of the pose for the worst joint errors, solved exactly.
+    #: Errors of the pose with the joints off in the worst way, solved.
     worst_errors: WorstErrorsRecord
-    #: The exact check of the first-order radius.
+    #: What solving says about the radius.
     solved: SolvedBudgetRecord
-    #: Statistics of random errors in the budget.
+    #: Random errors in the budget.
     trials: TrialsRecord
-    #: Statistics of random errors of joints and leg offsets with the covariance of the calibration; null:
-    #: not requested.
+    #: Random errors of joints and leg offsets with the covariance of the calibration; null: not asked for.
     calibrated: Union[TrialsRecord, None]
-    #: Uncertainty of computed poses due to the errors of the calibration, to first order; null: not
-    #: requested.
+    #: How uncertain computed poses are by what the calibration does not know, to first order; null: not
+    #: asked for.
     calibrated_poses: Union[CalibratedPosesRecord, None]
-    #: The greatest errors due to joints, leg lengths and temperature together; null: not requested.
+    #: The greatest errors by joints, leg lengths and temperature together; null: not asked for.
     map: Union[ErrorMapRecord, None]
-    #: The poses evaluated.
+    #: The poses looked at.
     poses: BudgetPosesRecord
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
 
 
 class TravelRecord(Record):
-    """A free travel and its end."""
+    """A free way and its end."""
 
-    #: The length of the travel, not negative.
+    #: How far, not negative.
     free: float
     #: The value at the end.
     value: float
-    #: The requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
+    #: What is violated beyond; null: nothing within half a turn, or ten sizes of the design.
     binds: Union[LimitRecord, None]
 
 
 class TrialsRecord(Record):
-    """Statistics of random errors in the budget."""
+    """Random errors in the budget."""
 
-    #: Number of random samples.
+    #: How many.
     count: int
-    #: Number of poses that were lost.
+    #: Poses that were lost.
     lost: int
-    #: Number of poses within the bound.
+    #: Poses within the bound.
     within_bound: int
-    #: Number of poses beyond the bound.
+    #: Poses beyond it.
     beyond_bound: int
-    #: Errors of the pose computed by the nominal formula.
+    #: Errors of the pose by the nominal formula.
     formula: PoseErrorsRecord
-    #: Differences between these errors and their first-order values.
+    #: By how much their first order is off.
     first_order_discrepancy: PoseErrorsRecord
-    #: Errors after one Newton step with the actual joints.
+    #: Errors after one Newton step with the joints as they are.
     after_one_step: PoseErrorsRecord
-    #: Errors after two Newton steps with the actual joints.
+    #: Errors after two.
     after_two_steps: PoseErrorsRecord
 
 
 class TrilaterationStepRecord(Record):
     """One trilateration: a joint placed by its distances from three others."""
 
-    #: Three joints already placed.
+    #: Three joints in place.
     from_: tuple[str, ...]
     #: The joint placed.
     place: str
-    #: Whether all four joints are on one body: the joint then has one place instead of two.
+    #: All four are on one body: one place instead of two.
     rigid: bool
 
 
 class UnobservableRecord(Record):
-    """A change of joints and offsets that leaves all measured lengths almost unchanged."""
+    """A change of joints and offsets that changes no measured length, or hardly."""
 
-    #: The displaced joints, the farthest first.
+    #: Joints that move, the farthest first.
     joints: tuple[JointShiftRecord, ...]
-    #: The changed offsets.
+    #: Offsets that change.
     offsets: tuple[OffsetShiftRecord, ...]
 
 
@@ -4412,50 +4374,50 @@ class VariableRecord(Record):
 
 
 class VerifiedRecord(Record):
-    """A summary of a verification."""
+    """A verification in short."""
 
     #: The verdict.
     verdict: VerdictWord
     #: The largest distance of matched poses.
     worst_distance: Union[float, None]
-    #: Number of length sets; both designs were solved at each.
+    #: Sets of lengths at which both were solved.
     sample_count: int
 
 
 class VerifyAnswer(Record):
-    """One JSON document: an answer with the fields that all answers have."""
+    """One JSON document: an answer between what all answers have."""
 
     #: The verdict.
     verdict: VerdictWord
-    #: The verdict in one sentence, with the numbers that decided.
+    #: One sentence with the numbers that decided.
     explanation: str
-    #: Whether exact arithmetic on the leg vectors proves the verdict; `level` of the map names the joints
-    #: it holds for.
+    #: Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about
+    #: which joints.
     proved: bool
-    #: The algebraic evidence; if no motion was found, the map between the designs as given.
+    #: The algebraic side; that of the designs as they are given where no motion was found.
     map: MapRecord
-    #: For each leg of B, a bound on the difference between its squared length and A s + c, design units
-    #: squared. It holds at all poses of `sampling`, for any tolerance of the map. Null: the map is exact
-    #: by proof, or singular, or no motion was found.
+    #: For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`,
+    #: design units squared, whatever the tolerance of the map; null where the map is proved, so that there
+    #: is no difference, where it is singular, and where no motion was found.
     deviation_bounds: Union[tuple[Union[float, None], ...], None]
-    #: The largest distance of matched poses over all samples; null: none were compared.
+    #: The largest distance of matched poses over all samples; null where none were compared.
     worst_distance: Union[float, None]
-    #: The numerical evidence.
+    #: The numerical side.
     samples: tuple[SampleRecord, ...]
-    #: The version of the answer format, always 1.
+    #: Always 1: the version of these definitions.
     schema_version: int
-    #: The program, seed and files behind the answer.
+    #: What the answer was made from.
     provenance: ProvenanceRecord
-    #: Warnings about the design files read.
+    #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
-    #: Unmatched poses set aside, because rounding of the joints decides whether they exist. Absent: no
-    #: motion was found.
+    #: Poses without partner that were set aside: the rounding of the joints decides whether they exist.
+    #: Absent where no motion was found.
     beyond_precision: Union[BeyondPrecisionRecord, None]
-    #: A pose that distinguishes the designs; null: none was found.
+    #: A pose that tells the designs apart.
     counterexample: Union[CounterexampleRecord, None]
-    #: The box of random poses; absent: no motion was found.
+    #: The box of random poses; absent where no motion was found.
     sampling: Union[SamplingRecord, None]
-    #: Whether base and platform of the second design were exchanged first.
+    #: Base and platform of the second design were exchanged first.
     exchanged: Union[bool, None]
     #: The rigid motions that make the second design equivalent to the first, with `--align`.
     alignment: Union[AlignmentRecord, None]
@@ -4464,7 +4426,7 @@ class VerifyAnswer(Record):
 
 
 class ViolationRecord(Record):
-    """One fault of a design file."""
+    """One thing that is wrong with a design file."""
 
     #: A stable short code.
     code: str
@@ -4472,33 +4434,33 @@ class ViolationRecord(Record):
     line: int
     #: The column, from 1.
     column: int
-    #: The fault.
+    #: What is wrong.
     message: str
-    #: The correction to write.
+    #: What to write instead.
     help: str
 
 
 class WarningRecord(Record):
-    """A warning about a design file that can still be used."""
+    """Something odd about a design file that does not keep it from being used."""
 
     #: A stable short code.
     code: str
     #: The design file.
     path: str
-    #: The line concerned, from 1.
+    #: The line it is about, from 1.
     line: int
-    #: The problem.
+    #: What is odd.
     message: str
-    #: The remedy.
+    #: What to do about it.
     help: str
 
 
 class WayRecord(Record):
     """A path without singular pose between two assembly modes."""
 
-    #: The numbers of the two modes, from 1.
+    #: Their numbers, from 1.
     modes: tuple[int, ...]
-    #: The poses of the path, joined by straight segments.
+    #: Its poses, joined by straight paths.
     poses: tuple[PoseQuaternionRecord, ...]
 
 
@@ -4509,57 +4471,57 @@ class WitnessRecord(Record):
     R: tuple[tuple[Union[float, None], ...], ...]
     #: Position of the platform origin, base frame, design units.
     p: tuple[Union[float, None], ...]
-    #: The orientation as a quaternion of any norm, scalar part first.
+    #: A quaternion of any norm, scalar part first.
     quaternion: tuple[int, ...]
 
 
 class WorkspaceSizeRecord(Record):
-    """The size of the workspace around home."""
+    """How large the workspace is around home."""
 
-    #: Volume of the positions reached by straight paths from home at its orientation, design units cubed;
-    #: an estimate from the paths that were followed.
+    #: Volume of the positions that straight ways from home at its orientation reach, design units cubed;
+    #: an estimate from the ways that were followed.
     volume: float
-    #: The relative difference between the volume estimates from every second path and from the others.
+    #: The share by which the estimates from every second way and from the others differ.
     volume_doubt: float
-    #: Number of paths followed.
+    #: Ways that were followed.
     rays: int
-    #: The limits that end the paths, the most frequent first.
+    #: What ends them, the most frequent first.
     ends: tuple[RayEndRecord, ...]
-    #: Radius of the largest free ball of positions around home, at the orientation of home, design units.
+    #: Radius of the largest ball of positions around home, at the orientation of home, design units.
     ball_radius: FreeSizeRecord
-    #: Half widths of the largest box of positions proved free around home, at its orientation, along the
-    #: axes of the base frame, design units.
+    #: Half widths of the largest box of positions found around home, at the orientation of home, along the
+    #: axes of the base frame, design units: those proved to be free.
     box_proved: tuple[float, ...]
-    #: Half widths of the largest such box in which no violation was found, design units.
+    #: The same: those in which no violation was found.
     box_searched: tuple[float, ...]
-    #: The requirement violated in a slightly larger box; null: none was found.
+    #: What is violated in a box that is larger by a little; null: nothing that was looked at.
     box_binds: Union[LimitRecord, None]
-    #: Rotations about x, y and z of the base frame through the platform origin, at home.
+    #: Turns about x, y and z of the base frame through the platform origin, at home.
     turns: tuple[FreeTurnRecord, ...]
-    #: Largest free angle of rotation about every axis in the xy plane of the base, at the position of
-    #: home, degrees.
+    #: Largest angle up to which the platform may turn about every axis of the xy plane of the base at the
+    #: position of home, degrees.
     tilt_deg: FreeSizeRecord
-    #: Largest free angle of rotation about every axis, at the position of home, degrees.
+    #: Largest angle up to which it may turn about every axis there, degrees.
     turn_deg: FreeSizeRecord
-    #: The workspace that the design requires; null: none.
+    #: The region that the design asks for; null: none.
     required: Union[RequiredSizeRecord, None]
 
 
 class WorstErrorsRecord(Record):
-    """Errors of the pose for the worst errors of all joints, solved exactly."""
+    """Errors of the pose with all joints off in the worst way, solved."""
 
-    #: Errors of the pose for joint errors of this radius; null: the pose was lost.
+    #: By the radius; null: the pose was lost.
     in_budget: Union[PoseErrorRecord, None]
-    #: Errors of the pose for joint errors of 1.5 times the radius; null: the pose was lost.
+    #: By one and a half times the radius; null: the pose was lost.
     times_1_5: Union[PoseErrorRecord, None]
-    #: The pose at which the errors were solved.
+    #: The pose.
     pose: PoseQuaternionRecord
 
 
 class WorstPoseRecord(Record):
     """The pose with the worst conditioning."""
 
-    #: Index of the pose among the poses held, from 0.
+    #: Its place among the poses held, from 0.
     index: int
     #: Rows of the rotation matrix.
     R: tuple[tuple[Union[float, None], ...], ...]
