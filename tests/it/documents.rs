@@ -134,14 +134,38 @@ fn anchor(heading: &str) -> String {
     kept.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
 }
 
+fn has_heading(text: &str, wanted: &str) -> bool {
+    text.lines()
+        .filter(|line| line.starts_with('#'))
+        .any(|line| anchor(line.trim_start_matches('#')) == wanted)
+}
+
+/// Links of a page to headings that are not there.
+fn without_heading(page: &Path, text: &str) -> Vec<String> {
+    let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let headings = links.filter(|link| !link.contains("://")).filter_map(|link| link.split_once('#'));
+    let missing = headings.filter(|(name, heading)| {
+        let target = if name.is_empty() { page.to_owned() } else { page.parent().unwrap().join(name) };
+        target.extension().is_some_and(|e| e == "md")
+            && std::fs::read_to_string(target).is_ok_and(|text| !has_heading(&text, heading))
+    });
+    missing.map(|(name, heading)| format!("{}: {name}#{heading}", page.display())).collect()
+}
+
+#[test]
+fn links_to_headings_lead_to_them() {
+    let found: Vec<String> = pages().iter().flat_map(|(page, text)| without_heading(page, text)).collect();
+    assert_eq!(found, [""; 0]);
+    let planted = "[a](docs/README.md#start) [b](docs/README.md#no-such-heading) [c](#nowhere)";
+    assert_eq!(without_heading(&root().join("README.md"), planted).len(), 2);
+}
+
 /// Why a newcomer does not find the answer at `PAGE.md#HEADING` in two clicks.
 fn out_of_reach(clicks: &BTreeMap<PathBuf, usize>, place: &str) -> Option<String> {
     let (name, heading) = place.split_once('#').map_or((place, None), |(name, h)| (name, Some(h)));
     let Ok(page) = root().join(name).canonicalize() else { return Some(format!("{name} does not exist")) };
     let text = std::fs::read_to_string(&page).unwrap();
-    let headings =
-        text.lines().filter(|line| line.starts_with('#')).map(|line| anchor(line.trim_matches('#')));
-    if heading.is_some_and(|wanted| !headings.into_iter().any(|own| own == wanted)) {
+    if heading.is_some_and(|wanted| !has_heading(&text, wanted)) {
         return Some(format!("{place}: no such heading"));
     }
     match clicks.get(&page) {
