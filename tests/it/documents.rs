@@ -183,7 +183,7 @@ fn twelve_questions_of_a_newcomer_are_answered_within_two_clicks() {
     let clicks = clicks();
     let faults: Vec<String> = places.iter().filter_map(|place| out_of_reach(&clicks, place)).collect();
     assert_eq!(faults, [""; 0]);
-    for wrong in ["docs/no.md", "docs/faq.md#no-such-heading", "tests/prose/README.md"] {
+    for wrong in ["docs/no.md", "docs/faq.md#no-such-heading", "tests/prose/questions.md"] {
         assert!(out_of_reach(&clicks, wrong).is_some(), "{wrong}");
     }
 }
