@@ -1,5 +1,6 @@
-//! Links, paths and tests that the documents name exist.
+//! Links, paths and tests that the documents name exist, and a newcomer finds the answers to first questions.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -99,4 +100,101 @@ fn conformance_has_commands_and_marks_tests_of_the_evidence() {
     let without: Vec<&&str> = commands.iter().filter(|cell| !cell.starts_with("`equipod ")).collect();
     assert_eq!(without, [&""; 0]);
     assert!(!page.contains("methods::"), "functions of users only");
+}
+
+/// Links of a page to other pages of the project, as paths from its root.
+fn linked(page: &Path, text: &str) -> Vec<PathBuf> {
+    let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
+    let pages = targets.filter(|target| target.ends_with(".md") && !target.contains("://"));
+    pages.filter_map(|target| page.parent()?.join(target).canonicalize().ok()).collect()
+}
+
+/// Pages by the number of links that lead to them from the first page.
+fn clicks() -> BTreeMap<PathBuf, usize> {
+    let first = root().join("README.md").canonicalize().unwrap();
+    let mut found = BTreeMap::from([(first.clone(), 0)]);
+    let mut open = vec![first];
+    for click in 1.. {
+        let texts = open.iter().map(|page| (page, std::fs::read_to_string(page).unwrap()));
+        let next: Vec<PathBuf> = texts.flat_map(|(page, text)| linked(page, &text)).collect();
+        open = next.into_iter().filter(|page| !found.contains_key(page)).collect();
+        open.sort();
+        open.dedup();
+        if open.is_empty() {
+            break;
+        }
+        found.extend(open.iter().map(|page| (page.clone(), click)));
+    }
+    found
+}
+
+/// The anchor that a heading has on the usual hosts.
+fn anchor(heading: &str) -> String {
+    let kept = heading.trim().to_lowercase().replace(' ', "-");
+    kept.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
+}
+
+fn has_heading(text: &str, wanted: &str) -> bool {
+    text.lines()
+        .filter(|line| line.starts_with('#'))
+        .any(|line| anchor(line.trim_start_matches('#')) == wanted)
+}
+
+/// Links of a page to headings that are not there.
+fn without_heading(page: &Path, text: &str) -> Vec<String> {
+    let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let headings = links.filter(|link| !link.contains("://")).filter_map(|link| link.split_once('#'));
+    let missing = headings.filter(|(name, heading)| {
+        let target = if name.is_empty() { page.to_owned() } else { page.parent().unwrap().join(name) };
+        target.extension().is_some_and(|e| e == "md")
+            && std::fs::read_to_string(target).is_ok_and(|text| !has_heading(&text, heading))
+    });
+    missing.map(|(name, heading)| format!("{}: {name}#{heading}", page.display())).collect()
+}
+
+#[test]
+fn links_to_headings_lead_to_them() {
+    let found: Vec<String> = pages().iter().flat_map(|(page, text)| without_heading(page, text)).collect();
+    assert_eq!(found, [""; 0]);
+    let planted = "[a](docs/README.md#start) [b](docs/README.md#no-such-heading) [c](#nowhere)";
+    assert_eq!(without_heading(&root().join("README.md"), planted).len(), 2);
+}
+
+/// Why a newcomer does not find the answer at `PAGE.md#HEADING` in two clicks.
+fn out_of_reach(clicks: &BTreeMap<PathBuf, usize>, place: &str) -> Option<String> {
+    let (name, heading) = place.split_once('#').map_or((place, None), |(name, h)| (name, Some(h)));
+    let Ok(page) = root().join(name).canonicalize() else { return Some(format!("{name} does not exist")) };
+    let text = std::fs::read_to_string(&page).unwrap();
+    if heading.is_some_and(|wanted| !has_heading(&text, wanted)) {
+        return Some(format!("{place}: no such heading"));
+    }
+    match clicks.get(&page) {
+        Some(0..=2) => None,
+        far => Some(format!("{name} is {far:?} clicks away")),
+    }
+}
+
+#[test]
+fn twelve_questions_of_a_newcomer_are_answered_within_two_clicks() {
+    let list = std::fs::read_to_string(root().join("tests/prose/questions.md")).unwrap();
+    let rows = list.lines().filter(|line| line.starts_with("| ") && line.contains("? | "));
+    let places: Vec<&str> = rows.map(|row| row.split('|').nth(2).unwrap().trim()).collect();
+    assert_eq!(places.len(), 12);
+    let clicks = clicks();
+    let faults: Vec<String> = places.iter().filter_map(|place| out_of_reach(&clicks, place)).collect();
+    assert_eq!(faults, [""; 0]);
+    for wrong in ["docs/no.md", "docs/faq.md#no-such-heading", "tests/prose/questions.md"] {
+        assert!(out_of_reach(&clicks, wrong).is_some(), "{wrong}");
+    }
+}
+
+#[test]
+fn every_page_of_the_documentation_is_reached_from_the_first_one_within_two_clicks() {
+    let clicks = clicks();
+    for (page, _) in
+        pages().into_iter().filter(|(page, _)| page.components().any(|c| c.as_os_str() == "docs"))
+    {
+        let found = clicks.get(&page.canonicalize().unwrap());
+        assert!(found.is_some_and(|n| *n <= 2), "{}: {found:?} clicks", page.display());
+    }
 }

@@ -5,7 +5,7 @@ use equipod::methods::manipulator::Level;
 use equipod::prelude::*;
 
 /// Whether a line of the page is this line of the program; `..` at its end stands for the rest.
-fn shows(shown: &str, printed: &str) -> bool {
+pub(crate) fn shows(shown: &str, printed: &str) -> bool {
     let (shown, printed) = (shown.trim(), printed.trim());
     shown.strip_suffix(" ..").map_or(printed == shown, |start| printed.starts_with(start))
 }

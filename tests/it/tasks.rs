@@ -1,6 +1,6 @@
-//! The tasks of a newcomer, `docs/tasks.md`, and the guides: every command is run as it stands there, in an empty
-//! folder; the commands of the other pages beside the shipped designs. A design that the answer of a command calls good
-//! is given to `equipod assess`, which has to agree.
+//! The first page and the guides: every command is run as it stands there and prints the lines shown, beside the
+//! shipped designs. A design that the answer of a command calls good is given to
+//! `equipod assess`, which has to agree.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,17 +10,26 @@ use std::sync::Mutex;
 
 use serde_json::{Value, json};
 
+use super::papers::shows as is_line;
+
 /// What a page tells its reader to do.
 #[derive(Debug, PartialEq)]
 enum Step {
     /// A block ` ```toml ` or ` ```csv ` whose first line is `# FILE` (the file is made) or `# at the end of FILE`.
     Text { file: String, adds: bool, text: String },
-    /// A command with the exit code that the page names and words of its output.
-    Run { command: String, code: i32, shows: String },
+    /// A command with the exit code that the page names, words of its output, and lines of it.
+    Run { command: String, code: i32, shows: String, lines: Vec<String> },
 }
 
-/// Text blocks, command lines of blocks ` ```sh ` (`# exit 1` behind a command that does not answer yes), and rows
-/// `| number | goal | command | exit code | words |` of tables.
+/// A command line as a step (`# exit 1` behind a command that does not answer yes).
+fn command_step(line: &str) -> Step {
+    let (command, code) = line.split_once("# exit ").unwrap_or((line, "0"));
+    let command = command.trim().replace("cargo run -- ", "equipod ");
+    Step::Run { command, code: code.trim().parse().unwrap(), shows: String::new(), lines: Vec::new() }
+}
+
+/// Text blocks, command lines of blocks ` ```sh `, commands behind `$` in blocks ` ```console ` with the lines that they
+/// print, and rows `| number | goal | command | exit code | words |` of tables.
 fn steps(page: &str) -> Vec<Step> {
     let mut out = Vec::new();
     let mut lines = page.lines();
@@ -28,11 +37,16 @@ fn steps(page: &str) -> Vec<Step> {
         if let Some(language) = line.strip_prefix("```") {
             let block: Vec<&str> = lines.by_ref().take_while(|l| !l.starts_with("```")).collect();
             if language == "sh" {
-                out.extend(block.iter().map(|l| {
-                    let (command, code) = l.split_once("# exit ").unwrap_or((l, "0"));
-                    let command = command.trim().to_string();
-                    Step::Run { command, code: code.trim().parse().unwrap(), shows: String::new() }
-                }));
+                out.extend(block.iter().map(|line| command_step(line)));
+            } else if language == "console" {
+                let first = out.len();
+                for line in block {
+                    if let Some(command) = line.strip_prefix("$ ") {
+                        out.push(command_step(command));
+                    } else if let Some(Step::Run { lines, .. }) = out[first..].last_mut() {
+                        lines.push(line.to_owned());
+                    }
+                }
             } else if let Some(name) = block.first().and_then(|l| l.strip_prefix("# ")) {
                 let (file, adds) = name.strip_prefix("at the end of ").map_or((name, false), |f| (f, true));
                 let text = block[1..].join("\n") + "\n";
@@ -48,6 +62,7 @@ fn steps(page: &str) -> Vec<Step> {
                     command: plain(command),
                     code: code.parse().unwrap(),
                     shows: plain(shows),
+                    lines: Vec::new(),
                 });
             }
         }
@@ -57,8 +72,12 @@ fn steps(page: &str) -> Vec<Step> {
 
 /// Does what the page says, and returns what went otherwise.
 fn faults(page: &str, folder: &Path) -> Vec<String> {
+    faults_of(steps(page), folder)
+}
+
+fn faults_of(steps: Vec<Step>, folder: &Path) -> Vec<String> {
     let mut faults = Vec::new();
-    for step in steps(page) {
+    for step in steps {
         match step {
             Step::Text { file, adds, text } => {
                 let path = folder.join(&file);
@@ -68,8 +87,11 @@ fn faults(page: &str, folder: &Path) -> Vec<String> {
                 let before = if adds { fs::read_to_string(&path).unwrap_or_default() } else { String::new() };
                 fs::write(path, before + &text).unwrap();
             }
-            Step::Run { command, code, shows } => {
-                let (found, shown) = run(&command, !shows.is_empty(), folder, &mut faults);
+            Step::Run { command, code, shows, lines } => {
+                let words_wanted = !shows.is_empty() || !lines.is_empty();
+                let (found, shown) = run(&command, words_wanted, folder, &mut faults);
+                let missing = lines.iter().filter(|line| !shown.lines().any(|own| is_line(line, own)));
+                faults.extend(missing.map(|line| format!("{command}: does not print `{line}`:\n{shown}")));
                 if found != Some(code) || !shown.contains(&shows) {
                     let seen: String = shown.chars().take(1500).collect();
                     faults.push(format!("{command}: exit {found:?}, not {code} with {shows:?}\n{seen}"));
@@ -216,18 +238,9 @@ fn read(path: impl AsRef<Path>) -> String {
 }
 
 fn runs_as_it_stands(page: &str) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = with_designs();
     let faults = faults(page, folder.path());
     assert!(faults.is_empty(), "{}", faults.join("\n\n"));
-}
-
-#[test]
-#[ignore = "evidence"]
-fn thirty_tasks_are_done_with_one_command_each() {
-    let page = read("docs/tasks.md");
-    let tasks = steps(&page).into_iter().filter(|s| matches!(s, Step::Run { .. })).count();
-    assert!(tasks >= 30, "{tasks}");
-    runs_as_it_stands(&page);
 }
 
 #[test]
@@ -236,20 +249,43 @@ fn the_guides_run_as_they_stand() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guides");
     let mut pages: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     pages.sort();
-    assert!(pages.len() >= 5, "{pages:?}");
+    assert!(pages.len() >= 7, "{pages:?}");
     for page in pages {
         let text = read(&page);
         assert!(steps(&text).len() > 2, "{} runs nothing", page.display());
         runs_as_it_stands(&text);
     }
+    let tasks = steps(&read("docs/guides/own-hexapod.md"));
+    let rows = tasks.iter().filter(|s| matches!(s, Step::Run { shows, .. } if !shows.is_empty())).count();
+    assert!(rows >= 15, "{rows} tasks");
+}
+
+/// Runs the commands of the first page, those of the whole analysis or all others, beside the shipped designs.
+fn readme_prints_what_it_shows(whole_analysis: bool) -> usize {
+    let (folder, text) = (with_designs(), read("README.md"));
+    let own = |step: &Step| match step {
+        Step::Run { command, .. } => {
+            command.starts_with("equipod ") && command.starts_with("equipod explore ") == whole_analysis
+        }
+        Step::Text { .. } => false,
+    };
+    let steps: Vec<Step> = steps(&text).into_iter().filter(own).collect();
+    let shown: usize =
+        steps.iter().map(|s| if let Step::Run { lines, .. } = s { lines.len() } else { 0 }).sum();
+    let faults = faults_of(steps, folder.path());
+    assert!(faults.is_empty(), "{}", faults.join("\n\n"));
+    shown
 }
 
 #[test]
-fn the_first_five_minutes_of_the_readme_run_as_they_stand() {
-    let text = read("README.md");
-    let part = text.split("\n## Your own hexapod").nth(1).unwrap().split("\n## ").next().unwrap();
-    assert!(steps(part).len() > 5, "{part}");
-    runs_as_it_stands(part);
+fn the_readme_prints_what_it_shows() {
+    assert!(readme_prints_what_it_shows(false) >= 10);
+}
+
+#[test]
+#[ignore = "evidence"]
+fn the_whole_analysis_of_the_readme_prints_what_it_shows() {
+    assert!(readme_prints_what_it_shows(true) >= 3);
 }
 
 #[test]
@@ -261,6 +297,9 @@ fn a_page_that_promises_too_much_is_found_out() {
     assert_eq!(page("| 1 | all presets | `equipod design presets` | 1 | bench-l16 |"), 1);
     assert_eq!(page("```sh\nequipod check none.toml\n```"), 1);
     assert_eq!(page("```sh\nequipod check none.toml  # exit 2\n```"), 0);
+    assert_eq!(page("```console\n$ equipod design presets\nbench-l16 ..\n```"), 0);
+    assert_eq!(page("```console\n$ equipod design presets\nbench-l16\n```"), 1);
+    assert_eq!(page("```console\n$ equipod check none.toml  # exit 2\n```"), 0);
     assert_eq!(page("```toml\n# at the end of none.toml\nx = 1\n```"), 1);
     assert_eq!(
         page("```toml\n# made.toml\nname = \"\"\n```\n```sh\nequipod check made.toml  # exit 2\n```"),
@@ -368,20 +407,15 @@ fn examples(page: &str) -> Vec<String> {
     out
 }
 
-/// The pages whose commands are not run by another test: those of `docs` and the first one, without the lists of fields
-/// and the tasks.
+/// The pages whose commands are not run by another test: those of `docs` and the first one.
 fn pages() -> Vec<(String, String)> {
-    let first = read("README.md");
-    let (before, own) = first.split_once("\n## Your own hexapod").unwrap();
-    // that section makes its files from blocks of text and is run by a test of its own
-    let rest = own.split_once("\n## ").unwrap().1;
-    let mut out = vec![("README.md".to_owned(), format!("{before}\n{rest}"))];
+    let mut out = vec![("README.md".to_owned(), read("README.md"))];
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for folder in ["docs", "docs/theory", "docs/evidence"] {
         for entry in fs::read_dir(root.join(folder)).unwrap() {
             let path = entry.unwrap().path();
             let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-            if path.extension().is_some_and(|e| e == "md") && name != "tasks.md" {
+            if path.extension().is_some_and(|e| e == "md") {
                 out.push((format!("{folder}/{name}"), fs::read_to_string(path).unwrap()));
             }
         }

@@ -4,6 +4,7 @@
     python tests/prose/check.py --planted     planted faults, each of which has to be found
 
 words.txt has the words that only this project knows, terms.txt the names that are not used for a thing and the one that is.
+not-yet.txt has the pages of the documentation whose sentences are not measured yet.
 """
 
 import argparse
@@ -18,6 +19,13 @@ ROOT = HERE.parents[1]
 MARKDOWN = ["*.md", "docs/*.md", "docs/guides/*.md", "docs/theory/*.md", "designs/*.md", "tests/*/README.md"]
 SOURCES = ["src/**/*.rs", "examples/*.rs"]
 PAGE = ["src/app/page/web/*.js", "src/app/page/web/*.html"]
+
+# pages whose sentences are measured: the documentation that people write
+MEASURED = ["README.md", "CONTRIBUTING.md", "docs/**/*.md"]
+GENERATED = ["docs/answers.md", "docs/evidence/optimizer.md"]
+LONGEST, MEAN, NEGATED = 35, 18, 0.12  # words of one sentence; words and share of negations over all pages
+NEGATION = re.compile(r"\b(?:no|not|none|never|nothing|neither|nor|nobody|nowhere|without|cannot|\w+n't)\b", re.I)
+OPENING = re.compile(r"^[\"'(*_]*(?:What\b(?!.*\?)|Where\b(?!.*\?)|Of\b|That of\b|Those of\b)")
 
 # words with a full stop that end no sentence
 ABBREVIATIONS = {
@@ -146,6 +154,49 @@ def markdown(text):
     return found
 
 
+def sentences(text):
+    """Sentences of a page outside code, tables, headings and generated parts: (line, sentence, number of words)."""
+    for number, kind, bare in blocks(text):
+        if kind not in ("prose", "item"):
+            continue
+        plain = masked(bare)
+        cuts = [0, *(end + 1 for end in ends(plain)), len(plain)]
+        for sentence in (plain[a:b].strip() for a, b in zip(cuts, cuts[1:])):
+            words = len(re.findall(r"[\w\u00a7][\w\u00a7'.^/-]*", sentence))
+            if words >= 3:
+                yield number, sentence, words
+
+
+def measured(text):
+    """Faults of single sentences: (line, rule, what)."""
+    found = []
+    for number, sentence, words in sentences(text):
+        if words > LONGEST:
+            found.append((number, f"a sentence of at most {LONGEST} words", f"{words}: {sentence[:60]}"))
+        if OPENING.match(sentence):
+            found.append((number, "a sentence begins with its subject", sentence[:60]))
+    return found
+
+
+def together(texts):
+    """Faults of many pages together: (rule, what)."""
+    all_of_them = [(sentence, words) for text in texts for _, sentence, words in sentences(text)]
+    count = max(len(all_of_them), 1)
+    mean = sum(words for _, words in all_of_them) / count
+    share = sum(bool(NEGATION.search(sentence)) for sentence, _ in all_of_them) / count
+    found = [("a mean of at most %d words" % MEAN, f"{mean:.1f} words")] if mean > MEAN else []
+    if share > NEGATED:
+        found.append((f"at most {NEGATED:.0%} of negations", f"{share:.1%} of {count} sentences"))
+    return found
+
+
+def pages_to_measure():
+    """Pages whose sentences are measured, and those of not-yet.txt."""
+    waiting = {ROOT / name for name in entries("not-yet.txt")}
+    pages = {page for pattern in MEASURED for page in ROOT.glob(pattern)} - {ROOT / name for name in GENERATED}
+    return sorted(pages - waiting), sorted(waiting)
+
+
 def rust(text):
     """Faults of the documentation comments and of the texts of a source file: (line, rule, what)."""
     found = []
@@ -199,12 +250,18 @@ def judge(path):
 
 def check(paths):
     faults = 0
+    pages, _ = pages_to_measure()
     for path in paths:
         text = path.read_text(encoding="utf-8")
-        for line, rule, what in judge(path)(text):
+        for line, rule, what in judge(path)(text) + (measured(text) if path in pages else []):
             faults += 1
             print(f"{path.relative_to(ROOT) if path.is_relative_to(ROOT) else path}:{line}: {rule}: {what}")
     return faults
+
+
+def alone(text):
+    """The faults that a page would have if it were the only one: (line, rule, what)."""
+    return [(1, *fault) for fault in together([text])]
 
 
 PLANTED = [
@@ -219,6 +276,12 @@ PLANTED = [
     (markdown, "a sentence ends", "# A\n\nThis page describes the legs of a platform\n\nIt has joints.\n"),
     (markdown, "a page begins with a sentence that says what it is for", "# A\n\n| a | b |\n|---|---|\n"),
     (markdown, "a page begins with a sentence that says what it is for", "# A\n\n## Legs\n\nThe platform has six legs and joints.\n"),
+    (measured, "a sentence of at most 35 words", "# A\n\nThis page has" + " a leg and" * 12 + " a joint.\n"),
+    (measured, "a sentence begins with its subject", "# A\n\nWhat the search finds is a platform.\n"),
+    (measured, "a sentence begins with its subject", "# A\n\n* Of two legs the shorter one is meant.\n"),
+    (measured, "a sentence begins with its subject", "# A\n\nIt has legs.\nThose of the base are long.\n"),
+    (alone, "a mean of at most 18 words", "# A\n\nThis page has" + " a leg and" * 6 + " a joint.\n"),
+    (alone, "at most 12% of negations", "# A\n\nThis page has no legs.\nIt has six joints.\n"),
     (rust, "spelling", "//! The pose of a platfrom.\n"),
     (rust, "spelling", 'fn f() { g("the leg of the platfrom is too long") }\n'),
     (rust, "one term per thing", "/// The direct kinematics of a platform.\nfn f() {}\n"),
@@ -229,6 +292,8 @@ PLANTED = [
 ]
 SOUND = [
     (markdown, "# A\n\nThis page, by N. Rojas and J.-C. Latombe (sec. 5, Fig. 2), has one formula:\n\n    a. B. C\n\n* one\n* two\n"),
+    (measured, "# A\n\nWhat is a leg?\n\n| Of | what |\n\n    Where this is code\n\nIt has" + " legs" * 33 + ".\n"),
+    (alone, "# A\n\nThis page has six legs and not five.\n" + "It has six joints.\n" * 9),
     (page, '  const plane = `${platfrom} of ${legs} holds it here`;\n'),
     (rust, '//! The pose of a platform.\n\n/// The `platfrom` of a design.\nfn f() { g("a..b") }\n'),
 ]
@@ -257,11 +322,19 @@ def main():
         return 1 if planted() else 0
     paths = [p.resolve() for p in options.files]
     if not paths:
-        paths = sorted({p for pattern in MARKDOWN + SOURCES + PAGE for p in ROOT.glob(pattern)})
+        paths = {p for pattern in MARKDOWN + SOURCES + PAGE for p in ROOT.glob(pattern)}
+        paths = sorted(paths.union(pages_to_measure()[0]))
         if len(paths) < 200:
             print(f"{len(paths)} files: the project is not there")
             return 1
     faults = check(paths)
+    if not options.files:
+        pages, waiting = pages_to_measure()
+        texts = [page.read_text(encoding="utf-8") for page in pages]
+        found = [f"{rule}: {what}" for rule, what in together(texts)]
+        found += [f"not-yet.txt names {page.relative_to(ROOT)}, which does not exist" for page in waiting if not page.exists()]
+        print(*found, f"{len(pages)} pages measured, {len(waiting)} not yet", sep="\n")
+        faults += len(found)
     print(f"{len(paths)} files, {faults} faults")
     return 1 if faults else 0
 
