@@ -1,5 +1,7 @@
-//! Gough-Stewart platforms that can be built: for a platform whose legs share joints, an equivalent one without shared
-//! joints, and all poses of either for given leg lengths, with certificates.
+//! Gough-Stewart platforms that can be built.
+//!
+//! For a platform whose legs share joints, the library finds an equivalent one without shared joints. It also finds all
+//! poses of either platform for given leg lengths, with certificates.
 //!
 //! The best known of these platforms are the octahedral ones, whose six legs meet in three joints of the base and three
 //! of the platform. A joint that two legs share is hard to build: it has play, and little room to swing. Every
@@ -99,9 +101,9 @@
 //!
 //! # Poses
 //!
-//! A [`Pose`] is made from a position and [`Angles`], a unit quaternion or a rotation matrix, from a 4 x 4 matrix or
-//! from nalgebra's `Isometry3`, and becomes any of them. `nalgebra` and `num_complex` are re-exported in the versions
-//! of the signatures.
+//! A [`Pose`] is made from a position and a rotation ([`Angles`], a unit quaternion or a rotation matrix). It is also
+//! made from a 4 x 4 matrix or nalgebra's `Isometry3`, and converts into each of these. `nalgebra` and `num_complex`
+//! are re-exported in the versions of the signatures.
 //!
 //! # Without files
 //!
@@ -229,7 +231,7 @@ pub mod methods {
     pub mod distance {
         pub use ::fk::distance::*;
     }
-    /// How the legs move and what their drives push when the platform moves: inverse dynamics, stiffness, natural
+    /// Motion of the legs and forces of their drives while the platform moves: inverse dynamics, stiffness, natural
     /// frequencies.
     #[cfg(feature = "synthesis")]
     pub mod dynamics {
@@ -296,8 +298,8 @@ pub mod methods {
     pub mod questions {
         pub use ::ask::*;
     }
-    /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked
-    /// for.
+    /// The distance that the platform may move from a pose before a requirement binds, and the allowed pose nearest to
+    /// a given one.
     #[cfg(feature = "synthesis")]
     pub mod reach {
         pub use ::machine::reach::*;
@@ -307,7 +309,7 @@ pub mod methods {
     pub mod report {
         pub use crate::app::report::*;
     }
-    /// What a platform has to satisfy, evaluated from the definitions.
+    /// The requirements on a platform, evaluated from their definitions.
     #[cfg(feature = "synthesis")]
     pub mod requirements {
         pub use ::machine::requirements::*;
@@ -331,7 +333,7 @@ pub mod methods {
     pub mod synthesis {
         pub use ::synthesis::*;
     }
-    /// Which legs share which joints, and the catalogue of all ways to share them.
+    /// The pattern of shared joints of a design, and the catalogue of all patterns.
     pub mod topology {
         pub use ::platform::topology::*;
     }

@@ -1,8 +1,8 @@
 //! Solves many problems on all cores.
 //!
-//! Problems are handed out one by one; each result goes to the place of its problem, and each is computed on one thread
-//! from its own data and the options alone. So results do not depend on the number of threads, nor on which thread took
-//! which problem.
+//! Problems are handed out one by one, and each result goes to the place of its problem. Each result is computed on one
+//! thread from its own data and the options alone. So results depend neither on the number of threads nor on which
+//! thread took which problem.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// How many threads a batch may use.
+/// The number of threads that a batch may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Threads {
     /// As many as the process may run at the same time; one where that is not known.

@@ -71,7 +71,7 @@ impl ForwardKinematics for Automatic {
     }
 }
 
-/// What is tried before paths.
+/// The methods that are tried before paths.
 enum QuickDesign {
     Octic(Box<OcticSolver>),
     Trilateration(Box<dyn PreparedDesign>),
@@ -81,7 +81,7 @@ enum QuickDesign {
 struct PreparedAutomatic {
     quick: QuickDesign,
     manipulator: Manipulator,
-    /// Those of the preparation.
+    /// The options of the preparation.
     options: FkOptions,
     /// The homotopy, prepared for the first lengths that need it.
     paths: OnceLock<Option<Box<dyn PreparedDesign>>>,

@@ -50,11 +50,12 @@ pub enum NoClosure {
     Between,
 }
 
-/// The closure polynomial for the squared lengths `s` that `found` was computed from, by the first sequence that tells
-/// the number of real poses; if none does, by the first that has a polynomial.
+/// The closure polynomial for the squared lengths `s` that `found` was computed from.
 ///
-/// The polynomial knows nothing of the poses found but their number, and that only when it is proved: so it is a second
-/// opinion about how many are real.
+/// The first sequence that tells the number of real poses gives it; if none does, the first that has a polynomial.
+///
+/// The polynomial is a second opinion about how many poses are real. It uses only the number of the poses found, and
+/// only when that number is proved.
 ///
 /// # Errors
 /// [`NoClosure`].

@@ -14,10 +14,12 @@ const BITS: u64 = 60;
 /// Residual below which an orientation is taken besides the best one.
 const CLOSE: f64 = 1e-6;
 
-/// Candidates for all finite poses: for each root of the exact closure polynomial of the first sequence that has one,
-/// the places of the joints with that length, in the orientation of the steps that closes best and in all others that
-/// close to a millionth (mirror images). Not refined, nothing is proved of them. Empty when more than one virtual leg
-/// is needed, or no sequence has a polynomial.
+/// Candidates for all finite poses, from the roots of the exact closure polynomial.
+///
+/// The first sequence that has a polynomial gives it. Each root gives the places of the joints with that length. Kept
+/// are the orientation of the steps that closes best and all others that close to a millionth (mirror images).
+/// Candidates are neither refined nor proved. The list is empty when more than one virtual leg is needed, or no
+/// sequence has a polynomial.
 ///
 /// Takes milliseconds to tenths of a second: for problems on which floating point fails because roots are close
 /// together or coefficients range widely.

@@ -1,8 +1,8 @@
 //! From candidate poses to distinct roots with evidence.
 //!
-//! Nothing is dropped without a record: the source of a candidate is among those of a root, or the candidate is
+//! Nothing is dropped without a record. The source of a candidate is among the sources of a root, or the candidate is
 //! rejected with a reason. A regular candidate that repeats an uncertified root is both, because one path too many has
-//! ended there; one that repeats a certified root is rejected only.
+//! ended there. A candidate that repeats a certified root is rejected only.
 
 use num_complex::Complex64;
 
@@ -34,8 +34,8 @@ pub(super) struct Collected {
     pub(super) doubtful: bool,
 }
 
-/// Singular candidates closer than this, relative to the pose's numbers, are one: the means of endgame loops that they
-/// are have been accepted when they agree to `1e-4`.
+/// Singular candidates closer than this, relative to the pose's numbers, are one. They are means of endgame loops, and
+/// these means are accepted when they agree to `1e-4`.
 const SINGULAR_RADIUS: f64 = 1e-3;
 
 /// A residual below this, relative to the square of the pose's numbers, is rounding.
@@ -56,8 +56,8 @@ struct PoseGroup {
 /// Refines the regular candidates, takes singular ones as they are, merges and sorts.
 ///
 /// A candidate is accepted when its residual is at most the tolerance (its square root for singular ones) times the
-/// square of the pose's scale, in which rounding grows. Candidates of one kind, regular or singular, are merged when
-/// they are closer than the tolerance (or [`SINGULAR_RADIUS`]) times that scale.
+/// square of the pose's scale. Rounding grows with that square. Two regular or two singular candidates are merged when
+/// their distance is below the tolerance (or [`SINGULAR_RADIUS`]) times the scale.
 pub(super) fn collect(
     m: &Manipulator,
     s: &SquaredLegLengths,
@@ -157,8 +157,9 @@ const WORST_CONDITION: f64 = 1e6;
 /// Imaginary parts this many times larger than their blur are no rounding.
 const NON_REAL: f64 = 1e3;
 
-/// Whether a pose without a certificate is real: imaginary parts are blurred by the tolerance times the root of the
-/// condition number, those of singular poses by [`SINGULAR_RADIUS`], where nothing shows that a pose is real.
+/// Whether a pose without a certificate is real. Imaginary parts of regular poses are blurred by the tolerance times
+/// the root of the condition number. At singular poses they are blurred by [`SINGULAR_RADIUS`], and nothing shows that
+/// such a pose is real.
 fn reality_of(c: &PoseCandidate, length: f64, tolerances: &FkTolerances) -> Reality {
     let blur = if c.singular {
         SINGULAR_RADIUS
@@ -185,9 +186,9 @@ fn ordered(x: f64) -> i64 {
     bits ^ ((bits >> 63).cast_unsigned() >> 1).cast_signed()
 }
 
-/// Real roots first, then undecided, then non-real ones; within these by the real parts of `z`, `x`, `y` and of the
-/// first two entries of the first column of `R`, then by the imaginary parts of `z` and `x`. Numbers are rounded to
-/// `1e-6`, so that rounding errors reorder only where they cross a step of that grid.
+/// Real roots come first, then undecided, then non-real ones. Within these the real parts of `z`, `x`, `y` decide, then
+/// those of the first two entries of the first column of `R`. The imaginary parts of `z` and `x` come last. Numbers are
+/// rounded to `1e-6`, so that rounding errors reorder only where they cross a step of that grid.
 pub(super) fn sort_key(reality: Reality, pose: &ComplexPose, length: f64) -> SortKey {
     let rank = match reality {
         Reality::Real => 0.0,

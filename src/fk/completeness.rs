@@ -1,6 +1,6 @@
-//! How far an answer is known to hold all finite poses: data that is joined by rule and put into words in one place.
+//! The knowledge whether an answer holds all finite poses: data that is joined by rule and put into words in one place.
 //!
-//! What is known forms a lattice:
+//! The states of knowledge form a lattice:
 //!
 //! ```text
 //!                    Proved                a theorem: as many certified distinct poses as there can be
@@ -16,8 +16,8 @@
 //!               Unproved {}                nothing is known, nothing speaks against the answer
 //! ```
 //!
-//! [`Completeness::join`] is the least upper bound: a proof leaves no doubt, and without one no reason that somebody
-//! has found gets lost, in whatever order they come. The order of the variants of [`Reason`] is that of the text.
+//! [`Completeness::join`] is the least upper bound. A proof leaves no doubt; without one no reason gets lost, in
+//! whatever order the reasons come. The order of the variants of [`Reason`] is their order in the text.
 
 use std::fmt;
 
@@ -31,27 +31,27 @@ pub enum Completeness {
         /// The bound.
         theorem: Theorem,
     },
-    /// All poses up to a distance, so all real ones, are listed: the certified roots and the others, which are proved to
-    /// be farther out, are as many as there can be.
+    /// All poses up to a distance, so all real ones, are listed. The certified roots, with the others that are proved
+    /// to be farther out, reach the largest possible number.
     ProvedBounded {
-        /// How many, and the distance.
+        /// The number of poses and the distance.
         proof: BoundedProof,
     },
-    /// The certified roots are distinct and as many as the finite poses, multiplicity included, of the design and
-    /// lengths as written, counted modulo random primes: all poses are isolated and listed, up to the probability of
-    /// error of [`FkSolutions::pose_count`](super::FkSolutions::pose_count).
+    /// The certified roots are distinct and as many as the finite poses of the design and lengths as written, counted
+    /// modulo random primes with multiplicity. All poses are isolated and listed, up to the probability of error of
+    /// [`FkSolutions::pose_count`](super::FkSolutions::pose_count).
     Modular {
         /// Certified distinct poses.
         poses: usize,
-        /// Whether the poses of the lengths given are counted, or those of generic lengths: when these are as many as
-        /// the certified poses, there are no others.
+        /// Whether the poses of the given lengths or those of generic lengths are counted. When generic lengths have as
+        /// many poses as are certified, there are no others.
         lengths: CountedLengths,
         /// Bound on the probability that the count is wrong.
         error_probability: f64,
     },
     /// No proof.
     Unproved {
-        /// What is known and what gives rise to doubt.
+        /// The known facts and the causes of doubt.
         reasons: Reasons,
     },
 }
@@ -270,8 +270,8 @@ pub enum Reason {
         /// Bound on the probability that the count is wrong.
         error_probability: f64,
     },
-    /// Modulo random primes there are more poses for generic lengths than are certified, or those certified are not
-    /// proved distinct; the lengths at hand are known within radii only and may have fewer.
+    /// Modulo random primes there are more poses for generic lengths than are certified, or the certified ones are not
+    /// proved distinct. The given lengths are known within radii only and may have fewer.
     FewerThanGeneric {
         /// Finite poses for generic lengths.
         counted: usize,
@@ -291,7 +291,7 @@ pub enum Reason {
         /// Points listed that are real.
         real: usize,
     },
-    /// What random sections found of a set of poses that was counted.
+    /// Random sections of a set of poses that was counted.
     Sectioned {
         /// Finite points on a general section of that codimension.
         points: usize,
@@ -300,7 +300,7 @@ pub enum Reason {
         /// Certified isolated poses beside the set.
         isolated: usize,
     },
-    /// Where the paths of a homotopy ended.
+    /// The ends of the paths of a homotopy.
     PathsEnded(PathsEnded),
     /// Candidates of eliminations.
     CandidatesEliminated {
@@ -328,7 +328,7 @@ pub enum Reason {
         certified: usize,
         /// Configurations that they come from.
         configurations: usize,
-        /// What was tried.
+        /// The attempts of the trilateration.
         tried: Tried,
         /// Poses that generic platforms of the topology have.
         usual: usize,
@@ -362,8 +362,8 @@ pub enum Reason {
     },
     /// The leg vectors are nearly, and not exactly, dependent.
     LegsNearlyDependent,
-    /// Doubles do not tell the equations of the legs apart: the lengths are much longer than the design, or one body
-    /// is much larger than the other.
+    /// The equations of the legs cannot be told apart in doubles. The lengths are much longer than the design, or one
+    /// body is much larger than the other.
     LegsNotToldApart,
     /// Paths that end near points without a certificate.
     EndsUnproved {
@@ -374,7 +374,7 @@ pub enum Reason {
     },
 }
 
-/// Where the paths of a homotopy ended.
+/// The numbers of paths of a homotopy, by their ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PathsEnded {
     /// Paths of the start system.
@@ -408,7 +408,7 @@ impl PathsEnded {
     }
 }
 
-/// What a trilateration tried.
+/// The attempts of a trilateration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tried {
     /// Trilateration sequences, each evaluated on a circle.
@@ -462,7 +462,7 @@ impl Reason {
     }
 }
 
-/// What is known of the real points among those listed.
+/// Writes how many of the listed points are real.
 fn real_part(f: &mut fmt::Formatter<'_>, real: usize) -> fmt::Result {
     match real {
         0 => f.write_str("no real pose was found on it by sections and a search from 24 starts, which is no proof that there is none"),
@@ -602,7 +602,7 @@ impl Completeness {
         Self::Unproved { reasons }
     }
 
-    /// What is known when both are: the better proof, or the reasons of both.
+    /// The knowledge from both: the better proof, or the reasons of both.
     #[must_use]
     pub fn join(self, other: Self) -> Self {
         match (self, other) {
@@ -661,7 +661,7 @@ impl Completeness {
 }
 
 impl fmt::Display for Completeness {
-    /// What is known, in words.
+    /// The knowledge, in words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Proved { theorem } => theorem.fmt(f),

@@ -79,9 +79,9 @@ pub(super) fn curves(
     Ok(out)
 }
 
-/// Legs without a relation whose equations doubles do not tell apart, because the lengths are much longer than the
-/// design or one body is much larger than the other:
-/// the count, and no poses.
+/// The answer for independent legs whose equations cannot be told apart in doubles: the count, and no poses.
+///
+/// The lengths are then much longer than the design, or one body is much larger than the other.
 pub(super) fn not_told_apart(
     m: &Manipulator,
     s: &SquaredLegLengths,
@@ -97,8 +97,9 @@ pub(super) fn not_told_apart(
     Ok(out)
 }
 
-/// The answer for a set of positive dimension that the count has found: points on it in place of the ends of paths,
-/// which are arbitrary. Certified roots are isolated poses beside it and stay; what has no certificate is not a root.
+/// The answer for a set of positive dimension that the count has found: points on the set replace the ends of paths,
+/// which are arbitrary. Certified roots are isolated poses beside the set and stay; ends without a certificate are not
+/// roots.
 pub(super) fn positive_dimensional(
     mut found: FkSolutions,
     m: &Manipulator,
@@ -122,12 +123,12 @@ pub(super) fn positive_dimensional(
     Ok(found)
 }
 
-/// How many of the points are real.
+/// The number of real points.
 fn real(points: &[FkRoot]) -> usize {
     points.iter().filter(|p| p.reality == Reality::Real).count()
 }
 
-/// Where random sections meet a set.
+/// The intersection of a set with random sections.
 struct Cuts {
     points: Vec<FkRoot>,
     dimension: usize,

@@ -1,4 +1,4 @@
-//! What the two published eliminations share: candidates of several attempts, refined, merged and certified.
+//! The common part of the two published eliminations: candidates of several attempts, refined, merged and certified.
 
 use super::collect::{PoseCandidate, collect};
 use super::evidence::{certify, conclude, reject_others};
@@ -62,8 +62,8 @@ impl PoseCandidates {
             seed: o.seed,
         };
         let certificates = certify(&mut solutions, m, s, Vec::new()).unwrap_or_default();
-        // rounding in the frames makes every problem a general one with 40 roots near by; on a special platform
-        // those that are none of its own lie far out or near e.e = 0 and may pass for roots by their residual
+        // Rounding in the frames makes every problem a general one with 40 roots near by. The additional roots of a
+        // special platform lie far out or near e.e = 0 and may pass for roots by their residual.
         let refined = solutions.roots.len();
         reject_others(&mut solutions);
         let certified = solutions.roots.len();

@@ -68,7 +68,7 @@ pub(super) fn certify(
     Some(known.simple)
 }
 
-/// What is proved about poses that are one, or too close to be told apart.
+/// The proved facts about poses that coincide, or are too close to be told apart.
 struct Together {
     cluster: ProvedCluster,
     /// A simple root beside them that no candidate stands for.
@@ -89,8 +89,8 @@ impl Known<'_> {
         self.simple.iter().all(|c| c.enclosure().is_disjoint(cluster.enclosure()) || is_of(c, cluster))
     }
 
-    /// The smallest cluster near a pose at which so many paths ended, with the root that is beside it where there is
-    /// just one; else, as far as it can be proved, one of so many roots.
+    /// The smallest cluster near a pose at which `ends` paths ended, with the root beside it where there is just one.
+    /// Without such a cluster it is the largest that can be proved.
     fn together(&self, pose: &ComplexPose, ends: usize) -> Option<Together> {
         let mut best: Option<ProvedCluster> = None;
         // more roots than paths would be those of paths that went elsewhere
@@ -136,8 +136,8 @@ impl Known<'_> {
     }
 }
 
-/// Poses that are one, or too close to be told apart, are proved together. Of two candidates in one such cluster the
-/// first has it; the single roots that are of it count with it. Roots that are found beside clusters are given back.
+/// Proves poses together that coincide, or are too close to be told apart. The first of two candidates in one cluster
+/// gets the cluster, and its count includes the single roots in it. Roots that are found beside clusters are returned.
 fn certify_clusters(
     mut roots: Vec<&mut FkRoot>,
     known: &mut Known<'_>,
@@ -203,7 +203,7 @@ pub(super) fn all_distinct(certificates: &[Certificate], clusters: &[ClusterCert
     if doubtful.is_empty() { Distinctness::AllDistinct } else { Distinctness::NotAll(doubtful) }
 }
 
-/// What is known of the certificates of certified roots.
+/// The certificates of certified roots, as far as they matter for their distinctness.
 #[derive(Debug)]
 pub(super) enum KnownCertificates {
     /// All roots are certified, with disjoint enclosures: they are pairwise distinct.
@@ -232,7 +232,7 @@ pub(super) fn attach(
     }
 }
 
-/// What a certificate proves about reality.
+/// The reality that a certificate proves.
 pub(super) fn proved(reality: ProvedReality) -> Reality {
     match reality {
         ProvedReality::Real => Reality::Real,
@@ -241,9 +241,9 @@ pub(super) fn proved(reality: ProvedReality) -> Reality {
     }
 }
 
-/// When the certified roots are pairwise distinct and as many as the theorem allows, or as that of the platform's class
-/// does, completeness is proved; more are a contradiction. Otherwise regular roots without a certificate, and
-/// certificates that may be of one root, are doubts.
+/// Completeness is proved when the certified roots are pairwise distinct and as many as a theorem allows. It is the
+/// theorem of `solutions` or that of the platform's class. More roots are a contradiction. Otherwise regular roots
+/// without a certificate, and certificates that may be of one root, are doubts.
 pub(super) fn conclude(
     solutions: &mut FkSolutions,
     m: &Manipulator,
@@ -304,7 +304,7 @@ pub(super) fn reject_others(solutions: &mut FkSolutions) {
     solutions.rejected.extend(others.iter().map(rejected));
 }
 
-/// What has no certificate is not a root of the answer: it is named beside them, and the answer is undecided.
+/// Sets roots without a certificate apart from the roots of the answer: they are named, and the answer is undecided.
 pub(super) fn set_unproved_apart(solutions: &mut FkSolutions) {
     let mut unproved = withdraw(solutions, |r| !r.certified());
     if unproved.is_empty() {

@@ -20,7 +20,7 @@ const NEARLY_SINGULAR: f64 = 1e4;
 /// Ends this near to images of others are looked at with these, relative to 1 and to themselves.
 const ALIKE: f64 = 1e-7;
 
-/// How far from the mean of an endgame loop a root is looked for, in the size of the point.
+/// A root is sought within this distance from the mean of an endgame loop, in parts of the size of the point.
 const MEAN: f64 = 1e-3;
 
 /// An end of a path that is, or may be, finite.
@@ -60,7 +60,7 @@ struct CertifiedRoot {
     sources: Vec<usize>,
 }
 
-/// Certifies regular ends one by one, conjugates together. What has no certificate is refined and merged as the
+/// Certifies regular ends one by one, conjugates together. Ends without a certificate are refined and merged as the
 /// candidates of any other method are. `precise` are ends of other paths.
 pub(super) fn harvest(
     m: &Manipulator,
@@ -140,8 +140,8 @@ fn record(m: &Manipulator, legs: &[Leg; 6], s: &SquaredLegLengths, p: &Certified
     }
 }
 
-/// The roots of proofs in the order of [`collect_with`], where there is nothing else: a record has a kilobyte, so that
-/// only their keys are sorted.
+/// The roots of proofs in the order of [`collect_with`], when there are no other roots. Only their keys are sorted,
+/// because a record has a kilobyte.
 fn in_order(m: &Manipulator, s: &SquaredLegLengths, mut proofs: Vec<CertifiedRoot>) -> Collected {
     let key = |p: &CertifiedRoot| sort_key(proved(p.root.certificate.reality()), &p.root.pose, m.size());
     let mut order: Vec<(SortKey, usize)> = proofs.iter().enumerate().map(|(k, p)| (key(p), k)).collect();

@@ -7,8 +7,8 @@ use super::{FkError, FkOptions, FkSolutions, Theorem, Tried};
 use crate::distance::HiddenLengths;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Ways tried while the poses are not proved to be all, by number of virtual legs: with three each takes as long as a
-/// hundred with two.
+/// Ways tried while the poses are not proved to be all, by number of virtual legs. A way with three virtual legs takes
+/// as long as a hundred with two.
 const WAYS: [(usize, usize); 2] = [(2, 6), (3, 6)];
 
 /// Values of closure conditions after which no further way is tried: the poses are fewer than usual.

@@ -33,14 +33,14 @@ const FINE_ATTEMPTS: u64 = 2;
 /// Above this ratio of the bodies doubles keep at most six digits of the smaller one beside the larger.
 const BODIES_APART: f64 = 1e10;
 
-/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system, or, where base and platform are
-/// planar, by 20 paths to one pose of each mirror pair.
+/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system. With planar base and platform,
+/// 20 paths lead to one pose of each mirror pair.
 ///
-/// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0` (source: Husty 1996 for the
-/// coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40). Each path is reported with its end: a finite pose,
-/// `e.e = 0`, infinity, or failed. Both poses of a mirror pair are refined and certified on the legs as they are; when
-/// fewer are found than there can be, all 40 paths are tracked, and those of them that do not end in a certified pose
-/// are followed with 256 bits.
+/// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0`. Sources: Husty 1996 for the
+/// coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40. Each path is reported with its end: a finite pose,
+/// `e.e = 0`, infinity, or failed. Both poses of a mirror pair are refined and certified on the legs as they are. When
+/// fewer poses are found than there can be, all 40 paths are tracked. The paths that do not end in a certified pose are
+/// then followed with 256 bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Homotopy;
 
@@ -123,8 +123,8 @@ impl ForwardKinematics for Homotopy {
     }
 }
 
-/// Lengths of a motion, rounded, are lengths of no motion: the design as written has the poses that are certified and
-/// no others, and next to it are designs that move. That is said, and nothing is called complete.
+/// The answer for lengths of a self-motion that were rounded. Rounded lengths allow no motion: the design as written
+/// has the certified poses and no others, but designs next to it move. The answer says so and is not called complete.
 fn moving_within_rounding(
     found: Option<FkSolutions>,
     m: &Manipulator,
@@ -147,8 +147,7 @@ fn failures(found: &FkSolutions) -> usize {
     if found.paths.len() < GENERIC_COUNT { 2 * failed } else { failed }
 }
 
-/// How many times larger one body is than the other, by the distances of leg ends from their mean; 1 for a body in
-/// one point.
+/// The ratio of the sizes of the two bodies, by the distances of leg ends from their mean; 1 for a body in one point.
 fn ratio_of_bodies(m: &Manipulator) -> f64 {
     let [base, platform] = m.mean_leg_ends();
     let largest = |list: [f64; 6]| list.into_iter().fold(0.0, f64::max);
@@ -296,8 +295,8 @@ fn report_of(start: usize, path: &HomotopyPath) -> PathReport {
 /// Whether an end is near infinity or `e.e = 0` but not there to the digits that ends have.
 ///
 /// Ends at infinity have `|e| / |(e, g)|` below `1e-9`, or around `1e-8`, the root of rounding, where two paths end in
-/// one; ends at `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000 ends of the special classes of
-/// the harness). The limits leave a factor of ten. Between are poses far out.
+/// one. Ends at `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000 ends of the special classes of
+/// the harness). The limits leave a factor of ten, and poses far out lie between them.
 fn is_blurred(path: &HomotopyPath) -> bool {
     let e: f64 = path.x[..4].iter().map(Complex64::norm_sqr).sum();
     let all: f64 = path.x.iter().map(Complex64::norm_sqr).sum();

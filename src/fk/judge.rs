@@ -1,10 +1,10 @@
 //! Whether the poses found are all there are, by their number: the design and lengths as written have so many finite
 //! poses, modulo random primes.
 //!
-//! The count shares nothing with what finds the poses. Certified roots are distinct zeros of the same equations: as
-//! many as the count are all, each is simple and isolated; fewer are not all; more contradict it. Where the lengths are
-//! known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots
-//! are all isolated ones, fewer may be all.
+//! The count shares nothing with the solvers that find the poses. Certified roots are distinct zeros of the same
+//! equations. As many as the count are all poses, each simple and isolated; fewer are not all; more contradict the
+//! count. For lengths known within radii only, the poses of generic lengths are counted, which are as many or more. As
+//! many certified roots are then all isolated poses; fewer may be all.
 
 use std::cell::LazyCell;
 
@@ -18,7 +18,7 @@ use crate::solve::pose_count::{
 };
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// What the number says.
+/// The judgement of the roots by the count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RealityJudgement {
     /// Proved before, or as many as there are.
@@ -27,7 +27,7 @@ pub(super) enum RealityJudgement {
     Short,
     /// Curves, surfaces or more.
     PositiveDimensional {
-        /// Of the components of highest dimension.
+        /// Dimension of the components of highest dimension.
         dimension: usize,
     },
     /// Nothing: it was not asked or does not know.
@@ -115,8 +115,8 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
     Ok(RealityJudgement::Complete)
 }
 
-/// What the count says where poses form a set of positive dimension, or seem to within rounding; nothing when it is
-/// undecided.
+/// The completeness that follows from the count when poses form a set of positive dimension, or seem to within
+/// rounding. It is empty when the count is undecided.
 pub(super) fn set_counted(count: &PoseCount, established: bool) -> Completeness {
     let error_probability = count.error_probability;
     // of lengths known within radii nothing is counted

@@ -1,15 +1,15 @@
 //! Forward kinematics: finds all finite complex poses that a platform can have with given leg lengths.
 //!
-//! It knows `num` and `platform`. Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that
-//! agreement of the root sets of two platforms is evidence for the map between them. `solve::certify`, which proves
-//! roots, names nothing that finds them.
+//! The crate knows `num` and `platform`, and nothing in it knows leg maps. `fk` and `synthesis` never import each
+//! other, so that agreement of the root sets of two platforms is evidence for the map between them. `solve::certify`,
+//! which proves roots, names nothing that finds them.
 //!
 //! * [`FkOptions`]: the method, the seed and what is counted.
 //! * [`FkSolutions`]: the poses, each with its certificate, and whether they are all.
 //! * [`NearSolver`]: one real pose followed from lengths to lengths.
 //!
-//! Squared lengths become leg equations; a method finds roots, Newton's method sharpens them, certificates prove them,
-//! and a theorem or a count says whether they are all.
+//! Squared lengths become leg equations. A method finds roots, Newton's method sharpens them, certificates prove them,
+//! and a theorem or a count decides whether they are all.
 
 mod batch;
 mod bounded;
@@ -100,7 +100,7 @@ pub struct FkOptions {
 /// When the finite poses are counted (see [`crate::solve::pose_count`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PoseCounting {
-    /// Where no theorem says that the poses found are all.
+    /// When no theorem says that the poses found are all.
     #[default]
     WhenUnproved,
     /// Not at all: then completeness is proved by a theorem or not known, and sets of positive dimension are recognised
@@ -112,14 +112,14 @@ pub enum PoseCounting {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FkTolerances {
     /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`), relative to the square of
-    /// the pose's own numbers; its root for singular ends of paths.
+    /// the pose's own numbers. For singular ends of paths its root is accepted.
     pub residual: f64,
     /// Two regular poses without certificate that are closer than this, relative to their own numbers, are one root.
     /// Certificates tell closer ones apart.
     pub distinct: f64,
     /// Relative size of imaginary parts up to which a regular pose without certificate is taken for real, times the
-    /// root of its condition number; a thousand times more is non-real (ten thousand times for points on curves of
-    /// poses), between is undecided. Certificates decide reality by proof.
+    /// root of its condition number. A pose with a thousand times more is non-real (ten thousand times for points on
+    /// curves of poses); between these limits it is undecided. Certificates decide reality by proof.
     pub reality: f64,
 }
 
@@ -190,20 +190,20 @@ pub enum FkError {
     /// Two computations contradict each other: at least one of them is wrong.
     #[error("two results contradict each other: {what}")]
     Contradiction {
-        /// What was found.
+        /// The contradiction.
         what: String,
     },
     /// The numbers left the range in which the computation makes sense.
     #[error("the computation broke down: {what}")]
     Breakdown {
-        /// What went wrong.
+        /// The step that failed.
         what: String,
     },
 }
 
 /// A forward-kinematics method.
 pub trait ForwardKinematics: Send + Sync {
-    /// Which method this is.
+    /// The name of this method.
     fn method(&self) -> Method;
 
     /// All finite complex poses of `m` with the squared leg lengths `s`.

@@ -116,8 +116,8 @@ fn flattest(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> Optio
     Some(v.row(5).adjoint())
 }
 
-/// Poses at `distance` from `pose` on both sides along the flattest direction, real and imaginary: of two close roots
-/// about `pose`, Newton's method reaches each from one of these.
+/// Poses at `distance` from `pose` on both sides along the flattest direction, real and imaginary. Newton's method
+/// reaches each of two close roots about `pose` from one of these.
 pub(super) fn beside(
     m: &Manipulator,
     s: &SquaredLegLengths,
@@ -129,11 +129,11 @@ pub(super) fn beside(
     unit.iter().filter_map(|u| displaced(pose, &(v * (u * distance)), m.size())).collect()
 }
 
-/// Whether poses form a curve through `pose`, numerically: from a step along the flattest direction, Gauss-Newton
+/// Whether poses form a curve through `pose`, numerically. After a step along the flattest direction, Gauss-Newton
 /// steps in the other directions lead back to the equations.
 ///
-/// At an isolated multiple root they cannot: the equations are off by the square (or a higher power) of the step
-/// in the direction that the Jacobian does not reach.
+/// At an isolated multiple root they cannot. The equations are off by the square (or a higher power) of the step, in
+/// the direction that the Jacobian does not reach.
 pub(super) fn on_a_curve(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> bool {
     let size = m.size();
     let Some(v) = flattest(m, s, pose) else { return false };

@@ -1,8 +1,8 @@
 //! Real points of sets of poses of positive dimension, from many starts: a search, not a proof.
 //!
-//! From random real poses the Levenberg-Marquardt method leads to zeros of the leg equations where there are any near
-//! by. A zero is on a set of positive dimension when a small step in the directions in which the equations are flat
-//! leads to another zero. Zeros between which a walk of small steps finds its way are on one component.
+//! From random real poses the Levenberg-Marquardt method leads to nearby zeros of the leg equations. A zero is on a set
+//! of positive dimension when a small step in the flat directions of the equations leads to another zero. Zeros are on
+//! one component when a walk of small steps leads from one to the other.
 
 use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 

@@ -1,5 +1,5 @@
-//! The polynomial whose roots are a Cayley parameter of all poses: of degree 40 for a general platform, as the one that
-//! the elimination of Lee and Shim ends with.
+//! The polynomial whose roots are a Cayley parameter of all poses. It has degree 40 for a general platform, as the
+//! final polynomial of the elimination of Lee and Shim.
 //!
 //! Its coefficients are elementary symmetric functions of the roots, which certificates enclose. Nothing of the
 //! elimination enters, so that any method that proves all poses gives the same polynomial.
@@ -77,8 +77,8 @@ pub fn rotation_polynomial(found: &FkSolutions) -> Result<RotationPolynomial, No
 
 /// The coefficients of `prod (c - r_i) - c^n` from its values at roots of unity, as many as a power of two.
 ///
-/// A product of discs at a point loses nothing but relative accuracy, while products of polynomials with discs as
-/// coefficients lose as much as the coefficients cancel.
+/// A product of discs at a point loses only relative accuracy. Products of polynomials with discs as coefficients lose
+/// as much as the coefficients cancel.
 fn interpolated(roots: &[Disc]) -> Vec<Disc> {
     let count = roots.len().next_power_of_two();
     let unity: Vec<Disc> = (0..count)

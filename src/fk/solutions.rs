@@ -97,7 +97,7 @@ impl std::fmt::Display for Reality {
     }
 }
 
-/// What the finite complex poses form.
+/// The kind of set that the finite complex poses form.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolutionSet {
     /// Nothing speaks against isolated poses: those of [`FkSolutions::roots`].
@@ -108,9 +108,9 @@ pub enum SolutionSet {
     PositiveDimensional {
         /// Dimension, at least.
         dimension: usize,
-        /// One pose for each point in which general linear sections (of the seventeen quadratic forms of the dual
-        /// quaternion, as many as the dimension) meet the set, so at least one on each component of that dimension.
-        /// Their number is the degree of the set in that embedding when `established`.
+        /// One pose for each intersection of the set with general linear sections, so at least one on each component of
+        /// that dimension. The sections are linear in the seventeen quadratic forms of the dual quaternion, as many as
+        /// the dimension. The number of poses is the degree of the set in that embedding when `established`.
         witnesses: Vec<FkRoot>,
         /// `true` when a relation between the legs is proved on the joints as given, the lengths satisfy it within
         /// rounding and all witnesses are regular; `false` when the motion was only seen numerically.
@@ -155,16 +155,16 @@ pub struct FkRoot {
     /// Proof of existence and uniqueness with all its numbers, for checks by other programs; `None` where there is
     /// none.
     pub certificate: Option<RootCertificate>,
-    /// 1 for certified and for regular roots, however many candidates ended there; for singular ones the number of
+    /// 1 for certified and for regular roots, however many candidates ended there. For singular roots the number of
     /// start paths (or polynomial roots) that end here, mirror images of paths included.
     pub multiplicity: u32,
     /// Largest error of the leg equations over size squared and of `R^T R = I`.
     pub residual: f64,
     /// Estimate of the condition number of the root (dimensionless, Newton matrix of the method).
     pub condition: f64,
-    /// The pose as a dual quaternion `(e_0..e_3, g_0..g_3)`, `g = p e`, `max |e_k| = 1`, `g` in design units: where
-    /// `e.e` is small `R` and `p` lose as many digits as it is small, and this keeps them. `None` for methods that do
-    /// not work in dual quaternions and for poses without certificate.
+    /// The pose as a dual quaternion `(e_0..e_3, g_0..g_3)`, `g = p e`, `max |e_k| = 1`, `g` in design units. It keeps
+    /// the digits that `R` and `p` lose when `e.e` is small. `None` for methods that do not work in dual quaternions
+    /// and for poses without certificate.
     pub dual_quaternion: Option<[Complex64; 8]>,
 }
 
@@ -182,7 +182,7 @@ impl FkRoot {
     }
 }
 
-/// Where a homotopy path ended.
+/// The end of a homotopy path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -214,19 +214,19 @@ impl PathEnd {
     }
 }
 
-/// What a path of the homotopy did.
+/// The report of a path of the homotopy.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
 pub struct PathReport {
     /// Index of the start point.
     pub start: usize,
-    /// Where it ended.
+    /// The end of the path.
     pub end: PathEnd,
     /// Index into `solutions`, from 0.
     pub root: Option<usize>,
     /// Index of the mirror image, where one path stands for two.
-    // base and platform are planar, and one path of each pair of mirror images was tracked, 20 of 40; the same as
-    // `root` when the pose is its own image
+    // Base and platform are planar, and one path of each pair of mirror images was tracked, 20 of 40. The index equals
+    // `root` when the pose is its own image.
     pub mirror_root: Option<usize>,
     /// Accepted steps.
     pub steps: u32,
@@ -236,7 +236,7 @@ pub struct PathReport {
     pub winding: u32,
     /// |e.e| / |e|^2 at the end.
     pub isotropy: f64,
-    /// How often it had to be tracked again with smaller steps.
+    /// Number of repeated trackings with smaller steps.
     pub retracked: u32,
 }
 
@@ -283,7 +283,7 @@ pub struct LibraryCalls {
     pub computation: &'static str,
     /// Rows and columns of the matrix.
     pub size: [usize; 2],
-    /// How often.
+    /// Number of calls.
     pub calls: usize,
 }
 
@@ -298,7 +298,7 @@ pub struct FkSolutions {
     pub solution_set: SolutionSet,
     /// Whether these are all.
     pub completeness: Completeness,
-    /// What each homotopy path did, 40 or, where each stands for itself and its mirror image, 20; empty for other
+    /// The reports of the homotopy paths: 40, or 20 when each stands for itself and its mirror image. Empty for other
     /// methods.
     pub paths: Vec<PathReport>,
     /// Candidates that are not roots.
@@ -308,7 +308,7 @@ pub struct FkSolutions {
     /// Ends of paths without a proof: there may be a root of this multiplicity near the pose, several, or none. They
     /// are not among the roots, and as long as there are any the answer is undecided.
     pub unproved: Vec<FkRoot>,
-    /// What libraries of linear algebra computed; empty where equipod computed all itself.
+    /// The computations of linear-algebra libraries; empty when equipod computed all itself.
     pub library_calls: Vec<LibraryCalls>,
     /// Seed of the generic constants.
     pub seed: u64,

@@ -35,7 +35,7 @@ pub enum PlacedFirst {
     },
 }
 
-/// How the poses can be found in steps.
+/// The ways to find the poses in steps.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
 pub struct Solvability {

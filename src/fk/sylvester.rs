@@ -13,10 +13,10 @@ const ATTEMPTS: u64 = 2;
 
 /// Forward kinematics of a general platform by the degree-40 polynomial of Lee and Shim.
 ///
-/// Works in double-double arithmetic; every root is refined and checked against the leg equations, and the set
-/// is complete only when 40 distinct poses are certified. [`FkError::NotApplicable`] when the elimination
-/// degenerates: dependent linear equations (planar base and platform), a determinant that is not a polynomial of
-/// degree 40. Platforms with fewer than 40 poses get an answer that says roots may be missing.
+/// Works in double-double arithmetic; every root is refined and checked against the leg equations. The set is complete
+/// only when 40 distinct poses are certified. [`FkError::NotApplicable`] when the elimination degenerates: dependent
+/// linear equations (planar base and platform), or a determinant that is not a polynomial of degree 40. Platforms with
+/// fewer than 40 poses get an answer that says roots may be missing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sylvester;
 

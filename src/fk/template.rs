@@ -13,11 +13,11 @@ const ATTEMPTS: u64 = 3;
 
 /// Forward kinematics of a general platform by the elimination template of Martyushev.
 ///
-/// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations; the set
-/// is complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as
-/// long as they have 40 poses; platforms with fewer finite poses, and those on which the template loses rank
-/// (planar base and planar platform, in many cases also if one joint is outside of its plane), get
-/// [`FkError::NotApplicable`] or an answer that says roots may be missing.
+/// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations. The set is
+/// complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as long as they
+/// have 40 poses. Platforms with fewer finite poses get [`FkError::NotApplicable`] or an answer that says roots may be
+/// missing. The same holds for platforms on which the template loses rank. These have planar base and planar platform,
+/// and in many cases also one joint outside of its plane.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Template;
 
@@ -68,7 +68,7 @@ fn solve_with(
     Ok(found)
 }
 
-/// What faer computed in so many eliminations, of which so many kept their rank.
+/// The computations of faer: `eliminations` factorisations, and an eigenproblem for each that kept its rank.
 fn library_calls(layout: &TemplateLayout, eliminations: u64, eigenproblems: usize) -> Vec<LibraryCalls> {
     let call = |computation, size, calls| LibraryCalls { library: "faer", computation, size, calls };
     let factors = usize::try_from(eliminations).unwrap_or(usize::MAX);

@@ -29,11 +29,11 @@ const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
 
 /// Forward kinematics by trilateration in floating point: all finite poses, refined on the leg equations and certified.
 ///
-/// Platforms that need two or three virtual legs have one length hidden, see `docs/theory/hidden-lengths.md`; the
-/// others (30 of the 34 joint-sharing topologies) follow a trilateration sequence. Which sequence to use depends on
-/// which joints are shared; that is worked out once for the legs of a design and kept in the value. Complete when as
-/// many distinct poses are certified as the topology can have; other sequences are tried before it gives up, and at
-/// last the exact closure polynomial ([`closure_candidates`]), which takes milliseconds and more.
+/// Platforms that need two or three virtual legs have one length hidden, see `docs/theory/hidden-lengths.md`. The
+/// others (30 of the 34 joint-sharing topologies) follow a trilateration sequence. The sequence depends on the pattern
+/// of shared joints; it is worked out once for the legs of a design and kept in the value. The answer is complete when
+/// as many distinct poses are certified as the topology can have. Other sequences are tried before the method gives up.
+/// The last resort is the exact closure polynomial ([`closure_candidates`]), which takes milliseconds and more.
 /// [`FkError::NotApplicable`] when legs are shared otherwise than in these topologies, or triangles that have to be
 /// proper are collinear.
 #[derive(Debug, Default)]
@@ -122,7 +122,7 @@ fn rank(m: &Manipulator) -> Ranked {
     Ok(ranked)
 }
 
-/// What the numerical evaluation depends on: where the virtual leg ends on the first body does not matter.
+/// The data that the numerical evaluation depends on; the end of the virtual leg on the first body does not matter.
 fn essence(s: &Sequence) -> Vec<Vec<JointIndex>> {
     let known = |x: JointIndex, y: JointIndex| x.across(y).is_none_or(|p| !s.virtual_legs.contains(&p));
     let step = |place: JointIndex, from: [JointIndex; 3]| {
@@ -211,8 +211,8 @@ pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iter
     })
 }
 
-/// Refines, merges and certifies the ends of all that was `tried`; `theorem` bounds their number. What cannot be
-/// certified is not a root: with other distances the same lengths give other poses of rounding far out.
+/// Refines, merges and certifies the ends of all that was `tried`; `theorem` bounds their number. Ends without a
+/// certificate are not roots: with other distances the same lengths give other poses far out by rounding.
 pub(super) fn judged(
     m: &Manipulator,
     s: &SquaredLegLengths,

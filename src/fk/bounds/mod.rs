@@ -1,7 +1,7 @@
 //! Proved upper bounds on the number of isolated finite poses of special designs, for all lengths.
 //!
-//! Statements and proofs: `docs/theory/completeness.md`. What a design has is decided exactly, on joints of a field of
-//! square roots or on the doubles as they are.
+//! Statements and proofs: `docs/theory/completeness.md`. The conditions of a theorem are decided exactly, on joints of
+//! a field of square roots or on the doubles as they are.
 
 mod shared;
 

@@ -1,7 +1,7 @@
 //! Proved upper bounds on the number of isolated finite poses of platforms with shared joints.
 //!
-//! A bound proved for generic platforms of a topology holds for every
-//! platform of it and of its mergers; which joints coincide is decided exactly, on the doubles as they are.
+//! A bound proved for generic platforms of a topology holds for every platform of it and of its mergers. Coincidence of
+//! joints is decided exactly, on the doubles as they are.
 
 use crate::Theorem;
 use platform::manipulator::{Body, JointKnowledge, Manipulator};
@@ -110,7 +110,7 @@ fn bound_of(t: Topology) -> Option<Theorem> {
     found.map(|row| row.2)
 }
 
-/// Which legs end in the same place, exactly.
+/// For each leg the first one with exactly the same end.
 fn places(ends: [[f64; 3]; 6]) -> [usize; 6] {
     // adding zero makes -0 and 0 one number
     let bits = ends.map(|p: [f64; 3]| p.map(|x| (x + 0.0).to_bits()));

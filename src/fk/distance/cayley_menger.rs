@@ -59,17 +59,17 @@ pub fn determinant<const N: usize, S: Scalar>(
 /// The six squared distances of four points `i, j, k, l`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tetrahedron<S> {
-    /// Of `i` and `j`.
+    /// Distance of `i` and `j`.
     pub ij: S,
-    /// Of `i` and `k`.
+    /// Distance of `i` and `k`.
     pub ik: S,
-    /// Of `j` and `k`.
+    /// Distance of `j` and `k`.
     pub jk: S,
-    /// Of `i` and `l`.
+    /// Distance of `i` and `l`.
     pub il: S,
-    /// Of `j` and `l`.
+    /// Distance of `j` and `l`.
     pub jl: S,
-    /// Of `k` and `l`.
+    /// Distance of `k` and `l`.
     pub kl: S,
 }
 
@@ -83,8 +83,8 @@ pub struct Tetrahedron<S> {
 /// `sigma = 1` when `u, v, p_l - p_i` are right-handed, `-1` when they are left-handed. Source: Porta, Thomas, eq. (5).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrilateratedPoint<S> {
-    /// `A`, four times the Gram determinant of the triangle: zero when it is collinear, or isotropic over the complex
-    /// numbers, and then there is no trilateration.
+    /// `A`, four times the Gram determinant of the triangle. It is zero when the triangle is collinear, or isotropic
+    /// over the complex numbers; then there is no trilateration.
     pub a: S,
     /// `B`.
     pub b: S,
@@ -129,9 +129,9 @@ impl<S: Scalar> TrilateratedPoint<S> {
         Some([self.b.over(&self.a)?, self.c.over(&self.a)?, root.over(&self.a)?])
     }
 
-    /// The squared length of `Q omega` for `omega` in the frame `Q = [u v u x v]` of a triangle: `Q^T Q` from its
-    /// squared sides `s_ij, s_ik, s_jk` (eq. 7, with the difference of two coordinate vectors for the squared distance
-    /// of two points).
+    /// The squared length of `Q omega` for `omega` in the frame `Q = [u v u x v]` of a triangle. `Q^T Q` comes from its
+    /// squared sides `s_ij, s_ik, s_jk` (eq. 7). The difference of two coordinate vectors gives the squared distance of
+    /// two points.
     #[must_use]
     pub fn squared_length(omega: &[S; 3], [ij, ik, jk]: [&S; 3]) -> S {
         // u.v = (s_ij + s_ik - s_jk) / 2, |u x v|^2 = s_ij s_ik - (u.v)^2
@@ -146,7 +146,7 @@ impl<S: Scalar> TrilateratedPoint<S> {
     }
 }
 
-/// What a triangle is as a base of trilaterations.
+/// The quality of a triangle as a base of trilaterations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Base {
     /// A proper triangle.
@@ -156,8 +156,8 @@ pub enum Base {
 }
 
 impl Base {
-    /// Decides from the squared sides: collinear when `A` is below `2^-40` of the square of the largest side's square,
-    /// that is when the height is below about a millionth of the longest side.
+    /// Decides from the squared sides. The triangle is collinear when `A` is below `2^-40` of the square of the largest
+    /// squared side. The height is then below about a millionth of the longest side.
     #[must_use]
     pub fn of(sides: [f64; 3]) -> Self {
         if Self::fatness(sides) > 2f64.powi(-40) { Self::Proper } else { Self::Collinear }

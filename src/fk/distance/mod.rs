@@ -1,8 +1,8 @@
 //! Finds poses from distances alone, without unknown rotations: Cayley-Menger determinants, trilateration, closure
 //! conditions.
 //!
-//! Where joints are shared, a few additional distances between the bodies (virtual legs) make every joint reachable by
-//! trilateration; as many known distances remain, and say what the additional ones are: the closures. Theory:
+//! With shared joints, a few additional distances between the bodies (virtual legs) make every joint reachable by
+//! trilateration. As many known distances remain: these closures determine the additional ones. Theory:
 //! `docs/theory/trilateration.md`. Source: Porta, Thomas, *Yet another approach to the Gough-Stewart platform forward
 //! kinematics*.
 

@@ -1,8 +1,8 @@
 //! The homotopy prepared for one design: its poses at generic lengths, once, and from there paths in the lengths alone.
 //!
-//! Generic lengths have as many poses, `N`, as isolated poses can be at any. `N` certified distinct poses at the
-//! lengths asked for are all there are, and no pose lies on a curve of poses besides: a curve would have isolated poses
-//! of generic lengths near it, which would have more than `N` (docs/theory/completeness.md).
+//! Generic lengths have as many poses, `N`, as isolated poses can be at any. So `N` certified distinct poses at the
+//! lengths asked for are all poses, and no curve of poses exists besides them. Near a curve there would be isolated
+//! poses of generic lengths, which would then have more than `N` (docs/theory/completeness.md).
 
 use num_complex::Complex64;
 

@@ -70,8 +70,8 @@ fn a_joint_off_the_plane_by_a_millionth_takes_forty_paths() {
     }
 }
 
-/// With the platform in the plane of the base a pose is its own mirror image, and the leg equations are even in
-/// the three directions out of that plane. All numbers are dyadic, so that the root is exactly eightfold.
+/// With the platform in the plane of the base a pose is its own mirror image. The leg equations are even in the three
+/// directions out of that plane. All numbers are dyadic, so that the root is exactly eightfold.
 #[test]
 #[ignore = "evidence"]
 fn a_flat_pose_is_named_as_eightfold_and_not_listed() {
@@ -197,7 +197,7 @@ fn a_start_that_is_not_known_to_be_whole_is_none() {
     assert!(Homotopy.prepare(&again, &FkOptions::default()).is_none());
 }
 
-/// Where paths in the lengths lead to coinciding or missing poses the answer is that of an unprepared solve.
+/// The answer is that of an unprepared solve when paths in the lengths lead to coinciding or missing poses.
 #[test]
 #[ignore = "evidence"]
 fn special_lengths_get_the_general_treatment() {
@@ -256,8 +256,8 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
     assert!(whole >= 8, "{whole}");
 }
 
-/// Platforms with a mirror plane at poses with it, in whole numbers: an odd twist changes no length to first order, so
-/// that the equations along it have an odd function of its parameter, and the pose counts three times.
+/// Platforms with a mirror plane at symmetric poses, in whole numbers. An odd twist changes no length to first order.
+/// So the equations along it are an odd function of its parameter, and the pose counts three times.
 #[test]
 #[ignore = "evidence"]
 fn exact_triple_roots_are_proved_and_counted_three_times() {

@@ -1,8 +1,8 @@
 //! Follows one real pose from a known one, for control loops.
 //!
 //! The known pose `P0` is an exact solution for its own squared lengths `s(P0)`. The solver moves the squared lengths
-//! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a
-//! Kantorovich test, with bounds of every rounding, proves each of them free of singularities: the answer is the
+//! along the straight line from `s(P0)` to those asked for and follows the pose. Its segments are so short that a
+//! Kantorovich test, with bounds of every rounding, proves each of them free of singularities. So the answer is the
 //! continuous continuation of `P0`, never another assembly mode, for every choice of joints and lengths within their
 //! radii. Theory: `docs/theory/near-pose.md`.
 
@@ -20,7 +20,7 @@ use platform::manipulator::{Body, Manipulator, SquaredLegLengths};
 
 /// `4 (beta + eta) eta` aimed at for every segment; the theorem needs 1.
 const KANTOROVICH: f64 = 0.88;
-/// What it may be at most, so that the last roundings of the test itself do not matter.
+/// The largest accepted value of that number; below 1, so that the last roundings of the test itself do not matter.
 const PROVED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 /// Newton corrections within a segment; in a Kantorovich ball five reach rounding.
 const CORRECTIONS: u32 = 12;
@@ -69,7 +69,7 @@ pub struct NearSolver {
     /// Base joints relative to `origin` and platform joints relative to `centre`, in units of `unit`.
     base: [[f64; 3]; 6],
     platform: [[f64; 3]; 6],
-    /// How far, at most, the ends of the legs are from their doubles, Euclidean norms in units of `unit`: on the base
+    /// Largest distances of the ends of the legs from their doubles, Euclidean norms in units of `unit`: on the base
     /// and on the platform.
     loose: [[f64; 6]; 2],
     origin: Vector3<f64>,
@@ -107,7 +107,7 @@ pub struct NearNumbers {
     pub residual_scale: f64,
 }
 
-/// What one segment came to.
+/// The result of one segment.
 enum Segment {
     /// At the end of the way.
     Arrived(ScaledPose),
@@ -211,8 +211,8 @@ impl NearSolver {
         (target, error)
     }
 
-    /// `steps` plain Newton steps on the leg equations from `start`, without a test of where they lead: for a start so
-    /// near to the pose that a step squares its error. `None` when `start` is not a pose or singular.
+    /// Makes `steps` plain Newton steps on the leg equations from `start`, without a check for convergence. The start
+    /// has to be so near to the pose that each step squares its error. `None` when `start` is not a pose or singular.
     #[must_use]
     pub fn newton_steps(&self, s: &SquaredLegLengths, start: &Pose, steps: u32) -> Option<Pose> {
         let (target, _) = self.target(s);

@@ -1,4 +1,4 @@
-//! What following a pose came to.
+//! The outcome of following a pose.
 
 use thiserror::Error;
 
@@ -9,10 +9,10 @@ use platform::geom::Pose;
 pub struct NearEvidence {
     /// Largest error of the leg equations at the pose, over the squared size of the design.
     pub residual: f64,
-    /// `6 / (|J|_F |J^-1|_F)` at the pose, `J` the matrix of unnormalised leg lines
+    /// `6 / (|J|_F |J^-1|_F)` at the pose: 1 at best, 0 at a singularity. `J` is the matrix of unnormalised leg lines
     /// ([`plucker_matrix`](platform::manipulator::plucker_matrix)) with the RMS radius of the platform as
-    /// characteristic length: 1 at best, 0 at a singularity. Cheaper than the inverse condition number, and never below
-    /// that of the same matrix.
+    /// characteristic length. The ratio is cheaper than the inverse condition number of the same matrix, and never
+    /// below it.
     pub frobenius_ratio: f64,
     /// Segments the straight line of squared lengths was divided into; 1: the start lies in the Kantorovich ball.
     pub segments: u32,
@@ -20,7 +20,7 @@ pub struct NearEvidence {
     pub newton_steps: u32,
     /// Largest Kantorovich number `4 (beta + eta) eta` of the segments; below 1 each is free of singularities.
     pub kantorovich: f64,
-    /// How far the platform's centroid moved, design units.
+    /// Distance that the platform's centroid moved, design units.
     pub distance: f64,
     /// Angle the platform turned by, radians in `[0, pi]`.
     pub angle: f64,
@@ -64,7 +64,7 @@ pub enum NearOutcome {
     NearSingularity {
         /// The last pose before it; its own leg lengths lie on the way.
         pose: Pose,
-        /// How far on the straight line of squared lengths, from 0 to 1.
+        /// Part of the straight line of squared lengths that was covered, from 0 to 1.
         fraction: f64,
         /// Evidence at that pose.
         evidence: NearEvidence,
@@ -75,7 +75,7 @@ pub enum NearOutcome {
         pose: Pose,
         /// Why.
         reason: WhyLost,
-        /// How far on the straight line of squared lengths, from 0 to 1.
+        /// Part of the straight line of squared lengths that was covered, from 0 to 1.
         fraction: f64,
         /// Evidence at that pose (all zero when the start is not a pose).
         evidence: NearEvidence,

@@ -1,14 +1,14 @@
-//! The three angles of the corners: poses known roughly made exact, and poses at lengths at which two pairs
-//! `(s15, s34)` coincide, from those at lengths beside these.
+//! The three angles of the corners. They make roughly known poses exact, and they lead from neighbouring lengths to
+//! lengths at which two pairs `(s15, s34)` coincide.
 //!
-//! With two leg lengths each corner of the platform is on a circle about a side of the base, and the corners have three
-//! distances: three equations in three angles, of low degree, which keep the digits that the closures in two distances
+//! With two leg lengths each corner of the platform is on a circle about a side of the base. The three distances of the
+//! corners are three equations in three angles, of low degree. They keep the digits that the closures in two distances
 //! lose by cancellation.
 //!
-//! Where `P4 P5` is parallel to `P1 P3`, as at home and at every pure translation from there when the platform triangle
-//! has its sides parallel to those of the base, the four points lie in a plane, so that a pair of distances belongs to
-//! two places of `P6`: a double root of the octic, though the poses are regular, and simple zeros of the three
-//! equations.
+//! Two poses share their pair of distances when `P4 P5` is parallel to `P1 P3`. The four points then lie in a plane,
+//! and a pair of distances belongs to two places of `P6`. This happens at home, and at every pure translation from
+//! there, when the platform triangle has its sides parallel to those of the base. The octic has a double root there,
+//! though the poses are regular, and simple zeros of the three equations.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -31,7 +31,7 @@ struct OcticCircle {
 }
 
 impl OcticCircle {
-    /// Of the points at squared distances `s` from both ends of a side.
+    /// The circle of the points at squared distances `s` from both ends of a side.
     #[inline(always)]
     fn new(ends: [[f64; 2]; 2], s: [f64; 2]) -> Self {
         let [a, b] = ends;

@@ -168,8 +168,8 @@ fn the_discs_hold_the_pair_of_the_generating_pose() {
     }
 }
 
-/// What is stated about the accuracy of the poses is true of the roots, `R` and `p` each by its own size; with frames
-/// far from the joints the two have little to do with each other.
+/// The stated accuracy of the poses holds for the roots, `R` and `p` each by its own size. With frames far from the
+/// joints the two sizes have little to do with each other.
 #[test]
 fn poses_called_proved_are_the_roots_to_the_accuracy_stated() {
     let (mut checked, mut worst) = (0, 0.0_f64);
@@ -220,8 +220,8 @@ fn poses_called_proved_are_the_roots_to_the_accuracy_stated() {
     assert!(worst > 1e-13, "{worst:e}");
 }
 
-/// Joints known within a radius: the discs hold the pairs and the poses of every choice of joints, and those of joints
-/// further away are not all held.
+/// For joints known within a radius the discs hold the pairs and the poses of every choice of joints. They do not hold
+/// all pairs and poses of joints farther away.
 #[test]
 fn certificates_of_joints_within_radii_hold_for_every_choice() {
     let radius = 1e-13;

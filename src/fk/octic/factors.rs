@@ -30,9 +30,9 @@ impl Gram {
     }
 }
 
-/// `w^2 - hu hv` over a triangle `A, B, C`, with apex `U` at squared distances `x, u_B, u_C` and apex `V` at
-/// `v_A, v_B, y` and `d` between them: with `D = |b x c|^2` and heights `U_h`, `V_h`, `w = D U_h V_h` is bilinear,
-/// `hu = D U_h^2` is quadratic in `x`, `hv = D V_h^2` in `y`.
+/// `w^2 - hu hv` over a triangle `A, B, C`, with apex `U` at squared distances `x, u_B, u_C`, apex `V` at `v_A, v_B, y`
+/// and `d` between them. With `D = |b x c|^2` and heights `U_h`, `V_h`: `w = D U_h V_h` is bilinear, `hu = D U_h^2` is
+/// quadratic in `x`, and `hv = D V_h^2` in `y`.
 pub(super) struct Factors {
     w: [[f64; 2]; 2],
     hu: [f64; 3],

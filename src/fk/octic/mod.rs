@@ -387,8 +387,8 @@ fn others(skip: usize) -> [usize; 3] {
     [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]][skip]
 }
 
-/// The octic of an octahedral manipulator in `s15`, coefficients from the constant term up, in units of
-/// the design (not scaled to size one), up to a common factor.
+/// The octic of an octahedral manipulator in `s15`, up to a common factor. Coefficients run from the constant term up,
+/// in units of the design (not scaled to size one).
 ///
 /// # Errors
 /// [`FkError::NotApplicable`] when the manipulator is not octahedral.

@@ -1,11 +1,11 @@
 //! Orientations in which sides of both triangles are parallel, as at home: there pairs `(s15, s34)` coincide, and half
 //! of the poses are known from one.
 //!
-//! Where `P4 P5` is parallel to `P1 P3` these four points lie in a plane, at every translation, and `P6` mirrored in
-//! that plane has its distances to all four: two poses share their pair, a double root of the octic, though both are
-//! regular. Where all sides are parallel, as at home and at pure translations of most octahedral platforms, the same is
-//! true of `P4` and the plane `P1 P2 P5 P6`, with the same `s15`, and of `P5` and the plane `P2 P3 P4 P6`: a triple
-//! root, whose octic divided by what is known is a quartic.
+//! When `P4 P5` is parallel to `P1 P3` these four points lie in a plane, at every translation. The mirror image of `P6`
+//! in that plane has the same distances to all four. So two poses share their pair, a double root of the octic, though
+//! both are regular. At home and at pure translations of most octahedral platforms all sides are parallel. Then the
+//! same is true of `P4` and the plane `P1 P2 P5 P6`, with the same `s15`, and of `P5` and the plane `P2 P3 P4 P6`. The
+//! root is triple, and the octic divided by the known factor is a quartic.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -14,9 +14,9 @@ use super::solver::FramedTriangle;
 use num::batch::{ComplexBatch, LANES};
 use num::poly::roots_in_lanes;
 
-/// Squared lengths this near to those of a translation, in parts of all, are solved from there: three roots of the
-/// octic are one at the translation, and still close to each other at the cube root of it. Ten times farther the
-/// continuation fails too often to be worth its time.
+/// Largest relative distance of squared lengths from those of a translation for a start from there. Three roots of the
+/// octic coincide at the translation, and still differ only by the cube root of this distance beside it. Ten times
+/// farther the continuation fails too often to be worth its time.
 const NEAR: f64 = 1e-3;
 /// Sides whose angle is smaller are taken for parallel: what follows from that is where Newton's method begins.
 const PARALLEL: f64 = 1e-4;
@@ -34,8 +34,8 @@ fn minus(a: Flat, b: Flat) -> Flat {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// A corner of the platform that has a mirror image with the same distances: in the plane through a side of the base,
-/// which starts in a foot, and through another corner.
+/// A corner of the platform that has a mirror image with the same distances. The mirror is the plane through another
+/// corner and a side of the base that starts in a foot.
 #[derive(Debug, Clone, Copy)]
 struct MirrorCorner {
     corner: usize,
@@ -47,8 +47,8 @@ struct MirrorCorner {
 
 /// An orientation with both triangles in parallel planes and `P4 P5` parallel to `P1 P3`.
 ///
-/// With `d` the vectors in the plane from base to platform joints where `P4` is in `P1`, a translation by `t` has
-/// `s = |t|^2 + 2 t.d + |d|^2`: six squared lengths that are, but for `|d|^2`, combinations of `1`, `d_x` and `d_y`,
+/// With `d` the vectors in the plane from base to platform joints for `P4` in `P1`, a translation by `t` has
+/// `s = |t|^2 + 2 t.d + |d|^2`. Without `|d|^2` these six squared lengths are combinations of `1`, `d_x` and `d_y`,
 /// whose factors are the translation.
 #[derive(Debug, Clone)]
 pub(super) struct ParallelSides {
@@ -59,7 +59,7 @@ pub(super) struct ParallelSides {
     /// `2 t` is these times the squared lengths less `|d|^2`.
     factors: [[f64; 6]; 2],
     mirrors: [MirrorCorner; 3],
-    /// How many of the mirrors there are: one, or three where all sides are parallel.
+    /// The number of valid mirrors: one, or three when all sides are parallel.
     mirrored: usize,
 }
 
@@ -162,7 +162,7 @@ impl Translation<'_> {
         s
     }
 
-    /// Where a corner is: in the plane, and as a part of the height.
+    /// A corner: its place in the plane, and its height as a part of the platform's.
     #[inline(always)]
     fn corner(&self, k: usize) -> (Flat, f64) {
         let head = self.sides.heads[k];

@@ -54,7 +54,7 @@ pub struct OcticSolver {
     pub(super) base_corners: [Vector3<f64>; 3],
     pub(super) platform_corners: [Vector3<f64>; 3],
     pub(super) base_gram: Gram,
-    /// Of the platform triangle as `P5 P6 P4`.
+    /// The Gram matrix of the platform triangle as `P5 P6 P4`.
     pub(super) turned_gram: Gram,
     pub(super) parallel: [ParallelSides; 4],
     /// Absent where the joints cannot be scaled exactly.
@@ -90,7 +90,7 @@ pub struct OcticPoses {
     pub poses: [ComplexPose; 2 * LANES],
     /// Squared distances `(s15, s34)` of the pairs, design units squared.
     pub pairs: [[Complex64; 2]; LANES],
-    /// Of each pose, as [`ComplexPose::residual`].
+    /// The residual of each pose, as [`ComplexPose::residual`].
     pub residuals: [f64; 2 * LANES],
     /// The largest of them, each over the square of the pose's own numbers where these exceed 1.
     pub residual: f64,
@@ -160,9 +160,11 @@ impl OcticSolver {
         self.certifier.as_ref().map(|c| c.of_pose(pair, pose, mirrored))
     }
 
-    /// All sixteen finite complex poses, or `None` where these lengths need the general treatment of
-    /// [`Octic`](super::Octic): coinciding or nearly coinciding poses, roots at infinity, poses whose corners lie in
-    /// one plane, or a residual above `1e-12`.
+    /// All sixteen finite complex poses, or `None` when these lengths need the general treatment of
+    /// [`Octic`](super::Octic).
+    ///
+    /// They do when poses coincide or nearly coincide, roots lie at infinity, the corners of a pose lie in one plane,
+    /// or a residual exceeds `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
         on_vector_unit(Solve { solver: self, s })

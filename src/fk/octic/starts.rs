@@ -8,7 +8,7 @@ use super::lanes::{Points, pairs, separate};
 use super::parallel::Translation;
 use super::solver::OcticSolver;
 
-/// How far beside the lengths wanted those are whose poses are continued, as parts of the squares.
+/// Relative offsets, in the squares, of the neighbouring lengths whose poses are continued to the lengths wanted.
 const BESIDE: [f64; 8] = [1e-2, -1e-2, 3e-2, 3e-3, -3e-2, -3e-3, 1e-1, 1e-3];
 /// A direction without symmetry.
 const ASKEW: [f64; 6] = [0.71, -0.43, 1.0, 0.29, -0.87, 0.53];
@@ -20,7 +20,7 @@ const POLISHES: usize = 2;
 /// The same for pairs that are continued, which may still be close to each other.
 const POLISHES_BESIDE: usize = 8;
 
-/// How eight poses are found from which those wanted are continued.
+/// A start of the continuation: the way to eight poses that lead to those wanted.
 pub(super) struct Start<'a> {
     /// At these squared lengths, in the order s14 s24 s25 s35 s36 s16, where they are not those wanted.
     pub(super) beside: Option<[f64; 6]>,

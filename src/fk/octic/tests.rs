@@ -151,8 +151,8 @@ fn refuses_platforms_that_are_not_octahedral() {
     assert!(matches!(error, FkError::NotApplicable { method: Method::Octic, .. }));
 }
 
-/// Base triangle, and as platform the triangle of the midpoints of its sides times `ratio`: sides parallel, legs from
-/// the ends of a side to the corner at its middle.
+/// Base triangle, and as platform the triangle of the midpoints of its sides times `ratio`. Sides are parallel, and
+/// legs lead from the ends of a side to the corner at its middle.
 fn parallel(triangle: [Point3<f64>; 3], ratio: f64) -> Manipulator {
     let middle = |i: usize, j: usize| Point3::from((triangle[i].coords + triangle[j].coords) * (0.5 * ratio));
     let platform = vec![middle(0, 1), middle(1, 2), middle(2, 0)];

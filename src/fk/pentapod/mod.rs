@@ -1,15 +1,18 @@
-//! Where five legs hold a line: all poses of the line, real and complex, from exact arithmetic.
+//! All poses, real and complex, of a line held by five legs, from exact arithmetic.
 //!
 //! The squared lengths are linear in `(P, Q, p, v)` (see [`platform::pentapod`]), so that five independent legs leave
-//! three unknowns `t`; `p.p = P`, `p.v = Q` and `v.v = d.d` are three quadrics in them, with at most eight common
-//! zeros. They are solved by a polynomial in one linear form of `t`, whose coefficients are rational numbers, and so is
-//! everything else about them: nothing is found by iteration, and no zero can be missed.
+//! three unknowns `t`. `p.p = P`, `p.v = Q` and `v.v = d.d` are three quadrics in them, with at most eight common
+//! zeros. A polynomial in one linear form of `t` solves them; its coefficients, and all other quantities, are rational
+//! numbers. So nothing is found by iteration, and no zero can be missed.
 //!
-//! Where the joints of the other body lie in a plane, the mirror in that plane takes poses to poses, and a polynomial
-//! of degree four, three or two in one unknown gives all pairs (Borras, Thomas 2009). With `n` the relation
-//! `n_P + 2 mu n_Q - 2 a.n_p - 2 mu a.n_v = 0` that all joints satisfy, the degree is four unless `n_p` and `n_v` are
-//! parallel; then, with `n_p = r n_v`, it is three unless `n_v = 0` or `n_P = 2 r n_Q`, when it is two (Borras, Thomas,
-//! Torras 2010 build machines of the last kind, in which `mu` is an affine function of `a`).
+//! When the joints of the other body lie in a plane, the mirror in that plane takes poses to poses. Then a polynomial
+//! of degree four, three or two in one unknown gives all pairs (Borras, Thomas 2009). Let `n` be the relation
+//! `n_P + 2 mu n_Q - 2 a.n_p - 2 mu a.n_v = 0` that all joints satisfy.
+//!
+//! * The degree is four unless `n_p` and `n_v` are parallel.
+//! * With `n_p = r n_v` it is three unless `n_v = 0` or `n_P = 2 r n_Q`.
+//! * It is two in these cases. Borras, Thomas, Torras 2010 build such machines, in which `mu` is an affine function of
+//!   `a`.
 
 mod quotient;
 
@@ -25,7 +28,7 @@ use num::exact::{ExactVector, Rational, nearest, relations};
 use num::poly::{ComplexRoot, Dyadic, IntPoly, complex_roots};
 use platform::pentapod::{LINE_NUMBERS, LinearPentapod, RationalPoint, cross};
 
-/// What the line is found by.
+/// The equation that gives the poses of the line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -96,7 +99,7 @@ pub struct LinePose {
     pub direction: [Complex64; 3],
     /// Whether all of them are real numbers: decided exactly.
     pub real: bool,
-    /// How often it counts.
+    /// Multiplicity of the pose.
     pub multiplicity: usize,
     /// No coordinate of the position is farther than this from its double, nor one of the direction, relative to 1.
     pub error: [f64; 2],
@@ -122,7 +125,7 @@ fn integer(x: i64) -> Rational {
     Rational::from_integer(x.into())
 }
 
-/// What the line is found by; `None` where the legs are dependent.
+/// The equation that gives the poses of the line; `None` for dependent legs.
 #[must_use]
 pub fn line_class(p: &LinearPentapod) -> Option<LineClass> {
     let rows = p.rows();
@@ -191,7 +194,7 @@ pub fn line_poses(p: &LinearPentapod, lengths: &[f64; 5]) -> Result<LinePoses, N
     of_squares(p, &squared.ok_or(NoLinePoses::Length)?)
 }
 
-/// How many poses the line has, real and complex, for lengths that are drawn from the seed.
+/// The number of poses of the line, real and complex, for lengths that are drawn from the seed.
 ///
 /// # Errors
 /// [`NoLinePoses`].

@@ -1,9 +1,9 @@
 //! The algebra of the common zeros of polynomials in three unknowns, exactly: which monomials are left over, and what
 //! multiplication does to them.
 //!
-//! The span of the polynomials is closed under multiplication by an unknown up to a degree `D`, so that a combination
-//! whose leading form cancels is multiplied again. When no monomial of degree `D` is left over, those left over are a
-//! basis of the algebra (Mourrain 1999; `docs/theory/pose-count.md` uses the same for poses of six legs).
+//! The span of the polynomials is closed under multiplication by an unknown up to a degree `D`. So a combination whose
+//! leading form cancels is multiplied again. When no monomial of degree `D` remains, the remaining monomials are a
+//! basis of the algebra (Mourrain 1999). `docs/theory/pose-count.md` uses the same for poses of six legs.
 
 use num::exact::{ExactVector, Rational, relations};
 use num_bigint::BigInt;
@@ -172,7 +172,7 @@ impl Quotient {
         })
     }
 
-    /// How many zeros there are, each as often as its multiplicity says.
+    /// The number of zeros, counted with multiplicity.
     pub(super) fn zeros(&self) -> usize {
         self.basis.len()
     }

@@ -1,10 +1,10 @@
 //! Computes closure polynomials exactly, in integers.
 //!
-//! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers, and the closure
-//! condition of a trilateration sequence is an element of a tower of square roots over `Q(x)`, `x` the squared length
-//! of the virtual leg. Its norm to `Q(x)`, without the singular factors, is the closure polynomial: every pose at which
-//! no base of a step is singular has its `x` among the roots. Theory and figures: `docs/theory/closure-polynomials.md`.
-//! Source: Porta, Thomas, sec. III.
+//! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers. With `x` the
+//! squared length of the virtual leg, the closure condition of a trilateration sequence is an element of a tower of
+//! square roots over `Q(x)`. Its norm to `Q(x)`, without the singular factors, is the closure polynomial. Every pose at
+//! which no base of a step is singular has its `x` among the roots. Theory and figures:
+//! `docs/theory/closure-polynomials.md`. Source: Porta, Thomas, sec. III.
 
 mod strip;
 #[cfg(test)]
@@ -57,7 +57,7 @@ pub struct SingularFactor {
     /// Its degree.
     // of the norm of its numerator over the roots it contains, in the unknown; zero for a constant factor
     pub degree: usize,
-    /// How often it was removed.
+    /// Number of removals.
     // how often this norm divides the polynomial that squaring out gives; zero for a constant factor
     pub removed: usize,
 }
@@ -73,10 +73,13 @@ pub struct ClosureDegrees {
     pub distinct: usize,
     /// The factors, one for each step the closure needs.
     pub factors: Vec<SingularFactor>,
-    /// `e_t` with `P = N(f) prod_t N(A_t)^(e_t)` up to a constant: `f` the closure (computed less known squared
-    /// distance), `A_t = -D(i, j, k)` of the base of step `t`, `N(f)` the product over the signs of all roots of the
-    /// closure (two to the number of `factors`), `N(A_t)` that over the signs of the `t` earlier steps. A fraction when
-    /// `A_t` does not depend on some of them; zero for constant factors.
+    /// `e_t` with `P = N(f) prod_t N(A_t)^(e_t)` up to a constant. It is a fraction when `A_t` does not depend on some
+    /// of the earlier steps, and zero for constant factors.
+    ///
+    /// * `f` is the closure (computed less known squared distance).
+    /// * `A_t = -D(i, j, k)` belongs to the base of step `t`.
+    /// * `N(f)` is the product over the signs of all roots of the closure (two to the number of `factors`).
+    /// * `N(A_t)` is the product over the signs of the `t` earlier steps.
     pub exponents: Vec<f64>,
 }
 
@@ -105,10 +108,10 @@ impl ClosurePolynomial {
     /// The number of real poses over each of [`real_roots`](Self::real_roots), proved, when there are `poses` finite
     /// complex poses in all; `None` when it does not follow.
     ///
-    /// There is a pose over every root at which no base is singular. So if there are as many distinct roots as poses,
-    /// there is one over each, and over a real root it is its own conjugate. If both bodies are planar and there are
-    /// half as many roots, there are a pose and its mirror image over each: two real ones where the square of the
-    /// height of the first joint over the base plane is positive, none where it is negative.
+    /// There is a pose over every root at which no base is singular. So with as many distinct roots as poses there is
+    /// one over each, and a pose over a real root is its own conjugate. With planar bodies and half as many roots there
+    /// are a pose and its mirror image over each root. Both are real when the square of the height of the first joint
+    /// over the base plane is positive; neither is when it is negative.
     #[must_use]
     pub fn real_poses(&self, poses: usize) -> Option<Vec<usize>> {
         if !self.regular {
@@ -161,8 +164,8 @@ pub fn closure_polynomial(
 
 /// Degrees for a random member of the topology of `legs` with the sequence `s`.
 ///
-/// The member's joints and lengths are random integers; degrees modulo a prime of sixty-one bits are those of almost
-/// all members, wrong with a probability of about the degree over the prime.
+/// The member's joints and lengths are random integers. The degrees modulo a prime of sixty-one bits are those of
+/// almost all members; they are wrong with a probability of about the degree over the prime.
 ///
 /// # Errors
 /// [`ClosureError`].
@@ -214,7 +217,7 @@ fn degrees(data: &ExactData, s: &Sequence) -> Result<ClosureDegrees, ClosureErro
     Ok(ClosureDegrees { before, after, distinct, factors: removal.factors, exponents: removal.exponents })
 }
 
-/// What is left when the singular factors are divided out at the end, as in the paper.
+/// The polynomial that remains when the singular factors are divided out at the end, as in the paper.
 struct Removal {
     polynomial: FieldPoly,
     factors: Vec<SingularFactor>,
@@ -223,9 +226,9 @@ struct Removal {
 
 /// Divides by the norms of the singular factors, each without what earlier ones contribute to it.
 ///
-/// With `D_t` the numerator of `A_t = D_t / prod_s D_s^(a_ts)`, `M_t` the norm of `D_t` over the levels it is written
-/// in, `M_t = N_t prod_s N_s^(c_ts)`, and `K_t` times `M_t` in the denominator of `N(f)`, the exponents of `N_t` in
-/// `P / N(f)` are `K_t + sum_u c_ut K_u` less those removed; then from `N_t` to `N(A_t)`.
+/// Let `D_t` be the numerator of `A_t = D_t / prod_s D_s^(a_ts)`, and `M_t = N_t prod_s N_s^(c_ts)` the norm of `D_t`
+/// over the levels it is written in. Let the denominator of `N(f)` have `K_t` times `M_t`. Then the exponents of `N_t`
+/// in `P / N(f)` are `K_t + sum_u c_ut K_u` less those removed. The last step is from `N_t` to `N(A_t)`.
 fn remove_factors(all: &strip::Literal<FieldPoly>) -> Removal {
     let count = all.factors.len();
     let mut polynomial = all.polynomial.clone();

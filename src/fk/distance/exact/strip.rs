@@ -9,8 +9,8 @@
 //! P   = o + [ (2 v.v F - m G) u + (2 u.u G - m F) v + 2 sqrt(s_oP A - K) n ] / A.
 //! ```
 //!
-//! The closure is a condition `2 w.(P - o) = h` on the last of the steps it needs; with the sixteen doubled scalar
-//! products of `u, v, P - o, w` known its norm over the root of that step is a Gram determinant, which vanishes for
+//! The closure is a condition `2 w.(P - o) = h` on the last of the steps it needs. The sixteen doubled scalar products
+//! of `u, v, P - o, w` are known. Then its norm over the root of that step is a Gram determinant, which vanishes for
 //! four vectors in space:
 //!
 //! ```text
@@ -125,7 +125,7 @@ impl<'a, R: Ring> Strip<'a, R> {
         }
     }
 
-    /// What the closure says: the known distance, or the unknown when there is no virtual leg.
+    /// The distance that the closure prescribes: the known one, or the unknown when there is no virtual leg.
     fn closing(&self) -> Fraction<R> {
         let StripClosure { last, other, .. } = self.closure;
         match last.across(other) {
@@ -222,8 +222,8 @@ impl<'a, R: Ring> Strip<'a, R> {
         Ok(())
     }
 
-    /// Before the last step of the closure: a multiple, without the root of that step, of the product of the closure
-    /// over both signs of it.
+    /// A multiple of the product of the closure over both signs of its last step, without the root of that step. It is
+    /// computed before that step.
     pub(super) fn gram_determinant(&self) -> Result<Fraction<R>, ClosureError> {
         let t = self.closure.steps - 1;
         assert!(self.placed.len() == t);
@@ -251,12 +251,13 @@ impl<'a, R: Ring> Strip<'a, R> {
         std::array::from_fn(|i| std::array::from_fn(|j| pair(list[i], list[j])))
     }
 
-    /// The closure is a distance of a joint `K` rigidly joined to all three that are placed, `P1`, `P2`, `P3`, from a
-    /// joint `L` in place.
+    /// The closure for a distance between a joint `K` and a joint `L` in place. `K` is rigidly joined to the three
+    /// placed joints `P1`, `P2`, `P3`.
     ///
     /// With `y = P2 - P1`, `z = P3 - P1`, `n = y x z`: `|n|^2 (K - P1) = c_y y + c_z z + c_n n`, integers. With
     /// `t = P1 - L` the closure is `2 w.z = h`, `w = c_z t + c_n (t x y)`. The four vectors of the Gram matrix are `y`,
-    /// `v = J - P1` (`J` the joint in place that the third step starts from), `z` and `2 w`; all products are doubled.
+    /// `v = J - P1`, `z` and `2 w`, and `J` is the joint in place that the third step starts from. All products are
+    /// doubled.
     fn rigid_products(&self) -> Result<[[Fraction<R>; 4]; 4], ClosureError> {
         let f = &self.fractions;
         let [p1, p2, p3] = self.steps.map(|s| s.place);
@@ -338,8 +339,8 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 }
 
-/// The closures to choose from: that of the sequence, or without virtual legs every pair of a joint placed by the steps
-/// and a joint of the first body without a leg between them, the joint placed last first.
+/// The closures to choose from. With virtual legs it is the closure of the sequence. Otherwise it is every pair of a
+/// joint placed by the steps and a joint of the first body without a leg between them, the joint placed last first.
 pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<StripClosure> {
     let steps: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
     let order = |j: JointIndex| {

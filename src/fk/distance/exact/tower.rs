@@ -291,7 +291,7 @@ impl<R: Ring> Tower<R> {
     }
 }
 
-/// What is needed to divide by an element.
+/// An element with its cofactor and norm, prepared for divisions by it.
 #[derive(Clone)]
 pub(super) struct Divisor<R> {
     pub(super) element: Element<R>,

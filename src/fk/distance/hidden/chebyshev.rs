@@ -21,8 +21,8 @@ pub(super) struct Chebyshev {
 /// Terms below this part of the largest on their ellipse say little.
 const TRUSTED: f64 = 1e-9;
 
-/// The points with positive imaginary part that a polynomial of this degree with real coefficients is known by:
-/// equidistant for `v` on a circle, on an ellipse about the interval `[-1, 1]` for `t`.
+/// The points with positive imaginary part that determine a polynomial of this degree with real coefficients. They are
+/// equidistant for `v` on a circle, and lie on an ellipse about the interval `[-1, 1]` for `t`.
 pub(super) fn nodes(degree: usize, radius: f64) -> Vec<Complex64> {
     (0..count(degree)).map(|k| of_circle(Complex64::from_polar(radius, angle(degree, k)))).collect()
 }
@@ -66,8 +66,8 @@ impl Chebyshev {
         }
     }
 
-    /// Where to look again: a wider ellipse when the last coefficients are small there, a narrower one when the first
-    /// are.
+    /// The radius for another attempt: a wider ellipse when the last coefficients are small here, a narrower one when
+    /// the first are.
     pub(super) fn doubtful(&self, radius: f64) -> Option<f64> {
         let small = |list: &[f64]| list.iter().all(|w| *w < TRUSTED);
         let n = self.weight.len();

@@ -256,8 +256,8 @@ struct BlockSearch {
 }
 
 impl BlockSearch {
-    /// Zeros by interpolation on one ellipse or several, and the excess; points of an ellipse when some platform cannot
-    /// be solved or all poses are found on the way.
+    /// Zeros by interpolation on one ellipse or several, and the excess. It returns points of an ellipse when some
+    /// platform cannot be solved or all poses are found on the way.
     fn interpolate(&mut self, platform: &mut Platform<'_>) -> (Vec<Complex64>, f64) {
         let mut best: Option<Chebyshev> = None;
         let mut radius = ELLIPSE;
@@ -305,8 +305,8 @@ impl BlockSearch {
         }
     }
 
-    /// The poses nearest to closing at a zero are starts for Newton's method; unless they lead to a solution for it,
-    /// the zero takes an Ehrlich-Aberth step on the polynomial itself, `F'/F = sum (ds_m/dt) / (s_m - s)`.
+    /// Starts Newton's method from the poses nearest to closing at a zero. Unless they lead to a solution for it, the
+    /// zero takes an Ehrlich-Aberth step on the polynomial itself, `F'/F = sum (ds_m/dt) / (s_m - s)`.
     fn visit(&mut self, platform: &mut Platform<'_>, k: usize) {
         let t = self.zeros[k];
         let size = t.norm().max(1.0);

@@ -1,11 +1,11 @@
-//! Legs with complex squared lengths that close on the circle of a joint two of them carry, and the closure condition
-//! of the last leg as a product over the poses without it.
+//! Legs with complex squared lengths that close on the circle of a joint shared by two of them. The closure condition
+//! of the last leg is a product over the poses without it.
 //!
 //! For `w` on the circle of the shared joint the other legs but one leave 8 poses (4 when two of them have a common
 //! base joint). The product of `s_m - s` over them, `s_m` the squared length of the last leg, is a rational function of
-//! `w` that vanishes exactly where all legs fit. Its poles do not depend on the last leg: they are where a triangle of
-//! the joint and two of the three legs degenerates, the factors `A_ijk` of the trilaterations; multiplied with these it
-//! is a Laurent polynomial from `w^-20` to `w^20` (from -12 to 12).
+//! `w`. It vanishes exactly where all legs fit. Its poles do not depend on the last leg: there a triangle of the joint
+//! and two of the three legs degenerates, a factor `A_ijk` of the trilaterations. Multiplied with these factors the
+//! function is a Laurent polynomial from `w^-20` to `w^20` (from -12 to 12).
 
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
@@ -17,8 +17,8 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The points with given squared distances to two fixed points, `c + r (cos t e1 + sin t e2)` with `w = exp(i t)`.
 ///
-/// The squared distance of such a point from a third fixed point, a virtual leg, is `x0 + x1 w + x2 / w`: each value of
-/// it belongs to two points, one for each sign of the radical of a trilateration, and `w` takes the place of the length
+/// The squared distance of such a point from a third fixed point, a virtual leg, is `x0 + x1 w + x2 / w`. Each value of
+/// it belongs to two points, one for each sign of the radical of a trilateration. So `w` takes the place of the length
 /// and the sign.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HiddenCircle {
@@ -88,7 +88,7 @@ pub(super) fn unscaled(pose: &ComplexPose, m: &Manipulator) -> ComplexPose {
     ComplexPose { rotation: pose.rotation, position: pose.position * Complex64::from(m.size()) }
 }
 
-/// Which legs do what.
+/// The roles of the legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct LegRoles {
     /// The joint is one of the base: the platform is taken for fixed.
@@ -171,7 +171,7 @@ pub(super) struct HiddenClosure {
     pub(super) last: Arm,
 }
 
-/// What is kept from one evaluation to the next, to start near.
+/// Data kept from one evaluation to the next, so that it starts near.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scratch {
     warm: Option<ComplexBatch>,
@@ -201,7 +201,7 @@ pub(super) struct PosesOfJoint {
 }
 
 impl PosesOfJoint {
-    /// How far along the circle a pose is from closing, to first order.
+    /// Distance of a pose from closing, along the circle, to first order.
     pub(super) fn step(&self, k: usize) -> f64 {
         (self.placed[k].gap / self.placed[k].slope).norm()
     }

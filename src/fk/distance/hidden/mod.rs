@@ -1,11 +1,13 @@
 //! Two and three virtual legs: one length is hidden, the others follow from it.
 //!
 //! A design with two virtual legs has a joint that two legs share; it moves on a circle. With the joint at a point of
-//! it three of the other four legs leave finitely many poses, and the last leg closes: its squared length, as a product
-//! over these poses, is a rational function on the circle with known poles and 40 (24) zeros, the poses of the
-//! platform. Without a shared joint, the 6-6, a virtual leg that shares a joint takes the place of a leg, and the same
-//! product over the 40 poses of that platform is a polynomial of degree 40 in the squared virtual length. Theory,
-//! proofs and costs: `docs/theory/hidden-lengths.md`.
+//! the circle three of the other four legs leave finitely many poses, and the last leg closes. The product over these
+//! poses of the errors of its squared length is a rational function on the circle with known poles. Its 40 (24) zeros
+//! are the poses of the platform.
+//!
+//! Without a shared joint, the 6-6, a virtual leg that shares a joint takes the place of a leg. The same product over
+//! the 40 poses of that platform is a polynomial of degree 40 in the squared virtual length. Theory, proofs and costs:
+//! `docs/theory/hidden-lengths.md`.
 
 mod chebyshev;
 mod general;

@@ -10,13 +10,12 @@ use num::poly::approximate_roots;
 
 /// Sweeps after which a zero that still moves is left where it is.
 const SWEEPS: usize = 30;
-/// A step below this, relative to the size of the zero, is the last: the one after it would be of the order of its
-/// cube.
+/// A step below this, relative to the size of the zero, is the last. The next one would be of the order of its cube.
 const SETTLED: f64 = 1e-6;
 
 /// A function with as many zeros as start values are given for: a polynomial, not necessarily by its coefficients.
 pub(super) trait RootCondition {
-    /// What else an evaluation finds.
+    /// Further results of an evaluation.
     type Evidence;
 
     /// `p'(z) / p(z)`, infinite or not a number at a zero; `None` where it cannot be computed.
@@ -30,7 +29,8 @@ pub(super) trait RootCondition {
 #[derive(Debug, Clone)]
 pub(super) struct Zero<E> {
     pub(super) at: Complex64,
-    /// Of the last evaluation: where the zero was before its last step, `None` when that failed.
+    /// Evidence of the last evaluation, at the place of the zero before its last step; `None` when that evaluation
+    /// failed.
     pub(super) evidence: Option<E>,
     pub(super) settled: bool,
 }
@@ -136,8 +136,8 @@ fn points(half: usize) -> usize {
 #[derive(Debug, Clone)]
 struct Laurent {
     coefficients: Vec<Complex64>,
-    /// What the term of each coefficient is over the largest, on the circle it was found on: about rounding over its
-    /// relative error.
+    /// The term of each coefficient over the largest, on the circle it was found on. It is about rounding over the
+    /// relative error of the coefficient.
     weight: Vec<f64>,
     excess: f64,
 }

@@ -1,10 +1,10 @@
 //! The rotations about a known joint that give three more legs their lengths.
 //!
 //! With the joint at `a` a leg from `A` to the platform point at `b` from the joint has `u . R b = c`, `u = A - a`,
-//! `c = (|b|^2 + |u|^2 - s) / 2`. The first of three fixes the angle of `R b_1` and `u_1`, a trilateration; then
-//! `R = E Rz(phi) Ry(theta) Rz(psi) K^T` with frames `E`, `K` that have `u_1` and `b_1` for third axes, and the other
-//! two are forms of bidegree (2, 2) in `z = exp(i phi)` and `y = exp(i psi)`, whose resultant has degree 8. All of it
-//! holds over the complex numbers. Its roots are found from those of a neighbour when there are some.
+//! `c = (|b|^2 + |u|^2 - s) / 2`. The first of three legs fixes the angle of `R b_1` and `u_1`, a trilateration. Then
+//! `R = E Rz(phi) Ry(theta) Rz(psi) K^T` with frames `E`, `K` that have `u_1` and `b_1` for third axes. The other two
+//! legs are forms of bidegree (2, 2) in `z = exp(i phi)` and `y = exp(i psi)`, whose resultant has degree 8. All of it
+//! holds over the complex numbers. The roots are found from those of a neighbour when there are some.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 

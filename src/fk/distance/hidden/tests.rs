@@ -7,8 +7,8 @@ use super::*;
 use num::Rng;
 use platform::geom::{Pose, random_rotation};
 
-/// Legs of the three topologies with two virtual legs, of one of them with the bodies exchanged, and of the 6-6, with
-/// the number of poses.
+/// Legs of three topologies with two virtual legs (one of them also with the bodies exchanged) and of the 6-6, with the
+/// number of poses.
 const CLASSES: [([(usize, usize); 6], usize); 4] = [
     ([(0, 0), (1, 0), (2, 1), (3, 2), (4, 3), (5, 4)], 40),
     ([(0, 0), (0, 1), (1, 2), (2, 3), (3, 4), (4, 5)], 40),

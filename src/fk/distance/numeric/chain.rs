@@ -16,7 +16,7 @@ use platform::topology::{JointIndex, Sequence, Step};
 
 /// Places for six joints of the first body and three of the second.
 const SLOTS: usize = 9;
-/// Where the three joints stand.
+/// The first slot of the three joints.
 const THREE: usize = 6;
 
 /// Positions of joints, in the frame of the first body over the size.
@@ -25,7 +25,7 @@ pub(super) type Positions<T> = [Vector<T>; SLOTS];
 /// A known squared distance.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Measured {
-    /// That of a leg, or with numbers from 6 on of a virtual leg whose length is given.
+    /// The length of a leg. Numbers from 6 on are virtual legs whose length is given.
     Leg(usize),
     /// Within a body.
     Fixed(f64),
@@ -62,9 +62,9 @@ pub(super) struct Turn {
 /// The known distance that no step uses.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum ChainClosure {
-    /// Of two joints in place.
+    /// The distance of two joints in place.
     Pair([usize; 2], Measured),
-    /// Of a joint of the first body and one that is `y1 + a (y2 - y1) + b (y3 - y1) + c (y2 - y1) x (y3 - y1)`.
+    /// The distance of a joint of the first body from `y1 + a (y2 - y1) + b (y3 - y1) + c (y2 - y1) x (y3 - y1)`.
     Rigid { at: usize, omega: [f64; 3], distance: Measured },
 }
 
@@ -99,8 +99,8 @@ impl Slots {
 }
 
 impl TrilaterationChain {
-    /// The sequence for `m`, with the lengths of the virtual legs `given` known and, when there is one more, that one
-    /// to be found from `closure`. `None` when the sequence is not of this kind.
+    /// The sequence for `m`, with known lengths of the virtual legs `given`. A further virtual leg is found from
+    /// `closure`. `None` when the sequence is not of this kind.
     pub(super) fn new(
         m: &Manipulator,
         s: &Sequence,
@@ -301,8 +301,8 @@ const NUDGE: f64 = 1e-7;
 /// Most sweeps of the simultaneous iteration.
 const SWEEPS: usize = 12;
 
-/// How often the Gram determinants of the two steps after the turn divide the product of the closures over all
-/// orientations.
+/// Exponents of the Gram determinants of the two steps after the turn, by which the product of the closures over all
+/// orientations is divided.
 pub(super) type Exponents = [u32; 2];
 
 /// A chain with lengths, the joints before the turn in place.
@@ -448,8 +448,8 @@ impl<'a> ChainBranch<'a> {
         out
     }
 
-    /// Ehrlich-Aberth sweeps on the product itself, of degree `2 degree` in `u` after multiplication by `u^degree`:
-    /// coefficients lose what is small beside the largest value on the circle, the product does not.
+    /// Ehrlich-Aberth sweeps on the product itself, of degree `2 degree` in `u` after multiplication by `u^degree`. Its
+    /// coefficients lose digits that are small beside the largest value on the circle; the product keeps them.
     pub(super) fn separate(&self, zeros: &mut [Complex64], e: Exponents, degree: usize) {
         for _ in 0..SWEEPS {
             let nudged = zeros.iter().map(|u| u * (1.0 + NUDGE));

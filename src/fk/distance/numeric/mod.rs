@@ -2,10 +2,10 @@
 //!
 //! The joint at the end of the virtual leg has two other known distances, so that it turns on a circle. Its angle is a
 //! better unknown than the length of the virtual leg: `u = exp(i angle)` is a rational parameter of the first square
-//! root, and real configurations have `|u| = 1`. The closures of all orientations of the later steps multiplied
-//! together are a polynomial in `u` and `1/u` over powers of the Gram determinants of the steps' bases; values on
-//! `|u| = 1` give its coefficients, its zeros give one configuration each, made accurate by Newton's method on the
-//! closure itself. Theory: `docs/theory/trilateration.md`.
+//! root, and real configurations have `|u| = 1`. The closures of all orientations of the later steps, multiplied
+//! together, are a polynomial in `u` and `1/u` over powers of the Gram determinants of the steps' bases. Values on
+//! `|u| = 1` give its coefficients. Each zero gives one configuration, which Newton's method on the closure itself
+//! makes accurate. Theory: `docs/theory/trilateration.md`.
 
 mod chain;
 mod number;
@@ -28,7 +28,7 @@ use platform::topology::{JointIndex, Sequence};
 pub struct Evaluator {
     chain: TrilaterationChain,
     shape: GenericDegrees,
-    /// Where the polynomial is sampled.
+    /// The sample points of the polynomial.
     circle: Vec<Complex64>,
 }
 
@@ -83,7 +83,7 @@ impl Evaluator {
         Some(Self { chain: TrilaterationChain::new(m, s, given, closure)?, shape, circle })
     }
 
-    /// What is known of all designs of the topology.
+    /// The degrees that hold for all designs of the topology.
     #[must_use]
     pub fn shape(&self) -> GenericDegrees {
         self.shape
@@ -95,8 +95,8 @@ impl Evaluator {
         self.chain.closure.is_some()
     }
 
-    /// All configurations for squared lengths of the six legs, then of the virtual legs given, in design units squared;
-    /// complex ones are as good as real ones. The polynomial is sampled on `|u| = radius`: zeros far from there lose
+    /// All configurations, real and complex. `squares` are the squared lengths of the six legs, then of the given
+    /// virtual legs, in design units squared. The polynomial is sampled on `|u| = radius`; zeros far from there lose
     /// digits.
     #[must_use]
     pub fn configurations(&self, squares: &[Complex64], radius: f64) -> Configurations {

@@ -1,5 +1,5 @@
-//! What a sequence's closure polynomial looks like, measured once on a random design with the same joints shared, and
-//! its zeros: those of a polynomial in `u` and `1/u`, from its values on a circle.
+//! The degrees of a sequence's closure polynomial, measured once on a random design with the same joints shared. Its
+//! zeros are those of a polynomial in `u` and `1/u`, found from its values on a circle.
 
 use nalgebra::Point3;
 use num_complex::Complex64;
@@ -160,7 +160,7 @@ fn gram_zero(branch: &ChainBranch<'_>, t: usize, rng: &mut Rng) -> Option<Comple
     (reasonable && branch.grams(y)[t].norm() < 1e-9 * scale).then_some(y)
 }
 
-/// How often a function turns about zero along a small circle; `None` when that is not clear.
+/// The number of turns of a function about zero along a small circle; `None` when it is not clear.
 fn winding(f: &dyn Fn(Complex64) -> Complex64, centre: Complex64) -> Option<i32> {
     /// Points of the circle: enough to count the turns of a zero of any order that occurs.
     const POINTS: usize = 48;

@@ -1,4 +1,4 @@
-//! Which trilateration sequence to use for a design.
+//! The choice of the trilateration sequence for a design.
 
 use nalgebra::Point3;
 use thiserror::Error;

@@ -197,15 +197,16 @@ pub(super) fn motion(from: &ScaledPose, to: &ScaledPose) -> (f64, f64) {
 const UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 const U: f64 = f64::EPSILON / 2.0;
 
-/// How far the numbers of a [`LegDefects`] may be from those of the exact problem, leg by leg, Euclidean norms.
+/// Largest distances of the numbers of a [`LegDefects`] from those of the exact problem, leg by leg, Euclidean norms.
 ///
-/// The exact problem has the joints of the design, any within their radii, moved by the doubles `origin` and `centre`
-/// and divided by the double `unit`, the rotation nearest to the matrix of the place, and target squares within
-/// `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants rounded up:
+/// The exact problem has the joints of the design, any within their radii. They are moved by the doubles `origin` and
+/// `centre` and divided by the double `unit`. Its rotation is the one nearest to the matrix of the place, and its
+/// target squares are within `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants
+/// rounded up:
 ///
 /// * joints: a difference and a quotient, `2 u |a|`, `2 u |b|`, and how far the joints may be from their doubles;
-/// * rotation: the singular values of `R` are off 1 by at most `|R^T R - I|`, so the nearest rotation is that near
-///   (entries of `R^T R` are computed to `3 u`);
+/// * rotation: the singular values of `R` differ from 1 by at most `|R^T R - I|`. The nearest rotation is that near to
+///   `R`. The entries of `R^T R` are computed to `3 u`;
 /// * `B = R b`: `(|R^T R - I| + 9 u) |b|`; `A = a - q`: `2 u |a| + u |A|`; `D = B - A`: both and `u |D|`;
 /// * `f = (D.D - s) / 2`: `|D| d + d^2 / 2`, six roundings of `|D|^2`, one of `f`, half of `target_error`.
 pub(super) struct Blur {
@@ -246,7 +247,7 @@ impl Blur {
         out
     }
 
-    /// Of a row of the Jacobian: `d` in `D`, and in `2 B x D` the terms of the product's change with its own rounding;
+    /// Bound for a row of the Jacobian. It adds `d` for `D`, the change of the product `2 B x D` with its own rounding,
     /// and seven roundings of a sum over six such rows.
     fn row(&self, here: &LegDefects, i: usize) -> f64 {
         let (b, d) = (norm(&here.b[i]), norm(&here.d[i]));
@@ -254,8 +255,8 @@ impl Blur {
         (self.d[i] + turned + 10.0 * U * b * d + 8.0 * U * (d + 2.0 * b * d)) * UP
     }
 
-    /// Of the coefficients of `Q_i` without those of `g0 D.w`, and of the latter: `A + B`, and `W` with
-    /// `|W| <= 6 |A| |B|`; and the roundings of their sums.
+    /// Bounds for the coefficients of `Q_i`: first of the terms without `g0 D.w`, then of `g0 D.w`. The first are
+    /// `A + B` and `W` with `|W| <= 6 |A| |B|`. Both include the roundings of their sums.
     fn second_order(&self, here: &LegDefects, i: usize) -> (f64, f64) {
         let (a, b) = (norm(&here.a[i]), norm(&here.b[i]));
         let own = 10.0 * U * (1.0 + a + b + 6.0 * a * b);
