@@ -1,12 +1,12 @@
 //! Linear dependence of the six leg vectors, decided exactly where that is possible.
 //!
-//! The leg `(a, b)` is the vector `v = (1, a) (x) (1, b)` of `R^16`, its equation is
+//! The leg `(a, b)` is the vector `v = (1, a) (x) (1, b)` of `R^16`. Its equation is
 //! `<v, W(pose)> + |a|^2 + |b|^2 - s = 0` (multiplied by `e.e`). A relation `sum c_i v_i = 0` leaves
-//! `e.e sum c_i (|a_i|^2 + |b_i|^2 - s_i) = 0`: either the lengths satisfy the relation as well, and one
-//! equation says nothing, or `e.e = 0` and there is no finite pose.
+//! `e.e sum c_i (|a_i|^2 + |b_i|^2 - s_i) = 0`. Either the lengths satisfy the relation as well, and one equation is
+//! redundant, or `e.e = 0` and there is no finite pose.
 //!
-//! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. Of joints
-//! known between bounds only nothing is decided beyond their being far from any relation.
+//! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. For joints
+//! known only between bounds one statement is possible: they are far from any relation.
 
 use num::exact::{ExactVector, Rational, rational, relations};
 use num::surd::{Surd, combination, eliminate};
@@ -20,7 +20,7 @@ const SUSPECT: f64 = 1e-9;
 /// square and the pose it was computed from.
 const ROUNDING: f64 = 1.0 / (1u64 << 49) as f64;
 
-/// What is known of the six leg vectors and lengths.
+/// The known dependence of the six leg vectors and its agreement with the lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LegDependence {
     /// Independent, far from any relation.

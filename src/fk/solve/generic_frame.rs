@@ -1,6 +1,6 @@
 //! Frames for the eliminations: first leg in both origins, both bodies turned at random, lengths scaled.
 //!
-//! Cayley coordinates `e = (1, c)` miss the half-turns and single out coordinate axes; after random turns of both
+//! Cayley coordinates `e = (1, c)` miss the half-turns and single out coordinate axes. After random rotations of both
 //! frames the finitely many roots avoid the exceptions with probability one.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -28,7 +28,7 @@ pub struct GenericProblem {
     frame: GenericFrame,
 }
 
-/// What an elimination leaves of a root, in the frames of its problem: neither refined nor checked.
+/// A root as an elimination gives it, in the frames of its problem: neither refined nor checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RawCandidate {
     /// The quaternion `(1, c)`, `c` the Cayley vector, up to a factor.

@@ -1,5 +1,5 @@
-//! Solving six leg equations for all complex poses, without knowing where the equations come from, and
-//! certifying the roots by code that shares nothing with the solver.
+//! Solves six leg equations for all complex poses, and certifies the roots by code that shares nothing with the solver.
+//! Nothing here knows where the equations come from.
 
 pub mod certify;
 mod dependence;

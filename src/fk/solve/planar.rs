@@ -6,12 +6,12 @@
 //! N, e0^2 - e3^2, e1^2 - e2^2, 2 e0 e3, 2 e1 e2, (e0 gv - g0 ev)_xy, (ev x gv)_xy, g.g,
 //! ```
 //!
-//! all of them invariant under the mirror map `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`: with `k` the third
-//! quaternion unit and `S = diag(1, 1, -1)` it is `e -> k e k~`, `g -> -k g k~`, that is `R -> S R S`, `p -> S p`, the
-//! reflection of the scene in the plane of the base and of the platform in its own. Poses come in mirror pairs, the 40
-//! of the general member in 20. A pose that is its own mirror image has the platform in the plane of the base; there
-//! the leg equations are even in three of six directions, so that an isolated one has multiplicity eight at least. Six
-//! general sections in the ten forms miss these poses, which form a threefold.
+//! all of them invariant under the mirror map `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`. With `k` the third
+//! quaternion unit and `S = diag(1, 1, -1)` it is `e -> k e k~`, `g -> -k g k~`, that is `R -> S R S`, `p -> S p`. It
+//! reflects the scene in the plane of the base and the platform in its own. Poses come in mirror pairs, the 40 of the
+//! general member in 20. A pose that is its own mirror image has the platform in the plane of the base. There the leg
+//! equations are even in three of six directions, so that an isolated one has multiplicity eight at least. Six general
+//! sections in the ten forms miss these poses, which form a threefold.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;
@@ -26,7 +26,7 @@ pub(crate) const PLANAR_FORMS: usize = 10;
 pub(crate) type PlanarRow = [f64; PLANAR_FORMS];
 
 /// Joints count as coplanar when they are closer to the plane of three of them than this part of the largest
-/// coordinate: what rounding makes of joints in a plane that is not a coordinate plane.
+/// coordinate. Rounding moves joints that far out of a plane that is not a coordinate plane.
 const FLAT: f64 = 64.0 * f64::EPSILON;
 /// The triangle that spans the plane must not be thinner than this part of the square of the size.
 const SPAN: f64 = 1e-3;

@@ -1,18 +1,17 @@
 //! Six leg equations as six linear sections of the group variety, in dual-quaternion coordinates.
 //!
-//! With the rotation quaternion `e` and `g = p e` (quaternion product, `p` the position as a pure
-//! quaternion, `e.g = 0`) every leg equation, multiplied by `N = e.e`, is one quadratic form
+//! Let `e` be the rotation quaternion, `p` the position as a pure quaternion, and `g = p e` their quaternion product,
+//! so that `e.g = 0`. Then every leg equation, multiplied by `N = e.e`, is one quadratic form
 //!
 //! ```text
 //! q(e, g) = e^T E e + g^T T e + c g.g,      T e = (-m.ev, m e0 + n x ev),
 //! ```
 //!
-//! `E` symmetric 4 x 4, `T` skew 4 x 4 given by the two vectors `m, n`, `c` a number: 17 coefficients.
-//! For the leg `(a, b, s)`: `m = 2 (b - a)`, `n = -2 (a + b)`, `c = 1` and
-//! `e^T E e = (|a|^2 + |b|^2 - s) N - 2 a^T R b N`. The 17 forms are the coordinates of the compactified
-//! group `SE(3)` in `P^16`, a sixfold of degree 40 (Gallet, Nawratil, Schicho 2014), so that six general
-//! linear equations in them have 40 solutions, whatever the legs. Only the span of the six coefficient
-//! vectors matters: they are made orthonormal, which removes the scale of each equation and the
+//! with `E` symmetric 4 x 4, `T` skew 4 x 4 given by the two vectors `m, n`, and `c` a number: 17 coefficients. For the
+//! leg `(a, b, s)`: `m = 2 (b - a)`, `n = -2 (a + b)`, `c = 1` and `e^T E e = (|a|^2 + |b|^2 - s) N - 2 a^T R b N`. The
+//! 17 forms are the coordinates of the compactified group `SE(3)` in `P^16`, a sixfold of degree 40 (Gallet, Nawratil,
+//! Schicho 2014). So six general linear equations in them have 40 solutions, whatever the legs. Only the span of the
+//! six coefficient vectors matters. They are made orthonormal, which removes the scale of each equation and the
 //! dependence on the leg order up to rounding.
 
 use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
@@ -61,15 +60,15 @@ impl ScaledFrames {
         Some(Self { planes: Some(Planes::of(m)?), ..Self::of(m, s) })
     }
 
-    /// The orthonormalised sections of the legs, in this frame, `g.g` in the last one only: far out, where `|e|` is
-    /// small against `|g|`, rounding in `g.g` would drown what the others say about `e`. `None` when the six leg
-    /// equations are linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
+    /// The orthonormalised sections of the legs, in this frame, `g.g` in the last one only. Far out, where `|e|` is
+    /// small against `|g|`, rounding in `g.g` would drown the information of the others about `e`. `None` when the six
+    /// leg equations are linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
     pub fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
         self.moving_sections(m, s, &[Complex64::ZERO; 6]).map(|(sections, _)| sections)
     }
 
-    /// The same, and for each section the factor of `e.e` by which it changes when the squared lengths change by
-    /// `change` (design units squared) and the legs are combined as they are here.
+    /// The sections, and for each the factor of `e.e` by which it changes with the squared lengths. They change by
+    /// `change` (design units squared), and the legs are combined as they are here.
     pub(crate) fn moving_sections(
         &self,
         m: &Manipulator,
@@ -102,8 +101,8 @@ impl ScaledFrames {
     }
 
     /// The span of the leg equations as far as they are independent (sines above `tolerance`), filled up to six
-    /// dimensions by random real sections, and how many these are: `least` or more, for which general combinations of
-    /// the leg equations make room.
+    /// dimensions by random real sections. The second result is the number of these: `least` or more, and general
+    /// combinations of the leg equations make room for them.
     pub(crate) fn sliced_sections(
         &self,
         m: &Manipulator,
@@ -251,9 +250,9 @@ pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> FormRow {
 }
 
 impl Sections {
-    /// The real rows but the last turned among themselves, `O rows` with `O` orthogonal, and the sign of the last
-    /// chosen, so as to be as close to those of `other` as they can (orthogonal Procrustes problem): the same sections,
-    /// a shorter way to the others. The last row is the one with `g.g` and stays so.
+    /// The real rows but the last, rotated among themselves by an orthogonal `O`, as `O rows`, and the sign of the
+    /// last. Both are chosen to be as close to the rows of `other` as possible (orthogonal Procrustes problem): the
+    /// same sections, a shorter way to the others. The last row is the one with `g.g` and stays so.
     pub(crate) fn aligned_with(&self, other: &Self) -> Self {
         let real = |s: &Self| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
         let (own, aim) = (real(self), real(other));

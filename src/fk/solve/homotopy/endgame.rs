@@ -1,9 +1,9 @@
-//! Where a path goes as `t -> 0` when Newton's method cannot tell: the Cauchy endgame.
+//! The Cauchy endgame: the limit of a path as `t -> 0` when Newton's method cannot tell it.
 //!
-//! Near `t = 0` a path is a convergent power series in `t^(1/w)`, `w` its winding number. Going round the
-//! circle `|t| = r` until the path closes gives `w`, and the mean over the `w` turns is the end point
-//! (Morgan, Sommese, Wampler 1991), exponentially accurate in the number of sample points once no other
-//! branch point is inside the circle. The circle is shrunk until two means agree.
+//! Near `t = 0` a path is a convergent power series in `t^(1/w)`, `w` its winding number. Going round the circle
+//! `|t| = r` until the path closes gives `w`. The mean over the `w` turns is the end point (Morgan, Sommese, Wampler
+//! 1991). It is exponentially accurate in the number of sample points once no other branch point is inside the circle.
+//! The circle is shrunk until two means agree.
 
 use num_complex::Complex64;
 
@@ -33,8 +33,8 @@ pub(crate) struct EndPoint {
     pub winding: u32,
     /// Distance of the last two means: the accuracy of `x`.
     pub accuracy: f64,
-    /// Half the distance of two roots that a loop of two turns cannot tell from a double one, with its direction: they
-    /// are at `x` plus and minus this. Lost in rounding for a true double root.
+    /// Half the difference of two roots that a loop of two turns cannot tell from a double one: they are at `x` plus
+    /// and minus this. It is lost in rounding for a true double root.
     pub split: Option<[Complex64; 8]>,
     /// Newton's method at the target, where the path was followed to it along the real line.
     pub regular: Option<PolishedRoot>,
@@ -67,9 +67,9 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
                 if best.is_none_or(|b| accuracy < b.accuracy) {
                     best = Some(EndPoint { x: mean, winding, accuracy, split, regular: None });
                 }
-                // The mean of two roots still apart converges just as that of a double root does, as long as
-                // the branch point between them is inside the circle: finite ends go on to the smallest
-                // circle, where Newton's method from t tells two roots from one; of others the split tells.
+                // The mean of two roots still apart converges just as that of a double root does, as long as the branch
+                // point between them is inside the circle. So finite ends go on to the smallest circle, where Newton's
+                // method from t tells two roots from one; for other ends the split does.
                 if accuracy < AGREEMENT && (winding == 1 || !looks_finite(&mean) || t < SMALLEST * 8.0) {
                     return best;
                 }
@@ -89,7 +89,7 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
     best.filter(|b| b.accuracy < LOOSE_AGREEMENT)
 }
 
-/// What a closed loop about `t = 0` tells.
+/// The results of a closed loop about `t = 0`.
 struct Loop {
     /// Mean, norm one.
     mean: [Complex64; 8],
@@ -143,8 +143,8 @@ fn looks_finite(x: &[Complex64; 8]) -> bool {
     size > 1e-8 && n.norm() > 1e-4 * size
 }
 
-/// Half the difference `h` of two sheets changes its sign at branch points only, so that `h h^T` is analytic in `t`:
-/// its mean over the circle is its value at `t = 0`, whether or not the sheets meet there.
+/// Half the difference `h` of two sheets changes its sign at branch points only, so that `h h^T` is analytic in `t`.
+/// Its mean over the circle is its value at `t = 0`, whether or not the sheets meet there.
 fn split(samples: &[[Complex64; 8]]) -> Option<[Complex64; 8]> {
     let half: Vec<[Complex64; 8]> = (0..SAMPLES)
         .map(|k| std::array::from_fn(|p| (samples[k][p] - samples[k + SAMPLES][p]) * 0.5))

@@ -1,11 +1,11 @@
 //! The fast tracker for generic problems: real sections, complex path, one factorisation a step.
 //!
-//! Start and target are real, the parameter runs from 1 over a random complex corner to 0: the usual gamma trick, but
-//! with real coefficients in every product. A step is one Newton correction and the Taylor series from the
-//! same factorised matrix: the matrix belongs to the predicted point, a correction away from the point the
-//! series starts in, which costs the predictor a relative error of the size of the correction, a per cent at
-//! most, where it aims at a per cent anyway. What does not fit is caught by the correction of the
-//! next step, and everything is checked at the end: this tracker may fail, it is not trusted.
+//! Start and target are real, and the parameter runs from 1 over a random complex corner to 0. This is the usual gamma
+//! trick, but with real coefficients in every product. A step is one Newton correction and the Taylor series from the
+//! same factorised matrix. That matrix belongs to the predicted point, a correction away from the start of the series.
+//! The predictor loses a relative error of the size of the correction, a per cent at most, and it aims at a per cent
+//! anyway. The correction of the next step catches a step that does not fit. Everything is checked at the end: this
+//! tracker may fail, it is not trusted.
 
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
@@ -21,18 +21,18 @@ use num::vector_unit::on_vector_unit;
 /// Ratio of corrections below which they are squared by every step, not shrunk by a constant factor: at a double root
 /// that is a half.
 const SQUARED: f64 = 1e-2;
-/// How much larger than estimated the next correction may be.
+/// Largest ratio of the next correction to its estimate.
 const MARGIN: f64 = 100.0;
 
 /// Most Newton corrections at the target.
 const POLISHES: usize = 4;
 
-/// What became of one path.
+/// The result of one path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FastPath {
     /// Last good point, norm one.
     pub(super) x: [Complex64; 8],
-    /// Where it stands: the part of the second leg that is left, `None` when the path broke off.
+    /// Place on the path: the remaining part of the second leg; `None` when the path broke off.
     pub(super) remaining: Option<f64>,
     /// The point at the corner.
     pub(super) corner: Option<[Complex64; 8]>,
@@ -40,8 +40,8 @@ pub(super) struct FastPath {
     pub(super) steps: u32,
     /// Rejected steps and repeated corrections.
     pub(super) rejections: u32,
-    /// The Newton correction at the end point that would be next, estimated from the last ones, after [`FastTracker`]
-    /// has polished it; that of the last where there is only one.
+    /// The next Newton correction at the end point, estimated from the last ones after [`FastTracker`] has polished it.
+    /// A single correction is its own estimate.
     pub(super) correction: f64,
     /// Estimate of the condition number of the derivative matrix at the end point.
     pub(super) condition: f64,
@@ -322,9 +322,9 @@ impl<S: Simd> FastBatch<S> {
     }
 }
 
-/// Size of the Newton correction after one of size `this`, which followed one of size `last`. They are squared by every
-/// step, times a constant that these two show: `d_2 = c d_1^2`, so that the next is `c d_2^2`. What does not shrink
-/// that fast is rounding or a multiple root: then it is as long as this one.
+/// Size of the Newton correction after one of size `this`, which followed one of size `last`. Every step squares them,
+/// times a constant that these two show: `d_2 = c d_1^2`, so that the next is `c d_2^2`. Corrections that shrink less
+/// fast show rounding or a multiple root; then the next is as long as this one.
 #[inline(always)]
 fn next_correction(last: f64, this: f64) -> f64 {
     let ratio = this / last;

@@ -1,11 +1,11 @@
 //! Parameter homotopy in the squared lengths alone: as many paths as the design has poses, none of which goes to
 //! infinity.
 //!
-//! The poses at generic complex squared lengths `s_1` are known; the lengths move on the straight line
-//! `s(t) = s + t (s_1 - s)` to those asked for. The joints stay as they are, so that of the leg equations only the
-//! multiples of `e.e` change. For generic `s_1` the line meets no lengths but `s` at which poses coincide or are lost
-//! (Sommese, Wampler 2005, theorem 7.1.1): where `s` is generic, too, every path ends in a pose and every pose is the
-//! end of one path.
+//! The poses at generic complex squared lengths `s_1` are known. The lengths move on the straight line
+//! `s(t) = s + t (s_1 - s)` to those asked for. The joints stay as they are, so that only the multiples of `e.e` change
+//! in the leg equations. For generic `s_1` the line meets no lengths but `s` at which poses coincide or are lost
+//! (Sommese, Wampler 2005, theorem 7.1.1). If `s` is generic, too, every path ends in a pose and every pose is the end
+//! of one path.
 
 use num_complex::Complex64;
 use pulp::Simd;
@@ -30,7 +30,7 @@ pub(crate) struct LengthStart {
     kind: StartKind,
     /// Design units squared.
     squares: [Complex64; 6],
-    /// Of the frame that the points belong to.
+    /// The scale of the frame that the points belong to.
     scale: f64,
     points: Vec<[Complex64; 8]>,
 }
@@ -101,8 +101,8 @@ fn slope_rows(slope: &[Complex64; 6]) -> [[Complex64; FORMS]; 6] {
 }
 
 impl LengthStart {
-    /// Continues the poses at the real squared lengths `from`, which must be regular, one of each mirror pair for
-    /// [`StartKind::Planar`], to the complex squared lengths `to`. `None` when a path gets lost or two meet.
+    /// Continues the poses at the real squared lengths `from` to the complex squared lengths `to`. The poses must be
+    /// regular, and one of each mirror pair for [`StartKind::Planar`]. `None` when a path gets lost or two meet.
     pub(crate) fn new(
         kind: StartKind,
         frame: &ScaledFrames,
@@ -145,13 +145,13 @@ impl LengthStart {
         self.points.len()
     }
 
-    /// Which forms and which poses.
+    /// The kind of the forms and of the poses.
     pub(crate) fn kind(&self) -> StartKind {
         self.kind
     }
 
     /// All paths to the lengths `s`, with the sections in which they end; `frame` is [planar](ScaledFrames::planar) for
-    /// [`StartKind::Planar`]. `None` when the leg equations are dependent. What cannot be followed is left as
+    /// [`StartKind::Planar`]. `None` when the leg equations are dependent. Paths that cannot be followed are left as
     /// [`EndKind::Failed`].
     pub(crate) fn follow(
         &self,

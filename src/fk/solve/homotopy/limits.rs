@@ -18,7 +18,7 @@ pub(crate) struct StepLimits {
 /// Limits of the [tracker](super::tracker) that converges at every step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TrackerLimits {
-    /// Of a step.
+    /// Limits of a step.
     pub step: StepLimits,
     /// Most Newton corrections a step.
     pub corrections: u32,
@@ -29,7 +29,7 @@ pub(crate) struct TrackerLimits {
 /// Limits of the [fast tracker](super::fast_tracker).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FastTrackerLimits {
-    /// Of a step; the accuracy lets the path go on.
+    /// Limits of a step; a correction below `accuracy` lets the path go on.
     pub(super) step: StepLimits,
     /// Largest ratio of the next correction to this one, estimated from the curvature of the path.
     pub(super) contraction: f64,
@@ -37,7 +37,7 @@ pub(super) struct FastTrackerLimits {
     pub(super) most_iterations: u32,
     /// Below this `|t|` relative to the corner a path is left to the endgame.
     pub(super) endgame_at: f64,
-    /// Below this relative `|t|` a path whose `|e|^2` is less than `small_rotation` is left to the endgame, too: the
+    /// Below this relative `|t|` a path whose `|e|^2` is less than `small_rotation` is left to the endgame, too. The
     /// condition of the equations grows with `|e|^-2`.
     pub(super) infinity_at: f64,
     /// See `infinity_at`.

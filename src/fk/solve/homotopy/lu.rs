@@ -96,9 +96,9 @@ impl<S: Simd> Lu<S> {
 
 /// Factorises `a` in place without exchanging rows; `inverse` receives the inverse pivots.
 ///
-/// Exchanges that differ from lane to lane cost more than the elimination itself. Without them a small pivot
-/// makes the factors inaccurate once in a while: the tracker that uses this sees it as a Newton correction
-/// that does not fit, and what it cannot finish is tracked again with pivoting.
+/// Exchanges that differ from lane to lane cost more than the elimination itself. Without them a small pivot makes the
+/// factors inaccurate once in a while. The tracker notices a Newton correction that does not fit, and paths that it
+/// cannot finish are tracked again with pivoting.
 #[inline(always)]
 pub(super) fn eliminate<S: Simd>(a: &mut Matrix8<S>, inverse: &mut Vec8<S>) {
     for k in 0..8 {

@@ -1,5 +1,5 @@
-//! Parameter homotopy over linear sections of `SE(3)`: from 40 known solutions of six general sections to
-//! the solutions of six leg equations; for doubly planar platforms from 20, one of each mirror pair.
+//! Parameter homotopy over linear sections of `SE(3)`, from 40 known solutions of six general sections to the solutions
+//! of six leg equations. Doubly planar platforms need 20, one of each mirror pair.
 
 // One step of the tracker has to compile to one function, or the lanes do not stay in registers.
 #![allow(clippy::inline_always)]

@@ -1,9 +1,9 @@
 //! Start solutions from nothing: one solution is easy to make, monodromy finds the others.
 //!
-//! Six random sections through a random point of the Study quadric have that point as a solution. Moving the
-//! sections round triangles with random corners permutes the solutions of the same system; the known ones
-//! are sent round until their number reaches the degree 40 of the compactified group (Duff et al. 2019). Sections
-//! in the ten forms of doubly planar platforms have 20 mirror pairs, of which one member each is kept.
+//! Six random sections through a random point of the Study quadric have that point as a solution. Moving the sections
+//! round triangles with random corners permutes the solutions of the same system. The known ones are sent round until
+//! their number reaches the degree 40 of the compactified group (Duff et al. 2019). Sections in the ten forms of doubly
+//! planar platforms have 20 mirror pairs, of which one member each is kept.
 
 use num_complex::Complex64;
 
@@ -25,7 +25,7 @@ pub(crate) struct StartSystem {
     pub solutions: Vec<[Complex64; 8]>,
 }
 
-/// Which sections a start system is made of.
+/// The kind of sections that a start system is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StartKind {
     /// General sections: 40 solutions.
@@ -136,8 +136,8 @@ pub(super) fn generate(kind: StartKind, seed: u64, loops: usize) -> Option<Start
     to_real_sections(kind, &sections, &solutions, &mut rng)
 }
 
-/// Carries the solutions over to random real sections: general real sections are as good a start as
-/// complex ones, as long as the path from them to the target is complex, and cheaper.
+/// Carries the solutions over to random real sections. They are cheaper than complex ones and as good a start, as long
+/// as the path from them to the target is complex.
 fn to_real_sections(
     kind: StartKind,
     sections: &Sections,

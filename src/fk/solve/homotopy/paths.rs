@@ -39,7 +39,7 @@ const ALIKE_MODULI: f64 = 10.0 * SAME_END;
 
 /// A regular end with a smaller pivot ratio may be one of two roots that coincide nearly.
 const NEARLY_SINGULAR: f64 = 1e-5;
-/// Where a path ended.
+/// The kind of the end of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndKind {
     /// A nonsingular finite root, Newton converged.
@@ -67,7 +67,7 @@ pub struct HomotopyPath {
     pub rejections: u32,
     /// Winding number found by the endgame, 0 when not determined.
     pub winding: u32,
-    /// How often it was tracked again with tighter steps.
+    /// Number of repeated trackings with smaller steps.
     pub retracked: u32,
     /// Half the distance of two roots not told apart, where the winding number is two; see `endgame::EndPoint`.
     pub split: Option<[Complex64; 8]>,
@@ -78,7 +78,7 @@ pub struct HomotopyPath {
 }
 
 impl HomotopyPath {
-    /// What the fast tracker knows; no end yet.
+    /// The results of the fast tracker; no end yet.
     pub(super) fn under_way(p: &FastPath) -> Self {
         Self {
             x: p.x,
@@ -103,7 +103,7 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
     (n.norm_sqr().sqrt() / size, (size / all).sqrt())
 }
 
-/// Tracks all paths from the start system of a kind to `target`, which must be of that kind: for [`StartKind::Planar`]
+/// Tracks all paths from the start system of a kind to `target`, which must be of that kind. For [`StartKind::Planar`]
 /// the mirror images of the ends are the ends of the other paths. The seed sets gamma.
 ///
 /// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps;
@@ -215,9 +215,9 @@ fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: HomotopyPath, t: f64)
     if let Some(polished) = &end.regular {
         return settle_polished(path, polished);
     }
-    // A mean with winding number 1 is a single point: where Newton's method confirms it as a regular root, its own
-    // digits say whether e.e vanishes. The blur below is for ends that can only be looked at from a distance;
-    // finite poses far out have |e.e| / |e|^2 down to 1e-6 and must not be taken for ends at e.e = 0.
+    // A mean with winding number 1 is a single point. If Newton's method confirms it as a regular root, its own digits
+    // say whether e.e vanishes. The blur below is for ends that are known with less accuracy. Finite poses far out have
+    // |e.e| / |e|^2 down to 1e-6 and must not be taken for ends at e.e = 0.
     if end.winding == 1 {
         let polished = polish(homotopy, &end.x);
         if polished.converged && projective_distance(&unit(&polished.x), &unit(&end.x)) < SAME_MEAN {

@@ -1,6 +1,6 @@
 //! The predictor of both trackers: the Taylor series of order [`ORDER`] of the path in the (complex) parameter.
 //!
-//! Its last term sets the step, the ratio of its last two terms bounds it by the estimated radius of convergence
+//! Its last term sets the step. The ratio of its last two terms bounds the step by the estimated radius of convergence
 //! (Timme 2021 uses the same two limits with a Padé predictor).
 
 use pulp::Simd;
@@ -66,8 +66,8 @@ pub(super) fn predicted<S: Simd>(x: &Vec8<S>, series: &[Vec8<S>; ORDER], dt: Lan
     y
 }
 
-/// `x^(1 / (2 ORDER))` to six percent: the exponent field of a double is its logarithm, near enough for a
-/// step size and far faster than `powf` in every lane.
+/// `x^(1 / (2 ORDER))` to six percent. The exponent field of a double is its logarithm, accurate enough for a step size
+/// and far faster than `powf` in every lane.
 #[inline(always)]
 fn rough_root(x: f64) -> f64 {
     const ONE: i64 = 0x3ff0_0000_0000_0000;

@@ -10,7 +10,7 @@ use crate::solve::sections::{FORMS, NORM_FORMS};
 /// A set of `F` quadratic forms in `x = (e, g)`; [`Quadrics`] says which.
 pub(super) struct QuadraticForms<const F: usize>;
 
-/// What the tracker needs of a set of forms.
+/// The operations of the tracker on a set of forms.
 pub(super) trait Quadrics<const F: usize> {
     /// Symmetrised forms of two vectors: `forms(x + y) - forms(x) - forms(y)`, and last `e.g' + e'.g`.
     fn polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; F], Lanes<S>);

@@ -1,5 +1,5 @@
-//! The start systems, shipped as data: 40 solutions of six general sections, and one of each of the 20 mirror pairs of
-//! solutions of six general sections in the ten forms of doubly planar platforms.
+//! The start systems, shipped as data: 40 solutions of six general sections, and 20 solutions for doubly planar
+//! platforms. The latter are one of each mirror pair of solutions of six general sections in the ten forms.
 //!
 //! `data/generic40.txt` and `data/planar20.txt` are written by `cargo run --example generate_start_system` from a
 //! seed; a test makes them again and compares.

@@ -59,7 +59,7 @@ pub(super) trait SectionPath<const F: usize> {
     /// so that it is made where it stays.
     fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>);
 
-    /// Of all forms those whose coefficients change.
+    /// The forms whose coefficients change, out of all forms.
     fn moved<S: Simd>(forms: &[Lanes<S>; F]) -> Self::Moved<S>;
 
     /// Polar forms of those.

@@ -1,10 +1,10 @@
 //! The last part of a path with 256 bits.
 //!
-//! A platform that is nearly special has paths that seem to go to infinity, to `e.e = 0` or to a double root, and turn
-//! off only where `t` is as small as a power of its distance from the special one. In doubles `t` cannot be told from 0
-//! there. Here points, sections and residuals have 256 bits; directions (Taylor series, inverse of the Jacobian) are
-//! computed in doubles as long as these lead on, in the unit of length in which `|e| = |g|`, so that ends at infinity
-//! are points like others: with `e = eps e'` an equation without `g.g` is divided by `eps`.
+//! A nearly special platform has paths that seem to go to infinity, to `e.e = 0` or to a double root. They turn off
+//! only when `t` is as small as a power of the platform's distance from the special one. In doubles such a `t` cannot
+//! be told from 0. Here points, sections and residuals have 256 bits. Directions (Taylor series, inverse of the
+//! Jacobian) are computed in doubles as long as these lead on. The unit of length makes `|e| = |g|`, so that ends at
+//! infinity are points like others: with `e = eps e'` an equation without `g.g` is divided by `eps`.
 
 use num_complex::Complex64;
 use pulp::Scalar;
@@ -40,7 +40,8 @@ const MOST_STEPS: u32 = 500;
 const SETTLED: f64 = 1e-55;
 /// A path that has not arrived at this `t` ends in a singular point: the sections are known to `1e-75`.
 const SMALLEST: f64 = 1e-50;
-/// Where what is left of a path begins to tell with which power of `t` it goes on.
+/// The smallest `t` at which sizes are recorded that show, with those at the end, the power of `t` with which they
+/// fall.
 const LATE: f64 = 1e-40;
 /// `e.e` or `e` below this, relative, at an end that is known to [`SETTLED`] counts as zero.
 const ZERO: f64 = 1e-40;
@@ -54,20 +55,20 @@ pub(super) struct CornerTail {
     corner: ComplexOctuple,
 }
 
-/// Where a path ended, `(e, g)` with 256 bits.
+/// The end of a path, `(e, g)` with 256 bits.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TailEnd {
     pub x: [ComplexOctuple; 8],
     /// Newton's method converged at the target; otherwise the point stands at a `t` of [`SMALLEST`] or where the path
     /// broke off.
     pub(crate) arrived: bool,
-    /// What is left of `t`.
+    /// The remaining `t`.
     pub remaining: f64,
     pub steps: u32,
     pub rejections: u32,
     /// Smallest over largest pivot modulus of the Jacobian at the end, unit of length as above.
     pub pivot_ratio: f64,
-    /// What was left of `t`, `|e| / |(e, g)|` and `|e.e| / |e|^2`, farther back on the path.
+    /// The remaining `t`, `|e| / |(e, g)|` and `|e.e| / |e|^2`, farther back on the path.
     earlier: (f64, Smallness),
 }
 
@@ -88,8 +89,9 @@ impl Smallness {
 }
 
 impl TailEnd {
-    /// What the end is, as far as 256 bits tell: a point where the path arrives has `e.e` and `e` to far more digits
-    /// than [`ZERO`] asks for. Where it does not arrive these quantities go to zero with a power of `t`, or do not.
+    /// The kind of the end, as far as 256 bits tell. At a point where the path arrives `e.e` and `e` are known to far
+    /// more digits than [`ZERO`] asks for. Otherwise it decides by whether these quantities go to zero with a power of
+    /// `t`.
     pub(crate) fn kind(&self) -> EndKind {
         let here = Smallness::of(&self.x);
         let vanishes: [bool; 2] = if self.arrived {

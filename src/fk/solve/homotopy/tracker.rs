@@ -24,7 +24,7 @@ pub(super) struct PathBatch<S: Simd> {
     pub(super) step_factor: PerLane,
 }
 
-/// What one step did in each lane.
+/// The result of one step in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepReport {
     pub(super) accepted: [bool; MOST_LANES],
@@ -132,7 +132,7 @@ fn correct<S: Simd>(
 pub(super) struct Tracked {
     /// Homogeneous solution at `t`, norm one.
     pub x: [Complex64; 8],
-    /// Where it stands.
+    /// The parameter value that the path has reached.
     pub t: Complex64,
     /// Whether `t` is the goal.
     pub(crate) arrived: bool,
@@ -142,8 +142,8 @@ pub(super) struct Tracked {
     pub rejections: u32,
 }
 
-/// Tracks every start from `t = 1` to 0, a lane each; a path that has not arrived when `|t|` falls
-/// below `endgame_at` is left there for the endgame, as is one that runs out of steps.
+/// Tracks every start from `t = 1` to 0, a lane each. A path that has not arrived when `|t|` falls below `endgame_at`
+/// is left there for the endgame, as is one that runs out of steps.
 #[inline(always)]
 pub(super) fn track_lanes<S: Simd>(
     simd: S,
