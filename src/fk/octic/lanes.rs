@@ -158,8 +158,8 @@ impl OcticSolver {
     ///
     /// `R = E^T F G`; the rows of `E` and `G` are the axes of the triangles, `F` is the frame. The mirror in the plane
     /// of the base changes the sign of the third coordinate of the corners, and so of the first two axes. The third
-    /// axis, their cross product, changes the other coordinates. So the entries of `F` fall into those that keep their
-    /// signs and those that change them, and `R` into an even and an odd part.
+    /// axis, their cross product, changes the other coordinates. So some entries of `F` keep their signs and the others
+    /// change them. This splits `R` into an even and an odd part.
     #[inline(always)]
     pub(super) fn place(&self, s: &[f64; 6], p4: &Points, f: &[Points; 3]) -> PoseLanes {
         let (e, g) = (&self.base.axes, &self.platform.axes);

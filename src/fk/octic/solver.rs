@@ -163,8 +163,8 @@ impl OcticSolver {
     /// All sixteen finite complex poses, or `None` when these lengths need the general treatment of
     /// [`Octic`](super::Octic).
     ///
-    /// They do when poses coincide or nearly coincide, roots lie at infinity, the corners of a pose lie in one plane,
-    /// or a residual exceeds `1e-12`.
+    /// They do when poses nearly coincide, roots lie at infinity, the corners of a pose lie in one plane, or a residual
+    /// exceeds `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
         on_vector_unit(Solve { solver: self, s })

@@ -340,7 +340,7 @@ impl<'a, R: Ring> Strip<'a, R> {
 }
 
 /// The closures to choose from. With virtual legs it is the closure of the sequence. Otherwise it is every pair of a
-/// joint placed by the steps and a joint of the first body without a leg between them, the joint placed last first.
+/// placed joint and a joint of the first body without a leg between them, the joint placed last first.
 pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<StripClosure> {
     let steps: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
     let order = |j: JointIndex| {

@@ -1,4 +1,4 @@
-//! What a certificate says, and why there is none.
+//! The statement of a certificate, and the reasons for having none.
 
 use num_complex::Complex64;
 use thiserror::Error;
@@ -15,7 +15,7 @@ pub const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
 /// Entries of `R` that change sign under the mirror.
 const TURNED_BY_MIRROR: [(usize, usize); 4] = [(0, 2), (1, 2), (2, 0), (2, 1)];
 
-/// What is proved about a root being a real pose.
+/// The proved reality of a root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -89,9 +89,9 @@ impl PoseEnclosure {
 
 /// Proof that exactly one root lies near a point; made by [`certify`](super::certify) only.
 ///
-/// Coordinates are `x = (e_0..e_3, g_0..g_3 / unit)` with `e_patch = 1`, distances the largest modulus of a coordinate
-/// difference. For every choice of the squared lengths within their radii there is exactly one root within
-/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre [`centre`](Self::centre) `+` [`low`](Self::low); it is
+/// Coordinates are `x = (e_0..e_3, g_0..g_3 / unit)` with `e_patch = 1`; a distance is the largest modulus of a
+/// coordinate difference. For every choice of the squared lengths within their radii there is exactly one root within
+/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre [`centre`](Self::centre) `+` [`low`](Self::low). It is
 /// regular and lies within [`radius`](Self::radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate {
@@ -116,7 +116,7 @@ impl Certificate {
         &self.centre
     }
 
-    /// What these leave of the centre: its digits beyond double, zero where doubles sufficed.
+    /// The digits of the centre beyond [`centre`](Self::centre), zero where doubles sufficed.
     #[must_use]
     pub fn low(&self) -> &[Complex64; 8] {
         &self.low
@@ -127,7 +127,7 @@ impl Certificate {
         std::array::from_fn(|k| if k < 4 { self.centre[k] } else { self.centre[k] * self.unit })
     }
 
-    /// The certificate of the complex conjugate root: equations and patch are real, so that conjugation maps balls
+    /// The certificate of the complex conjugate root. Equations and patch are real, so that conjugation maps balls
     /// about a centre to balls about its conjugate and zeros to zeros.
     #[must_use]
     pub fn conjugate(&self) -> Self {
@@ -137,8 +137,8 @@ impl Certificate {
     }
 
     /// Becomes the certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with
-    /// all joints in `z = 0`: the equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, changes of
-    /// sign that no rounding sees.
+    /// all joints in `z = 0`. The equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, and these
+    /// changes of sign are exact.
     fn mirror(&mut self) {
         let common = if self.patch == 0 || self.patch == 3 { 1.0 } else { -1.0 };
         for (k, sign) in MIRROR.iter().enumerate() {
@@ -196,7 +196,7 @@ impl Certificate {
         self.contraction
     }
 
-    /// What is proved about reality.
+    /// The proved reality of the root.
     #[must_use]
     pub fn reality(&self) -> ProvedReality {
         self.reality
@@ -208,7 +208,7 @@ impl Certificate {
         self.precision
     }
 
-    /// Where `R` and `p` of the root are.
+    /// The enclosure of `R` and `p` of the root.
     #[must_use]
     pub fn enclosure(&self) -> &PoseEnclosure {
         &self.enclosure
@@ -255,12 +255,12 @@ pub enum RootCertificate {
     Study(Certificate),
     /// In two squared distances; octahedral platforms.
     Octahedral(OctahedralCertificate),
-    /// Of two roots or more that are close or one; any six legs.
+    /// For two roots or more that are close or one; any six legs.
     Cluster(ClusterCertificate),
 }
 
 impl RootCertificate {
-    /// Where `R` and `p` of the root are.
+    /// The enclosure of `R` and `p` of the root.
     #[must_use]
     pub fn enclosure(&self) -> &PoseEnclosure {
         match self {
@@ -270,7 +270,7 @@ impl RootCertificate {
         }
     }
 
-    /// What is proved about reality.
+    /// The proved reality of the root.
     #[must_use]
     pub fn reality(&self) -> ProvedReality {
         match self {
@@ -333,8 +333,8 @@ pub enum WhyUncertified {
     /// The root is proved, but its `R` or `p` need not be that of the pose to half the digits of a double.
     #[error("R or p of the root may be {distance:e} away from those of the pose")]
     Deviation {
-        /// Bound of the distance, for `R` relative to the larger of 1 and the largest entry, for `p` to the larger of
-        /// the design's size and the largest entry.
+        /// Bound of the distance. It is relative to the larger of 1 and the largest entry for `R`, and to the larger of
+        /// the design's size and the largest entry for `p`.
         distance: f64,
     },
     /// `e.e` may be zero in the ball, where there is no pose.

@@ -1,7 +1,7 @@
 //! The bounds of the theorem far out, in double-double and on differences of the leg equations.
 //!
-//! Where `g` is large the six gradients `v_i = g + T_i e` are nearly parallel and the equations nearly alike: rounding
-//! in `|v_i|^2` drowns what tells them apart. The test holds for any regular combination of equations. Here it is made
+//! When `g` is large the six gradients `v_i = g + T_i e` are nearly parallel and the equations nearly alike. Rounding
+//! in `|v_i|^2` then drowns their differences. The test holds for any regular combination of equations. Here it is made
 //! on `F_0`, `F_i - F_0`, `F_6` with
 //!
 //! ```text
@@ -17,9 +17,9 @@
 //!   `beta = 3 . 5U (G + t_0 E) + 2 alpha`.
 //! * `F_i - F_0`: `(1/2) sum (|u| beta + |w| alpha + alpha beta) <= |u| beta + |w| alpha + 2 alpha beta`, own roundings
 //!   `5U (|u| |w| + |s_i - s_0| P)` as for `F_i`; doubled below.
-//! * Rows of the Jacobian: an entry by `g` `5U tau E`; one by `e` at most `13U` times the sum `M` of its terms' bounds
-//!   `tau G + t_i tau E + tau t_0 E + |s_i - s_0| E`; a row of eight less than `128U (tau E + M)` in `|.|_1`. Row 0
-//!   alike with `G + t_0 E` for `tau E`.
+//! * Rows of the Jacobian: an entry by `g` has `5U tau E`. An entry by `e` has at most `13U` times the sum `M` of its
+//!   terms' bounds `tau G + t_i tau E + tau t_0 E + |s_i - s_0| E`. A row of eight has less than `128U (tau E + M)` in
+//!   `|.|_1`. For row 0 `G + t_0 E` replaces `tau E`.
 //!
 //! Radii of joints change `F_i - F_0` and its gradient by at most what they change those of `F_i` and `F_0`.
 
@@ -57,7 +57,7 @@ fn dot<S: RealScalar>(x: &[[S; 4]; 2], y: &[[S; 4]; 2]) -> [S; 2] {
     [part(&x[0], &y[0]) + -part(&x[1], &y[1]), part(&x[0], &y[1]) + part(&x[1], &y[0])]
 }
 
-/// What a leg contributes to `F_i - F_0`, or to `F_0` itself.
+/// The contribution of a leg to `F_i - F_0`, or to `F_0` itself.
 fn with_first(i: usize, of_leg: impl Fn(usize) -> f64) -> f64 {
     of_leg(0) + if i == 0 { 0.0 } else { of_leg(i) }
 }

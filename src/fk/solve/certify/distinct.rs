@@ -5,7 +5,7 @@ use super::cluster::ClusterCertificate;
 use num::ball::UP;
 use num::ball::WideDisc;
 
-/// How two certified roots of the same problem relate.
+/// The relation of two certified roots of the same problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RootRelation {
     /// Proved different: some entry of `R` or `p`, or some ratio of Study coordinates, is.
@@ -28,7 +28,7 @@ pub enum Distinctness {
 /// Relation of the roots of two certificates; both must come from the same manipulator and the same squared lengths.
 ///
 /// Roots are compared by the enclosures of `R` and `p`, which do not depend on the patch, and by those of their Study
-/// coordinates: far out (`e.e` near 0) two poses may agree in all the leading digits of `R` and `p` and still have
+/// coordinates. Far out (`e.e` near 0) two poses may agree in all the leading digits of `R` and `p` and still have
 /// quite different `g`.
 #[must_use]
 pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {

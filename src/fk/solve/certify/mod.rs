@@ -1,12 +1,12 @@
 //! Certificates of forward-kinematics roots: interval proofs that share no code with any solver.
 //!
-//! A pose is a point `x = (e, g)` of dual quaternions with `g = p e`; six leg equations
-//! `|g + e b_i - a_i e|^2 = s_i e.e`, the Study quadric `e.g = 0` and the patch `e_k = 1` (largest coordinate) make
-//! seven quadrics in seven unknowns. The simplified Newton map with an approximate inverse `Y` of the Jacobian is shown
-//! to contract a ball (Krawczyk 1969 in the norm-wise form of Kantorovich; Breiding, Rose, Timme 2020 for certifying
-//! solutions of polynomial systems). Statement, proof and all rounding bounds: `docs/theory/certificates.md` and the
-//! sources of the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits and a
-//! radius ([`SquareData`]).
+//! A pose is a point `x = (e, g)` of dual quaternions with `g = p e`. Seven quadrics in seven unknowns hold for it: six
+//! leg equations `|g + e b_i - a_i e|^2 = s_i e.e` and the Study quadric `e.g = 0`, with the patch `e_k = 1` (largest
+//! coordinate). The certificate shows that the simplified Newton map with an approximate inverse `Y` of the Jacobian
+//! contracts a ball. Sources: Krawczyk 1969 in the norm-wise form of Kantorovich; Breiding, Rose, Timme 2020 for
+//! certifying solutions of polynomial systems. Statement, proof and all rounding bounds: `docs/theory/certificates.md`
+//! and the sources of the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits
+//! and a radius ([`SquareData`]).
 //!
 //! # What is decided, and by what
 //!
@@ -40,9 +40,8 @@
 //! | [`relation()`], [`distinct()`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
 //!
 //! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a
-//! certificate of all sixteen poses at once, [`octahedral`]. Outside this folder a root is certified by
-//! [`Certifier::certify`] when its pose shall be judged as it is, and by `root_near` when the best pose is wanted with
-//! its proof.
+//! certificate of all sixteen poses at once, [`octahedral`]. Outside this folder [`Certifier::certify`] certifies a
+//! root whose pose shall be judged as it is. `root_near` finds the best pose with its proof.
 //!
 //! ```
 //! # mod equipod { pub mod methods { pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
@@ -115,17 +114,19 @@ use refine::refine_study;
 use side_by_side::EightPoints;
 use system::{LegSystem, RealScalar, Study};
 
-/// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
+/// The accuracy that a pose must have to be certified: `2^-26`, half of the digits of a double.
 ///
 /// The Newton map contracts on balls far wider than that, so that a proof alone would also go to poses which are wrong
-/// in the sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Measured
-/// twice: the Newton step in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`]; and the
-/// distance of the entries of the pose from all points of the enclosure, for `R` relative to the larger of 1 and the
-/// largest entry, for `p` relative to the larger of the unit and the largest entry.
+/// in the sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Two distances
+/// are measured:
+///
+/// * the Newton step in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`];
+/// * the distance of the entries of the pose from all points of the enclosure. It is relative to the larger of 1 and
+///   the largest entry for `R`, and to the larger of the unit and the largest entry for `p`.
 pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
 
-/// How wide an enclosure may be, in the measure of [`NEAR`], where `e.e` is so small that double-double does not give
-/// `R` and `p` to `NEAR`. The pose is then the middle of it, and the enclosure says which digits it has.
+/// The largest width of an enclosure, in the measure of [`NEAR`], when `e.e` is so small that double-double does not
+/// give `R` and `p` to `NEAR`. The pose is then the middle of the enclosure, whose width shows the valid digits.
 pub const FAR_OUT: f64 = 1.0 / (1u32 << 10) as f64;
 
 /// A pose this near to the middle of its enclosure is the middle, rounded.
@@ -136,7 +137,7 @@ const CLOSE: f64 = 64.0;
 /// Powers of two by which the unit is enlarged beyond `|g|`.
 const FLATTER: [i32; 4] = [0, 5, 10, 15];
 
-/// Where Newton's method starts, and how far it may lead.
+/// The start of Newton's method, and the distance that it may lead.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum NewtonStart<'a> {
     /// A pose whose last digits got lost on the way; by no more than [`NEAR`].
@@ -211,8 +212,8 @@ impl Certifier {
         }
     }
 
-    /// [`root_near`](Self::root_near) of points `(e, g)`, eight at a time. Where there is `None` doubles prove nothing:
-    /// for `root_near` to look at.
+    /// [`root_near`](Self::root_near) of points `(e, g)`, eight at a time. `None` when doubles prove nothing:
+    /// `root_near` then has to examine the point.
     pub(crate) fn roots_near(&self, points: &[&[Complex64; 8]]) -> Vec<Option<CertifiedPose>> {
         let nothing = Study { re: [f64::NAN; 8], im: [f64::NAN; 8], patch: 0 };
         let study = |x: &&[Complex64; 8]| study_at(x, self.0.unit()).unwrap_or(nothing);
@@ -263,8 +264,8 @@ impl Certifier {
         self.certified(pose, &certificate_of(&self.0, x, ball)?)
     }
 
-    /// The root in a ball about a double where `R` and `p` need more digits than the point has: those of one Newton
-    /// step with values in double-double, which is all that a point as good as doubles can make it needs.
+    /// The root in a ball about a double when `R` and `p` need more digits than the point has. One Newton step with
+    /// values in double-double gives these digits, which suffices for a point as good as doubles can make it.
     fn root_one_step_on(&self, x: &Study<f64>) -> Result<CertifiedPose, WhyUncertified> {
         let mut better = x.lifted();
         for (k, step) in newton_step(&self.0, &better)?.iter().enumerate() {
@@ -288,8 +289,8 @@ impl Certifier {
         self.certified(certificate.enclosure.middle(), &certificate)
     }
 
-    /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one
-    /// root is as flat: a larger unit of length makes it round.
+    /// The certificate in a larger unit of length. Near infinity `g` is known less well than `e` by many powers of ten.
+    /// The largest ball in which there is one root is as flat, and the larger unit makes it round.
     fn certificate_in_a_larger_unit(&self, x: &Study<DoubleDouble>) -> Option<Certificate> {
         let g = (4..8).map(|k| x.re[k].rounded().hypot(x.im[k].rounded())).fold(0.0, f64::max);
         if !(g > CLOSE) {
@@ -336,8 +337,8 @@ impl Certifier {
         Ok(CertifiedPose { pose, certificate: *certificate })
     }
 
-    /// Decides whether the pose is the certified root, for the middles of the data, to within [`NEAR`] in `R` and `p`;
-    /// or, far out, the middle of an enclosure not wider than [`FAR_OUT`].
+    /// Decides whether the pose is the certified root, for the middles of the data, to within [`NEAR`] in `R` and `p`.
+    /// Far out it may be the middle of an enclosure not wider than [`FAR_OUT`].
     fn pose_is_the_root(&self, pose: &ComplexPose, c: &Certificate) -> Result<(), WhyUncertified> {
         let own = if c.centre_radius < c.radius { enclose(c, c.centre_radius) } else { Some(c.enclosure) };
         let enclosure = own.ok_or(WhyUncertified::RotationUndefined)?;

@@ -1,15 +1,15 @@
 //! The bounds of the theorem with 256 bits, for roots whose Jacobian no double can tell from a singular one.
 //!
-//! Near special platforms the equations at a pose far out differ in the twentieth digit only: the approximate inverse
-//! of the Jacobian has to have more digits than that, and so has everything it is multiplied with. Statement and proof
-//! are those of the [`krawczyk`](super::krawczyk) module; centre, inverse, values and gradients have 256 bits here.
+//! Near special platforms the equations at a pose far out differ in the twentieth digit only. The approximate inverse
+//! of the Jacobian, and all its factors in products, need more digits than that. Statement and proof are those of the
+//! [`krawczyk`](super::krawczyk) module; centre, inverse, values and gradients have 256 bits here.
 //!
 //! **Error bounds.** An operation has a relative error below `2^-252` in each part. Values, gradients and their
-//! products with the inverse are sums of products in which no term passes through more than 200 roundings, so that
-//! errors are below [`ERROR`] `= 2^-240` times the sum of the terms' moduli (Higham 2002, lemma 3.1), which the
-//! quantities `m_i` (values) and `j_i` (rows of the Jacobian) bound by modulus, notation of the `system` module:
+//! products with the inverse are sums of products in which no term passes through more than 200 roundings. So errors
+//! are below [`ERROR`] `= 2^-240` times the sum of the terms' moduli (Higham 2002, lemma 3.1). The quantities `m_i`
+//! (values) and `j_i` (rows of the Jacobian) bound that sum by modulus, notation of the `system` module:
 //! `m_i = 8 (G + t_i E)^2 + 8 |s_i| P`, `j_i = 16 (1 + t_i) (G + t_i E) + 8 |s_i| E`; for `e.g` `8 E G` and
-//! `8 (E + G)`. Moduli are those of both parts added. Radii of squared lengths and joints add what they add in the
+//! `8 (E + G)`. Moduli are those of both parts added. Radii of squared lengths and joints add the same as in the
 //! `system` module, with `V_i = 2 (G + t_i E)`.
 
 use num_complex::Complex64;

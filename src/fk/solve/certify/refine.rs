@@ -1,7 +1,7 @@
 //! Newton's method in double-double: residuals in double-double, corrections from the inverse in double.
 //!
-//! Each correction adds about `16 - log10(condition)` digits (mixed-precision refinement, Higham 2002, ch. 12),
-//! until the rounding of the residual stops it near `2^-102` times the condition number.
+//! Each correction adds about `16 - log10(condition)` digits (mixed-precision refinement, Higham 2002, ch. 12). The
+//! rounding of the residual stops it near `2^-102` times the condition number.
 
 use num_complex::Complex64;
 
@@ -40,7 +40,7 @@ impl RefinedPose {
     }
 }
 
-/// Where the iteration ended.
+/// The end of the iteration.
 pub(super) struct RefinedRoot {
     pub(super) x: Study<DoubleDouble>,
     pub(super) moved: f64,

@@ -7,9 +7,9 @@
 //! alpha = sum y_i,  D = sum y_i d_i,  C = sum y_i c_i,  S = sum y_i (T_i^T T_i - s_i I)      (i = 1..6).
 //! ```
 //!
-//! Differences of legs lack `|h_g|^2`, and near a singular pose `Y` is large in few directions: bounding the combined
-//! coefficients instead of `sum |y_i| q_i` gains a factor between 3 and 20 on
-//! the reference problems. On the unit polydisc with `h_patch = 0` the modulus is at most
+//! Differences of legs lack `|h_g|^2`, and near a singular pose `Y` is large in few directions. So bounds of the
+//! combined coefficients, instead of `sum |y_i| q_i`, gain a factor between 3 and 20 on the reference problems. On the
+//! unit polydisc with `h_patch = 0` the modulus is at most
 //!
 //! ```text
 //! 2 |alpha| + 3 |y_7| + sum over columns j != patch of |T(D, C)|_j + (1/2) sum over i, j != patch of |S_ij|,
@@ -17,9 +17,9 @@
 //!
 //! and the polarised form `Q(h, k)` has the same bound, entry by entry.
 //!
-//! **Rounding.** A coefficient takes at most 9 roundings to form (entries of `T`, product, three sums, `s`) and 6 in
-//! the sum over legs, in each part: error below `16 u sum_i |y_i|_1 |coefficient_i|`, the moduli of all coefficients of
-//! leg `i` adding up to at most `q_i` in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
+//! **Rounding.** In each part a coefficient takes at most 9 roundings to form (entries of `T`, product, three sums,
+//! `s`) and 6 in the sum over legs. The error is below `16 u sum_i |y_i|_1 |coefficient_i|`. The moduli of all
+//! coefficients of leg `i` add up to at most `q_i` in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 

@@ -1,10 +1,10 @@
-//! Certificates of eight points at once, in doubles: the theorem and the bounds of `krawczyk.rs` with the numbers of
-//! eight points side by side in vector units.
+//! Certificates of eight points at once, in doubles. The theorem and the bounds are those of `krawczyk.rs`, with the
+//! numbers of eight points side by side in vector units.
 //!
-//! Sums have the terms of the text of the `system` and `krawczyk` modules, each with no more roundings than is counted
-//! there; how they are grouped does not matter to those bounds. Rows are not exchanged when the approximate inverse is
-//! made: where a pivot is small the inverse is bad, which the bound of `I - Y J` sees. A lane without a proof says
-//! nothing about its point: it is for the general way to look at, with more digits.
+//! Sums have the terms given in the `system` and `krawczyk` modules, each with at most the roundings counted there; the
+//! grouping does not matter to those bounds. The approximate inverse is made without exchanges of rows. A small pivot
+//! makes it bad, and the bound of `I - Y J` shows it. A lane without a proof says nothing about its point, which then
+//! goes to the general method with more digits.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -44,7 +44,7 @@ impl pulp::WithSimd for EightPoints<'_> {
     }
 }
 
-/// What the theorem needs, eight times.
+/// The bounds of the theorem, eight times.
 struct EightBounds {
     eta_centre: Reals,
     eta: Reals,
@@ -103,9 +103,9 @@ fn off_patch(patch: &[usize; LANES], j: usize) -> Reals {
     out
 }
 
-/// Some lanes of complex numbers in registers of the vector unit. Where operations are loops over lanes, the compiler
-/// fills vectors along the rows of a matrix instead: numbers are gathered and scattered one by one, which takes several
-/// times as long.
+/// Some lanes of complex numbers in registers of the vector unit. With loops over lanes the compiler fills vectors
+/// along the rows of a matrix instead. Then numbers are gathered and scattered one by one, which takes several times as
+/// long.
 #[derive(Clone, Copy)]
 struct Register<S: Simd> {
     re: S::f64s,
@@ -459,8 +459,8 @@ fn poses(x: &[ComplexBatch; 8]) -> (Entries<ComplexBatch>, [bool; LANES]) {
     (out, near)
 }
 
-/// Whether every point of the discs has the digits of the pose: distances at most [`NEAR`], of entries of `R` relative
-/// to the larger of 1 and the largest of them, of entries of `p` likewise. Moduli are bounded by their parts.
+/// Whether every point of the discs has the digits of the pose. Distances are at most [`NEAR`]: entries of `R` relative
+/// to the larger of 1 and the largest of them, entries of `p` likewise. Moduli are bounded by their parts.
 #[inline(always)]
 fn agree(pose: &Entries<ComplexBatch>, discs: &Entries<Discs>) -> [bool; LANES] {
     let mut out = [true; LANES];

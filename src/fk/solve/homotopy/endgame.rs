@@ -33,8 +33,8 @@ pub(crate) struct EndPoint {
     pub winding: u32,
     /// Distance of the last two means: the accuracy of `x`.
     pub accuracy: f64,
-    /// Half the difference of two roots that a loop of two turns cannot tell from a double one: they are at `x` plus
-    /// and minus this. It is lost in rounding for a true double root.
+    /// Half the difference of two roots that a loop of two turns cannot tell from a double one. The roots are at `x`
+    /// plus and minus this. It is lost in rounding for a true double root.
     pub split: Option<[Complex64; 8]>,
     /// Newton's method at the target, where the path was followed to it along the real line.
     pub regular: Option<PolishedRoot>,
@@ -67,9 +67,9 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
                 if best.is_none_or(|b| accuracy < b.accuracy) {
                     best = Some(EndPoint { x: mean, winding, accuracy, split, regular: None });
                 }
-                // The mean of two roots still apart converges just as that of a double root does, as long as the branch
-                // point between them is inside the circle. So finite ends go on to the smallest circle, where Newton's
-                // method from t tells two roots from one; for other ends the split does.
+                // The mean of two roots still apart converges as that of a double root does, while the branch point
+                // between them is inside the circle. So finite ends go on to the smallest circle, where Newton's method
+                // from t tells two roots from one; for other ends the split does.
                 if accuracy < AGREEMENT && (winding == 1 || !looks_finite(&mean) || t < SMALLEST * 8.0) {
                     return best;
                 }

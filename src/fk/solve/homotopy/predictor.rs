@@ -1,7 +1,7 @@
 //! The predictor of both trackers: the Taylor series of order [`ORDER`] of the path in the (complex) parameter.
 //!
-//! Its last term sets the step. The ratio of its last two terms bounds the step by the estimated radius of convergence
-//! (Timme 2021 uses the same two limits with a Padé predictor).
+//! Its last term sets the step. The ratio of its last two terms bounds the step by the estimated radius of convergence.
+//! Timme 2021 uses the same two limits with a Padé predictor.
 
 use pulp::Simd;
 

@@ -9,11 +9,10 @@ use num::modular::Field;
 
 /// Whether they are seen to be finitely many, whatever the lengths.
 ///
-/// With `h = 0` the quadrics and leg equations are homogeneous and know no lengths. A curve of points meets every
-/// hyperplane, so that a homogeneous linear equation
-/// that leaves no zeros but zero itself, an algebra of finite dimension, proves that there is no curve, whichever
-/// equation it is. The dimension of a projective scheme does
-/// not fall modulo a prime, so that finitely many points are finitely many for the joints as they are.
+/// With `h = 0` the quadrics and leg equations are homogeneous and contain no lengths. A curve of points meets every
+/// hyperplane. So there is no curve if any homogeneous linear equation leaves only the zero solution, an algebra of
+/// finite dimension. The dimension of a projective scheme does not fall modulo a prime. So finitely many points modulo
+/// a prime are finitely many for the joints as they are.
 pub(crate) fn are_points_at_infinity_finite(field: Field, ends: &EndResidues, rng: &mut Rng) -> bool {
     let hyperplane = std::array::from_fn(|k| if k < H { rng.next_u64() >> 4 } else { 0 });
     are_finite_by(field, ends, hyperplane)

@@ -43,9 +43,8 @@ impl CountedJoints {
 
     /// The generator of the primes and sections for these joints and lengths.
     ///
-    /// No design and lengths have the primes of others at the same seed, so that none can be made of the primes by
-    /// which it will be judged: these follow from a hash of
-    /// it.
+    /// The primes follow from a hash of the design and its lengths. So no two problems share their primes at one seed,
+    /// and no design can be made from the primes that will judge it.
     pub(super) fn rng(&self, lengths: Lengths<'_>, seed: u64) -> Rng {
         let mut hash = Sha256::new();
         hash.update(seed.to_le_bytes());
@@ -90,8 +89,8 @@ impl CountedJoints {
         }
     }
 
-    /// Bits of the norm of a leg equation with integer coefficients, in every embedding of the field: numbers below
-    /// `2^high` that are multiples of `2^low`, in products of two, times the square of a common denominator.
+    /// Bits of the norm of a leg equation with integer coefficients, in every embedding of the field. The numbers are
+    /// multiples of `2^low` below `2^high`, in products of two, times the square of a common denominator.
     pub(super) fn bits(&self, lengths: Lengths<'_>) -> f64 {
         let (mut high, mut low) = (1, 0);
         let mut take = |x: f64, halves: i32| {

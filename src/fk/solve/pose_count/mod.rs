@@ -2,10 +2,10 @@
 //! prime.
 //!
 //! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the
-//! zeros of quadrics in ten unknowns. Their algebra is built degree by degree (`quotient.rs`) from the squared lengths
-//! as the dyadic numbers and the joints as the dyadic or algebraic numbers (`joints.rs`) they are, modulo a random
-//! prime of 61 bits. The method shares nothing with those that find poses, nor with their certificates. Theorem, bound
-//! on the probability of error and sources: `docs/theory/pose-count.md`.
+//! zeros of quadrics in ten unknowns. Their algebra is built degree by degree (`quotient.rs`), modulo a random prime of
+//! 61 bits. Squared lengths enter as the dyadic numbers they are, joints as the dyadic or algebraic numbers they are
+//! (`joints.rs`). The method shares nothing with those that find poses, nor with their certificates. Theorem, bound on
+//! the probability of error and sources: `docs/theory/pose-count.md`.
 
 mod infinity;
 mod joints;
@@ -36,7 +36,7 @@ const DEGREE: usize = 6;
 /// Bits of random coefficients of linear sections.
 const SECTION_BITS: f64 = 64.0;
 
-/// How the poses are counted.
+/// Options of the count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CountOptions {
     /// Seed of the primes and of the random linear sections, which follow from it and from a hash of the joints and
@@ -130,7 +130,7 @@ pub struct PoseCount {
     pub set: PoseSet,
     /// Whether it is the set of the lengths given.
     pub lengths: CountedLengths,
-    /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots and cosines
+    /// The primes, drawn uniformly from those between `2^60` and `2^61`. Joints made of square roots and cosines take
     /// the first of several draws that has these.
     pub primes: Vec<u64>,
     /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set
@@ -206,8 +206,8 @@ pub fn count_common_points(
     })
 }
 
-/// Counts the finite poses of `m` with the squared lengths given, both exactly as they are: joints that a design gives
-/// exactly are these, not the doubles next to them.
+/// Counts the finite poses of `m` with the squared lengths given, both exactly as they are. Joints that a design gives
+/// exactly are used, not the doubles next to them.
 #[must_use]
 pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptions) -> PoseCount {
     counted(m, Lengths::Given(squares), options)
@@ -216,8 +216,9 @@ pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptio
 /// Counts the finite poses of `m` for generic squared lengths: no lengths have more isolated poses, counted with
 /// multiplicity (Sommese, Wampler 2005, theorem 7.1.1).
 ///
-/// The lengths are random integers below `2^60`; the bound on the probability of error includes that they are special
-/// (Schwartz 1980, lemma 1: the minors that decide are polynomials in the squared lengths, of degree one in each row).
+/// The lengths are random integers below `2^60`; the bound on the probability of error includes that they are special.
+/// Source: Schwartz 1980, lemma 1. The minors that decide are polynomials in the squared lengths, of degree one in each
+/// row.
 #[must_use]
 pub fn count_generic_poses(m: &Manipulator, options: &CountOptions) -> PoseCount {
     counted(m, Lengths::Generic, options)
@@ -229,7 +230,7 @@ enum Lengths<'a> {
     Generic,
 }
 
-/// What is one in the affine coordinates that are counted in.
+/// The form that equals one in the affine coordinates of the count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum CountedChart {
     /// `h`: poses.
@@ -400,12 +401,14 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
 
 /// Bound on the probability that a prime is bad: see "The probability of error" in `docs/theory/pose-count.md`.
 ///
-/// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the
-/// quadrics and linear equations in sixteen unknowns, or of its columns above one of the degrees `0..=DEGREE`, of
-/// seventeen where the chart is not `h = 1`. Hadamard: a minor is at most the product of the norms of its rows. It has
-/// as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between
-/// `2^60` and `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots and cosines are algebraic
-/// integers: a bad prime divides their norm, and any of the primes drawn may be bad.
+/// A bad prime divides a nonzero minor of the integer matrix of all multiples of some degree `<= depth + 1` of the
+/// quadrics and linear equations. Or it divides a minor of the matrix's columns above one of the degrees `0..=DEGREE`.
+/// There are sixteen unknowns in the chart `h = 1`, seventeen in the others.
+///
+/// Hadamard: a minor is at most the product of the norms of its rows. The number of its prime factors above `2^60` is
+/// at most its bits over sixty. There are more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and `2^61` (Rosser,
+/// Schoenfeld 1962, (3.9)). Joints made of square roots and cosines have algebraic integers as minors. A bad prime
+/// divides their norm, and any of the primes drawn may be bad.
 fn error_probability(
     joints: &CountedJoints,
     prime: &DrawnPrime,
@@ -417,8 +420,8 @@ fn error_probability(
     (minors(chart, depth) * bits / 60.0 / primes * prime.chances).min(1.0)
 }
 
-/// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before
-/// the prime is drawn.
+/// Upper bound on the rows of all minors that decide, for all depths up to the one that was needed. That depth is not
+/// known before the prime is drawn.
 fn minors(chart: CountedChart, depth: usize) -> f64 {
     let unknowns = if chart == CountedChart::Finite { H } else { COORDINATES };
     (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(unknowns, t)).sum()

@@ -77,7 +77,7 @@ pub(super) fn quadrics() -> Vec<QuadricTerms> {
     out
 }
 
-/// What linear equations leave of the sixteen coordinates.
+/// The part of the sixteen coordinates that linear equations leave.
 pub(super) enum Cut {
     /// The equations contradict each other.
     Empty,

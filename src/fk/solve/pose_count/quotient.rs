@@ -1,7 +1,7 @@
 //! The algebra of polynomials modulo an ideal, degree by degree, closed under falls of degree.
 //!
 //! `V_d` is the space of polynomials of degree `d` or less that are known to lie in the ideal, `W_d` all polynomials of
-//! degree `d` or less modulo `V_d`. `W_d` has a basis of monomials, the standard ones, and is all that is kept: with
+//! degree `d` or less modulo `V_d`. `W_d` has a basis of standard monomials, and only this basis is kept. With
 //! `W_{d-1}`, `W_d` and the products `x_k w` that lead from one to the other the next space is
 //!
 //! ```text
@@ -12,17 +12,17 @@
 //! relation that involves `W_d` alone is a fall of degree: a polynomial of the ideal of degree `e <= d` that `V_e` did
 //! not have. It is added there, and the spaces are built again from degree `e`.
 //!
-//! When no standard monomial is left in degrees `d` and `d + 1` and there is no fall, the products commute on all
-//! standard monomials, and these are a basis of the whole algebra (Mourrain 1999): their number is the number of zeros
-//! over the algebraic closure, each with its multiplicity.
+//! When degrees `d` and `d + 1` have no standard monomials and there is no fall, the products commute on all standard
+//! monomials. These are then a basis of the whole algebra (Mourrain 1999). Their number is the number of zeros over the
+//! algebraic closure, each with its multiplicity.
 
 use std::collections::HashMap;
 
 use num::echelon::Echelon;
 use num::modular::Field;
 
-/// A monomial: four bits for each exponent, the degree in the highest four, so that larger numbers are larger in the
-/// graded lexicographic order and products are sums.
+/// A monomial: four bits for each exponent, the degree in the highest four. So larger numbers are larger in the graded
+/// lexicographic order, and products are sums.
 pub(super) type Monomial = u64;
 
 /// The monomial 1.
@@ -40,19 +40,19 @@ fn degree(m: Monomial) -> usize {
 /// Terms with coefficients that are not zero.
 pub(super) type Polynomial = Vec<(Monomial, u64)>;
 
-/// What became of the spaces.
+/// The result of the construction of the spaces.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum QuotientOutcome {
     /// The standard monomials are a basis of the algebra.
     Closed {
-        /// How many there are of each degree, from 0 on; empty when the ideal holds 1.
+        /// Number of standard monomials of each degree, from 0 on; empty when the ideal holds 1.
         by_degree: Vec<usize>,
         /// All polynomials used are combinations of multiples of the given ones of at most this degree.
         depth: usize,
     },
     /// Standard monomials are left in the highest degree allowed.
     Open {
-        /// How many there are of each degree.
+        /// Number of standard monomials of each degree.
         by_degree: Vec<usize>,
     },
 }

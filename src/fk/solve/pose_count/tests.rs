@@ -267,8 +267,8 @@ fn mixed(x: &Surd, u: &SurdPoint, y: &Surd, v: &SurdPoint) -> SurdPoint {
     [0, 1, 2].map(|k| x.times(&u[k]).unwrap().plus(&y.times(&v[k]).unwrap()).unwrap())
 }
 
-/// The octahedral platform with equilateral base of edge 12 and platform of edge 6, each joint slid along the side to
-/// the next by its part.
+/// The octahedral platform with equilateral base of edge 12 and platform of edge 6. Each joint is slid along the side
+/// towards the next by its part.
 fn slid(parts: &[Surd; 6]) -> [ExactEnds; 6] {
     let h = root(3);
     let point = |x: i64, y: i64| [Surd::integer(x), h.times(&Surd::integer(y)).unwrap(), Surd::zero()];

@@ -8,7 +8,7 @@ use platform::manipulator::ExactEnds;
 /// The legs with an end on a line, as bits.
 pub(super) type Members = u8;
 
-/// How many pairs of lines, one of each body, there are such that every leg ends on one of them.
+/// The number of pairs of lines, one of each body, such that every leg ends on one of them.
 ///
 /// Both lines are spanned by ends of legs. A line that is not takes a single joint with it and turns about it, so that
 /// the points at infinity are not isolated.

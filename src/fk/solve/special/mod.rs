@@ -1,7 +1,7 @@
 //! Special positions of joints that take finite poses away, decided without rounding.
 //!
 //! *Joints on a line* and *affine hexagons* have bounds of their own. In general poses are lost at infinity. The
-//! closure of the group in the sixteen coordinates of `pose_count` has dimension 6 and degree 40; its points at
+//! closure of the group in the sixteen coordinates of `pose_count` has dimension 6 and degree 40. Its points at
 //! infinity are `M = mu u v^T`, `y = eta u`, `x = xi v`, `r` with isotropic `u, v` (`u.u = v.v = 0`). A leg holds there
 //! when
 //!
@@ -9,13 +9,13 @@
 //! r - 2 eta alpha_i - 2 xi beta_i - 2 mu alpha_i beta_i = 0,    alpha_i = a_i.u,    beta_i = b_i.v,
 //! ```
 //!
-//! whatever its length is. Each such point common to six legs takes one of the 40 intersections, two where the form is
-//! a product `(alpha - alpha_0)(beta - beta_0)`, because the closure is singular there. Theorem and proof: "Points at
-//! infinity" in `docs/theory/completeness.md`; the points themselves: Gallet, Nawratil, Schicho 2014, who call them
-//! bonds.
+//! whatever its length is. Each such point common to six legs takes one of the 40 intersections. It takes two when the
+//! form is a product `(alpha - alpha_0)(beta - beta_0)`, because the closure is singular there. Theorem and proof:
+//! "Points at infinity" in `docs/theory/completeness.md`. Source of the points: Gallet, Nawratil, Schicho 2014, who
+//! call them bonds.
 //!
-//! What is counted here is decided exactly: butterflies by lines that cover the legs, inversions of two planar bodies
-//! by ranks over the field of the joints.
+//! The counts here are exact: butterflies by lines that cover the legs, inversions of two planar bodies by ranks over
+//! the field of the joints.
 
 mod arithmetic;
 mod lines;
@@ -31,21 +31,21 @@ use super::pose_count::are_points_at_infinity_finite;
 /// Points at infinity common to all legs, whatever the lengths, and isolated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PointsAtInfinity {
-    /// Pairs of a line of the base and a line of the platform such that every leg ends on one of them: four points
-    /// each, and each of them counts twice.
+    /// Pairs of a line of the base and a line of the platform such that every leg ends on one of them. Each pair has
+    /// four points, and each of these counts twice.
     pub(crate) butterflies: usize,
     /// Projections of two planar bodies that a linear fractional map relates: four points each.
     pub(crate) inversions: usize,
 }
 
 impl PointsAtInfinity {
-    /// How many of the forty poses they take away, at least.
+    /// Lower bound on the number of the forty poses that these points take away.
     pub(crate) fn weight(self) -> usize {
         8 * self.butterflies + 4 * self.inversions
     }
 }
 
-/// What is special about the joints of a design.
+/// The special features of the joints of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct SpecialPosition {
     /// The largest number of legs that end on one line of a body, spanned by two of the ends.
@@ -57,7 +57,8 @@ pub(crate) struct SpecialPosition {
     pub at_infinity: Option<PointsAtInfinity>,
 }
 
-/// What is special about the joints of `m`; `None` when they are not known exactly or their numbers become too long.
+/// The special features of the joints of `m`; `None` when the joints are not known exactly or their numbers become too
+/// long.
 ///
 /// Nothing depends on the seed but whether an unlucky prime hides the answer.
 pub(crate) fn special_position(m: &Manipulator, seed: u64) -> Option<SpecialPosition> {

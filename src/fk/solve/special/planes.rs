@@ -8,12 +8,12 @@
 //!     [ eta pi  mu pi pi'^T  ]
 //! ```
 //!
-//! so that its last two rows have rank one, and its last two columns have. Six independent legs leave three dimensions
-//! of matrices, in which these are five conics: minors of a `2 x 3` matrix of linear forms have three common zeros, and
-//! those are common zeros of the others or are not. The ring of the common zeros has the dimension `10 - rank` of the
-//! cubics that the conics generate (see the documentation): the rank is computed over the field of the joints; that the
-//! zeros are different, and not at ramified projections, is seen modulo a prime, where it can only be wrong to the
-//! other side. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
+//! so that its last two rows have rank one, and so have its last two columns. Six independent legs leave three
+//! dimensions of matrices, in which these are five conics. The minors of a `2 x 3` matrix of linear forms have three
+//! common zeros, each of which may be a common zero of the others. The ring of the common zeros has the dimension
+//! `10 - rank` of the cubics that the conics generate (see the documentation). The rank is computed over the field of
+//! the joints. A prime shows that the zeros are different, and not at ramified projections; an error could only hide an
+//! inversion. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
 
 use super::Residues;
 use super::arithmetic::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
@@ -68,8 +68,8 @@ pub(super) fn are_affine_images(
     Some(planar && eliminate(&SurdArithmetic, &mut rows)?.len() == 3)
 }
 
-/// How many inversions there are beside `butterflies`, which are such matrices of rank one; `None` when numbers become
-/// too long and when a prime is unlucky.
+/// The number of inversions beside `butterflies`, which are such matrices of rank one. `None` when numbers become too
+/// long or a prime is unlucky.
 pub(super) fn inversions(
     residues: &Residues,
     ends: &[ExactEnds; 6],
@@ -313,7 +313,7 @@ impl ResidueMatrix {
         (leading == (0..n).collect::<Vec<_>>()).then(|| self.map(|r, c| rows[c][n + r]))
     }
 
-    /// Of at most three rows: whether the characteristic polynomial has no double root.
+    /// Whether the characteristic polynomial has no double root; for at most three rows.
     fn has_distinct_eigenvalues(&self) -> bool {
         let (field, m) = (self.field, &self.columns);
         let mul = |list: &[u64]| list.iter().fold(1, |product, x| field.mul(product, *x));

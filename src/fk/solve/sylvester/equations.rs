@@ -143,8 +143,8 @@ impl Slice {
 
     /// `c_1^(5-n) c_2^n` in terms of degree four and lower, `n = 0..=5` (Lee, Shim, eq. 20).
     ///
-    /// `c_3` times the first three equations is taken off the last three: what is left of degree five is the
-    /// constant Sylvester matrix of two binary cubics.
+    /// `c_3` times the first three equations is subtracted from the last three. The remaining terms of degree five are
+    /// the constant Sylvester matrix of two binary cubics.
     fn lowered(&self, c3: Number) -> Result<[Bivariate; 6], SylvesterError> {
         let [t1, t2, t3] = &self.theta;
         let p = [t1.shifted(1, 0), t2.shifted(1, 0), t2.shifted(0, 1)];

@@ -1,15 +1,15 @@
 //! Six leg equations by a 15 x 15 Sylvester matrix in one Cayley parameter.
 //!
-//! Lee, Shim, Elimination-based solution method for the forward kinematics of the general Stewart-Gough platform.
-//! With leg 1 between the origins and `q = R^T p` the legs 2..6 are linear in `(q, p)`; they leave a line
-//! `(q, p) = u + lambda n`, and `(I + C) q = (I - C) p` gives three quartics `Theta` in the Cayley parameters,
-//! `p.p = L_1` six sextics `Phi`. The quartics lower every power of degree five and six in `c_1, c_2`; fifteen
-//! combinations are linear in the fifteen monomials of degree at most four in `c_1, c_2`, with coefficients in
-//! `c_3`. The determinant of that matrix is a polynomial of degree 40.
+//! Lee, Shim, Elimination-based solution method for the forward kinematics of the general Stewart-Gough platform. With
+//! leg 1 between the origins and `q = R^T p` the legs 2..6 are linear in `(q, p)` and leave a line
+//! `(q, p) = u + lambda n`. Then `(I + C) q = (I - C) p` gives three quartics `Theta` in the Cayley parameters, and
+//! `p.p = L_1` gives six sextics `Phi`. The quartics lower every power of degree five and six in `c_1, c_2`. Fifteen
+//! combinations are linear in the fifteen monomials of degree at most four in `c_1, c_2`, with coefficients in `c_3`.
+//! The determinant of that matrix is a polynomial of degree 40.
 //!
-//! Here nothing is expanded in `c_3`: the matrix is built at 48 points of the unit circle, in double-double
-//! arithmetic, and the determinants are interpolated, eight points more than a polynomial of degree 40 needs, so
-//! that the degree is checked and not assumed. Roots in double-double arithmetic by Ehrlich-Aberth iteration;
+//! Here nothing is expanded in `c_3`. The matrix is built at 48 points of the unit circle, in double-double arithmetic,
+//! and the determinants are interpolated. These are eight points more than a polynomial of degree 40 needs, so that the
+//! degree is checked and not assumed. Roots are found in double-double arithmetic by Ehrlich-Aberth iteration,
 //! `c_1, c_2` from the null vector of the matrix at a root.
 
 mod bivariate;

@@ -20,8 +20,8 @@ pub(super) fn root_of_unity(k: usize, n: usize) -> Number {
     z
 }
 
-/// The coefficients of the real polynomial of degree below `n` with the given values at the roots of unity
-/// `0..=n/2` (`n` even; the others are conjugates).
+/// The coefficients of the real polynomial of degree below `n` with the given values at the roots of unity `0..=n/2`.
+/// `n` is even; the other values are conjugates.
 pub(super) fn interpolate(values: &[Number], n: usize) -> Vec<DoubleDouble> {
     let unit: Vec<Number> = (0..n).map(|k| root_of_unity(k, n)).collect();
     let scale = DoubleDouble::ONE / DoubleDouble::from(n as f64);

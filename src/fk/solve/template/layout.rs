@@ -1,4 +1,4 @@
-//! Where each coefficient goes: the structure of the template, independent of the numbers of a problem.
+//! The places of the coefficients: the structure of the template, independent of the numbers of a problem.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -28,9 +28,9 @@ pub enum LayoutError {
 pub(super) struct Fill {
     pub(super) row: u16,
     pub(super) column: u16,
-    /// Which of the five equations.
+    /// Index of the equation, of five.
     pub(super) equation: u8,
-    /// Which of its 40 coefficients.
+    /// Index of its coefficient, of 40.
     pub(super) term: u8,
     /// Sign, and whether `L_1` is a factor.
     pub(super) sign: f64,

@@ -8,11 +8,11 @@
 //! ```
 //!
 //! forty coefficients each. The template (Martyushev, Forward kinematics of a general Stewart-Gough platform by
-//! elimination templates, sec. 4 and appendix) multiplies `f_2..f_6` by 293 monomials; after reduction with
-//! multiples of `f_1`, 362 columns suffice (the others depend on them linearly). Eliminating the 255 excessive
-//! ones leaves 38 equations between reducible and basic monomials, and since `1/w` maps basic monomials to basic
-//! and reducible ones, a 69 x 69 pencil. At most 40 of its eigenvectors belong to poses: what is a pose must be
-//! decided by refinement and proof, not by sorting residuals.
+//! elimination templates, sec. 4 and appendix) multiplies `f_2..f_6` by 293 monomials. After reduction with multiples
+//! of `f_1`, 362 columns suffice (the others depend on them linearly). Eliminating the 255 excessive ones leaves 38
+//! equations between reducible and basic monomials. `1/w` maps basic monomials to basic and reducible ones, which gives
+//! a 69 x 69 pencil. At most 40 of its eigenvectors belong to poses. Refinement and proof decide which, not sorted
+//! residuals.
 
 mod layout;
 
@@ -36,7 +36,7 @@ pub struct Filled<'a> {
     rows: Vec<Vec<f64>>,
 }
 
-/// What the factorisation leaves: `A_R v(R) + A_B v(B) = 0`.
+/// The equations after the factorisation: `A_R v(R) + A_B v(B) = 0`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Eliminated<'a> {
     layout: &'a TemplateLayout,

@@ -1,8 +1,8 @@
-//! Clusters: `m` roots in one ball, counted with multiplicity. What can be proved about a multiple pose, and about
-//! poses too close to be told apart.
+//! Clusters: `m` roots in one ball, counted with multiplicity. They prove facts about a multiple pose, and about poses
+//! too close to be told apart.
 //!
-//! Where the Jacobian `J` at the centre `c` has one small singular value, with `w` near the direction that its image
-//! lacks and `l` near the row that its kernel needs, the bordered equations in `z = (h, mu)`,
+//! Let the Jacobian `J` at the centre `c` have one small singular value. Let `w` be near the direction that its image
+//! lacks, and `l` near the row that its kernel needs. The bordered equations in `z = (h, mu)`,
 //!
 //! ```text
 //! F(c + h) - mu w = 0,    l.h = t,        B = [ J  -w ; l  0 ],
@@ -29,28 +29,28 @@
 //! C = eta + kappa Z + sum over n of e_n rho^n + sum over n > K of |z_n| rho^n.
 //! ```
 //!
-//! 1. If `C + kappa R + beta (2 H R + R^2) <= R` and `kappa + 2 beta (H + R) < 1`, then for every complex `t` with
-//!    `|t| <= rho` there is exactly one fixed point with `|zeta| <= R`, and it is analytic in `t`: `h(t)`, `mu(t)`. It
-//!    is the only one with `|zeta| <= S` for every `S` with `kappa + 2 beta (H + S) < 1`. `kappa < 1` makes `Y`
-//!    regular.
-//! 2. The bordered equations with `t` as a further unknown have a regular Jacobian by `(h, mu)` there, hence their
-//!    zeros near `(h(t), mu(t), t)` are this curve, and the local ring of `F` at `c + h(t_0)`, where `mu(t_0) = 0`, is
-//!    that of `mu` at `t_0`: the multiplicity of the root is the order of the zero (Lyapunov-Schmidt reduction).
+//! 1. If `C + kappa R + beta (2 H R + R^2) <= R` and `kappa + 2 beta (H + R) < 1`, then every complex `t` with
+//!    `|t| <= rho` has exactly one fixed point with `|zeta| <= R`. It is analytic in `t`: `h(t)`, `mu(t)`. It is the
+//!    only one with `|zeta| <= S` for every `S` with `kappa + 2 beta (H + S) < 1`. `kappa < 1` makes `Y` regular.
+//! 2. The bordered equations with `t` as a further unknown have a regular Jacobian by `(h, mu)` there. Hence their
+//!    zeros near `(h(t), mu(t), t)` are this curve. The local ring of `F` at `c + h(t_0)`, where `mu(t_0) = 0`, is that
+//!    of `mu` at `t_0`. So the multiplicity of the root is the order of the zero (Lyapunov-Schmidt reduction).
 //! 3. The last row of the fixed-point equation is `mu(t) = mu_1 t + .. + mu_2K t^2K + E(t)`, `mu_n` the last entry of
-//!    `z_n`, with `|E| <= eta_8 + kappa_8 (Z + R) + sum e_n,8 rho^n + beta_8 (2 H R + R^2)`, the index 8 standing for
-//!    that row. If `|mu_m| rho^m` is larger than this and `|mu_n| rho^n` of all other `n` together, `mu` has exactly
-//!    `m` zeros with `|t| < rho` by Rouche's theorem: `m` roots, counted with multiplicity, within `H + R` of `c`, for
-//!    every choice of the data.
+//!    `z_n`. There `|E| <= eta_8 + kappa_8 (Z + R) + sum e_n,8 rho^n + beta_8 (2 H R + R^2)`, and the index 8 stands
+//!    for that row. Let `|mu_m| rho^m` be larger than this and `|mu_n| rho^n` of all other `n` together. Then `mu` has
+//!    exactly `m` zeros with `|t| < rho` by Rouche's theorem. They are `m` roots, counted with multiplicity, within
+//!    `H + R` of `c`, for every choice of the data.
 //! 4. A root at `h` with `|h| <= r`, `|l|_1 r <= rho`, `r + H <= S` and `|mu_1| rho + .. + |mu_K| rho^K <= S` is the
-//!    fixed point for `t = l.h`, with `mu = 0`: within `r` of `c` there are no roots but those `m`.
-//!    1. and 3. may hold for a small `rho`, which says how close the roots are, and for a large one, which says how far
-//!       away all others are: they are the same `m` roots.
+//!    fixed point for `t = l.h`, with `mu = 0`. So within `r` of `c` there are no roots but those `m`.
+//!
+//! Statements 1 and 3 may hold for a small `rho`, which bounds the distances of the roots. They may also hold for a
+//! large one, which bounds the distance of all others. The `m` roots are the same.
 //!
 //! For `m = 2` and `K = 1` the expansion has the term in `t^2` only. More terms count where the next root is so close
 //! that the bound of the remainder would reach it.
 //!
-//! **Rounding** as in `krawczyk.rs`; a row of `Y B` is a sum of at most 16 products in each part, below
-//! `20 u sum |Y|_1 |B|_1`. `Q(h_i, h_j)` has the bounds of the `system` module; the sum over `i` has at most `K` terms,
+//! **Rounding** as in `krawczyk.rs`. A row of `Y B` is a sum of at most 16 products in each part, below
+//! `20 u sum |Y|_1 |B|_1`. `Q(h_i, h_j)` has the bounds of the `system` module. The sum over `i` has at most `K` terms,
 //! and a row of `Y` times it at most 14 products in each part.
 
 use nalgebra::SMatrix;
@@ -67,8 +67,8 @@ use platform::geom::ComplexPose;
 
 /// Newton steps towards the middle of a cluster.
 const STEPS: usize = 12;
-/// How far these may lead, in coordinates of order one: means of the ends of paths are multiple poses to about six
-/// digits.
+/// The distance that these may lead, in coordinates of order one. Means of the ends of paths are multiple poses to
+/// about six digits.
 const REACH: f64 = 1e-3;
 /// The radii `rho` that are tried.
 const RADII: [i32; 2] = [-48, -4];
@@ -84,7 +84,7 @@ type BorderedMatrix = SMatrix<Complex64, 8, 8>;
 ///
 /// Coordinates are those of a [`Certificate`](super::Certificate). For every choice of the data within their radii
 /// [`multiplicity`](Self::multiplicity) roots lie within [`radius`](Self::radius) of the centre
-/// [`centre`](Self::centre) `+` [`low`](Self::low), on the curve of the text of the module, and no others within
+/// [`centre`](Self::centre) `+` [`low`](Self::low), on the curve of the module's text. No others lie within
 /// [`uniqueness_radius`](Self::uniqueness_radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClusterCertificate {
@@ -108,7 +108,7 @@ impl ClusterCertificate {
         &self.centre
     }
 
-    /// What these leave of the centre.
+    /// The digits of the centre beyond [`centre`](Self::centre).
     #[must_use]
     pub fn low(&self) -> &[Complex64; 8] {
         &self.low
@@ -163,7 +163,7 @@ impl ClusterCertificate {
         self.reality
     }
 
-    /// Where `R` and `p` of all its roots are.
+    /// The enclosure of `R` and `p` of all its roots.
     #[must_use]
     pub fn enclosure(&self) -> &PoseEnclosure {
         &self.enclosure
@@ -192,7 +192,7 @@ fn modulus(z: Complex64) -> f64 {
     z.re.abs() + z.im.abs()
 }
 
-/// Where column `k` of the Jacobian stands among the coordinates.
+/// The index of column `k` of the Jacobian among the coordinates.
 fn coordinate(patch: usize, k: usize) -> usize {
     if k == patch { 7 } else { k }
 }
@@ -331,7 +331,7 @@ impl Middle {
     }
 
     /// The point of the curve at which the term of order `m - 1` vanishes, by Newton's method on this and on the
-    /// equations; an approximation, nothing is proved of it.
+    /// equations. It is an approximation without a proof.
     fn of(system: &LegSystem, start: &Study<DoubleDouble>, m: usize) -> Result<Self, WhyUncertified> {
         let mut x = *start;
         let mut last = f64::INFINITY;
@@ -428,9 +428,9 @@ fn bounds(system: &LegSystem, x: &Study<DoubleDouble>, border: &BorderedSystem) 
 /// A `rho` that proves the roots.
 struct ProvedDisc {
     rho: f64,
-    /// Of the ball about the centre that holds them.
+    /// Radius of the ball about the centre that holds them.
     radius: f64,
-    /// Of a ball that holds no others.
+    /// Radius of a ball that holds no others.
     uniqueness_radius: f64,
     dominance: f64,
 }
@@ -534,8 +534,8 @@ fn flat_points(system: &LegSystem, inflection: &Middle) -> Vec<Middle> {
 /// The middle of a cluster, rounded, with its proof.
 pub(crate) type ProvedCluster = (ComplexPose, ClusterCertificate);
 
-/// Clusters of at most so many roots that are proved to lie near the pose, in ascending order; or why there is none of
-/// so many.
+/// Clusters of at most `most` roots that are proved to lie near the pose, in ascending order. An error says why there
+/// is none of a size.
 pub(super) fn clusters_near<'a>(
     system: &'a LegSystem,
     pose: &ComplexPose,

@@ -5,8 +5,8 @@ use num::Rng;
 use platform::geom::Pose;
 use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 
-/// Joints and position in whole numbers, the identity as rotation, every leg perpendicular to the velocity of its
-/// platform joint in one twist: the pose is singular exactly, and the squared lengths are whole numbers.
+/// Joints and position in whole numbers, the identity as rotation. Every leg is perpendicular to the velocity of its
+/// platform joint in one twist. So the pose is singular exactly, and the squared lengths are whole numbers.
 fn singular_problem(rng: &mut Rng) -> (Manipulator, Pose, SquaredLegLengths) {
     let mut whole = |most: f64| (rng.uniform(-most, most)).round();
     loop {
@@ -32,8 +32,8 @@ fn singular_problem(rng: &mut Rng) -> (Manipulator, Pose, SquaredLegLengths) {
     }
 }
 
-/// A design and a pose with a mirror plane, three pairs of legs, with an odd twist that changes no length to first
-/// order: `mu` is an odd function of `t`, so that the pose is a triple root. In whole numbers, as above.
+/// A design and a pose with a mirror plane, three pairs of legs, and an odd twist that changes no length to first
+/// order. Then `mu` is an odd function of `t`, and the pose is a triple root. In whole numbers, as above.
 fn triple_problem(rng: &mut Rng) -> (Manipulator, Pose, SquaredLegLengths) {
     let mut whole = |most: f64| (rng.uniform(-most, most)).round();
     loop {
@@ -134,8 +134,9 @@ fn an_exact_triple_pose_is_proved_to_have_three_roots_and_not_two() {
     assert!(widest < 1e-4, "{widest:e}");
 }
 
-/// Lengths a little off part a triple pose into three, at the corners of a triangle in the parameter of the curve: as
-/// they are far apart against rounding each has a certificate of its own, and all of them are of the cluster.
+/// Slightly different lengths part a triple pose into three, at the corners of a triangle in the parameter of the
+/// curve. They are far apart against rounding, so each has a certificate of its own, and all of them are of the
+/// cluster.
 #[test]
 fn three_roots_that_are_apart_by_a_little_are_of_the_cluster_and_others_are_not() {
     let mut rng = Rng::new(0xd4);
@@ -180,7 +181,7 @@ fn three_roots_that_are_apart_by_a_little_are_of_the_cluster_and_others_are_not(
     assert!(compared >= 10 && outside >= 5, "{compared} {outside}");
 }
 
-/// Where two directions are singular at once, or the pose is on a curve of poses, nothing is proved.
+/// Nothing is proved when two directions are singular at once, or the pose is on a curve of poses.
 #[test]
 fn corank_two_and_curves_of_poses_are_not_taken_for_clusters() {
     let mut rng = Rng::new(0xd5);

@@ -15,7 +15,7 @@
 //! 3. The Jacobian at `h*` is regular: `|I - Y (J + 2 Q(h*, .))| <= kappa + 2 beta r < 1`.
 //!
 //! **Rounding.** Moduli are bounded by `|z|_1 = |re| + |im|`. A row of `Y J` or `Y F` is in each part a sum of 14
-//! products; with the subtraction from the identity the `|.|_1` of its error is at most
+//! products. With the subtraction from the identity the `|.|_1` of its error is at most
 //! `gamma_15 sum |Y|_1 |J|_1 < 16 u sum`. `J` and `F` themselves carry the bounds of the `system` module.
 
 use num_complex::Complex64;
@@ -38,7 +38,7 @@ pub(super) struct RootBall {
     pub(super) centre_radius: f64,
     /// There is no other root at most this far from the centre.
     pub(super) uniqueness_radius: f64,
-    /// Of the Newton map on the ball of `radius`.
+    /// Lipschitz constant of the Newton map on the ball of `radius`.
     pub(super) lipschitz: f64,
     /// `Y F(c)`, computed: the centre less this is a better approximation (zero for the patch).
     pub(super) step: [Complex64; 8],
@@ -92,8 +92,8 @@ impl Centre<'_> {
 /// Digits with which the equations may be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Digits {
-    /// Those of the centre: doubles, or values in double-double with an inverse in double; where that is not enough,
-    /// differences of the equations in double-double.
+    /// The digits of the centre: doubles, or values in double-double with an inverse in double. If these do not
+    /// suffice, differences of the equations in double-double.
     OfTheCentre,
     /// 256 bits, the inverse of the Jacobian included; for centres in double-double.
     Octuple,

@@ -1,8 +1,8 @@
 //! Arithmetic of the proof: real numbers with an error radius, eight discs of complex numbers side by side, and what a
 //! triangle contributes.
 //!
-//! As for discs (`num::ball`): a computed sum, product, quotient or root is off by at most `u` times its modulus, radii
-//! are sums of products of non-negative numbers, and [`UP`] and [`TINY`] take up their own rounding and underflow.
+//! A computed sum, product, quotient or root is off by at most `u` times its modulus, as for discs (`num::ball`). Radii
+//! are sums of products of non-negative numbers; [`UP`] and [`TINY`] take up their own rounding and underflow.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 

@@ -1,12 +1,14 @@
 //! Certificates for octahedral platforms, all sixteen poses at once.
 //!
-//! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, each corner of the
-//! platform is on a circle about a side of the base, and three angles are left, for which the three sides of the
-//! platform have to have their lengths (`circles.rs`). A regular zero of these three equations belongs to exactly one
-//! pose, regular too; its mirror image in the base plane has the opposite heights above that plane; theorem and proof:
-//! `docs/theory/certificates.md`. So a test in three unknowns certifies two poses, and their places follow by disc
-//! arithmetic (`poses.rs`). Coefficients are enclosed from the joints, each coordinate within its radius of a double,
-//! and from squared lengths as intervals. Nothing is shared with the solver but the order of the legs.
+//! Base triangle `P1 P2 P3`, platform triangle `P4 P5 P6`, legs `14 24 25 35 36 16`. Each corner of the platform is on
+//! a circle about a side of the base. Three angles remain, and the lengths of the three sides of the platform are three
+//! equations in them (`circles.rs`). A regular zero of these equations belongs to exactly one pose, regular too. The
+//! mirror image of that pose in the base plane has the opposite heights above it. Theorem and proof:
+//! `docs/theory/certificates.md`.
+//!
+//! So a test in three unknowns certifies two poses, and their places follow by disc arithmetic (`poses.rs`).
+//! Coefficients are enclosed from the joints, each coordinate within its radius of a double, and from squared lengths
+//! as intervals. Only the order of the legs is shared with the solver.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -45,12 +47,13 @@ pub struct OctahedralCertifier {
     origins: [RealVector; 2],
 }
 
-/// Proof that exactly two poses, mirror images of each other in the base plane, have their corners near given ones, and
-/// that two given poses approximate them.
+/// Proof that exactly two poses, mirror images of each other in the base plane, have their corners near given ones. It
+/// also proves that two given poses approximate them.
 ///
-/// About its side of the base each corner `k` is on a circle `h^2 + z^2 = rho`, `h` across the side in the plane of the
-/// base and `z` along `(P2 - P1) x (P3 - P1)`; with `u = h + i z`, `v = h - i z` that is `u v = rho`. Distance of two
-/// points of a circle: `|log|` of the ratio of their `u`, an angle; of two poses: the largest of the three.
+/// Each corner `k` is on a circle `h^2 + z^2 = rho` about its side of the base, `h` across the side in the plane of the
+/// base and `z` along `(P2 - P1) x (P3 - P1)`. With `u = h + i z`, `v = h - i z` that is `u v = rho`. The distance of
+/// two points of a circle is `|log|` of the ratio of their `u`, an angle. The distance of two poses is the largest of
+/// the three.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairCertificate {
     /// `u` of `P4`, `P5`, `P6` of the centre, design units: for pose `2k`. The other pose has `u` and `v` exchanged.
@@ -63,11 +66,11 @@ pub struct PairCertificate {
     pub radius: f64,
     /// There is no other at most this far from it, an angle.
     pub uniqueness_radius: f64,
-    /// What is proved about the two poses: both are real, or neither is.
+    /// The proved reality of the two poses: both are real, or neither is.
     pub reality: ProvedReality,
-    /// The given poses are at most this far from the certified ones: entries of `R` relative to the larger of 1 and the
-    /// largest of them, entries of `p` relative to the larger of the power of two near the larger triangle and the
-    /// largest of them.
+    /// Largest distance of the given poses from the certified ones. Entries of `R` are relative to the larger of 1 and
+    /// the largest of them. Entries of `p` are relative to the larger of the largest of them and the power of two near
+    /// the larger triangle.
     pub deviation: f64,
     /// The same distances as they are, of the entries of `R` and of `p` (design units).
     pub distances: [f64; 2],
@@ -90,8 +93,8 @@ impl PairCertificate {
     }
 }
 
-/// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and which of
-/// its two poses it is.
+/// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and the choice
+/// between the two poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OctahedralCertificate {
     pub(super) order: [usize; 6],
@@ -120,14 +123,14 @@ impl OctahedralCertificate {
         self.mirrored
     }
 
-    /// Where `R` and `p` of the root are.
+    /// The enclosure of `R` and `p` of the root.
     #[must_use]
     pub fn enclosure(&self) -> &PoseEnclosure {
         &self.enclosure
     }
 }
 
-/// What could be proved about eight pairs of poses.
+/// The proofs about eight pairs of poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OctahedralCertificates {
     /// Pair by pair, `None` where there is no proof.
@@ -286,7 +289,7 @@ impl pulp::WithSimd for OctahedralProof<'_> {
 /// Coordinates and squared distances in units of the design stay below this, and products of eight of them in range.
 const LARGEST: f64 = (1u64 << 50) as f64;
 
-/// The equations are real, so that the conjugate of a zero is one; within the uniqueness ball it is the zero itself,
+/// The equations are real, so that the conjugate of a zero is a zero. Within the uniqueness ball it is the zero itself,
 /// and the pose is real. A corner that cannot be real proves the opposite.
 #[inline(always)]
 fn reality(found: &ZeroDiscs, k: usize) -> ProvedReality {

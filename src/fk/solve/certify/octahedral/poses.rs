@@ -1,9 +1,9 @@
 //! From enclosed corners to the poses, and how far given poses are from these.
 //!
-//! **Poses.** `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. Mirrored
-//! in the base plane the third coordinates of the corners change sign; the third axis is a cross product, so that `F`
-//! becomes `D F D`, `D = diag(1, 1, -1)`. With `F = F_e + F_o`, the part that keeps its signs and the part that changes
-//! them, `R = E^T F_e G +- E^T F_o G`. And `p = P1 + E^T c4 - R b4`.
+//! **Poses.** `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. The mirror
+//! in the base plane changes the sign of the third coordinates of the corners. The third axis is a cross product, so
+//! that `F` becomes `D F D`, `D = diag(1, 1, -1)`. Let `F = F_e + F_o`, the part that keeps its signs and the part that
+//! changes them. Then `R = E^T F_e G +- E^T F_o G`, and `p = P1 + E^T c4 - R b4`.
 //!
 //! **Bounds.** `E`, `G` are orthogonal and known up to `r_E`, `r_G <= 2^-10` an entry; entries of `F` up to `rho`,
 //! their moduli at most `M`. Entries are at most the spectral norm, and that is at most three times the largest entry:
@@ -38,15 +38,16 @@ fn cross(a: &Points, b: &Points) -> Points {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The pose of the zero: that of the corners at the centre, with derivatives by the three `t` times the radius, and a
-/// bound of the rest.
+/// The pose of the zero: the pose of the corners at the centre, with derivatives by the three `t` times the radius, and
+/// a bound of the rest.
 ///
 /// The axes of the platform triangle are `x = (P5 - P4) / L`, `y = (P6 - P4 - U x) / H` and `x cross y`. Far out the
-/// corners are nearly isotropic vectors, nearly parallel to each other: cross products are much smaller than their
-/// factors, and a disc for each factor would say little about them. With `|exp(t) - 1 - t| <= |t|^2` for `|t| <= 1` a
-/// coordinate of a corner is within `(|u| + |v|) r^2` of its linear part; `x = x0 + dx + ex` and `y` likewise give for
-/// the product, coordinate by coordinate, `x0 cross y0 + (dx cross y0 + x0 cross dy)` up to twice `(|dx| + |ex|)
-/// (|dy| + |ey|) + |x0| |ey| + |ex| |y0|`.
+/// corners are nearly isotropic vectors, nearly parallel to each other. Cross products are then much smaller than their
+/// factors, and a disc for each factor would be too wide.
+///
+/// With `|exp(t) - 1 - t| <= |t|^2` for `|t| <= 1` a coordinate of a corner is within `(|u| + |v|) r^2` of its linear
+/// part. Let `x = x0 + dx + ex`, and `y` likewise. The product is then `x0 cross y0 + (dx cross y0 + x0 cross dy)`,
+/// coordinate by coordinate, up to twice `(|dx| + |ex|) (|dy| + |ey|) + |x0| |ey| + |ex| |y0|`.
 #[inline(always)]
 pub(super) fn place(
     design: &OctahedralCertifier,
@@ -163,15 +164,15 @@ const FRAME: f64 = 1.0 / 1024.0;
 
 /// Bounds for both poses of each lane; NaN or infinite where nothing is known.
 pub(super) struct Deviation {
-    /// Of the entries of `R`.
+    /// Bound for the entries of `R`.
     pub(super) rotation: Reals,
-    /// Of the entries of `p / unit`.
+    /// Bound for the entries of `p / unit`.
     pub(super) position: Reals,
     /// The larger of both, each relative to the larger of 1 and the largest entry of its own kind.
     pub(super) relative: Reals,
 }
 
-/// How far the poses are from the certified ones.
+/// Bounds of the distances of the poses from the certified ones.
 #[inline(always)]
 pub(super) fn deviation(design: &OctahedralCertifier, placed: &MirrorPose, given: &GivenPoses) -> Deviation {
     let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());

@@ -10,8 +10,8 @@
 //!
 //! `T` is skew, so the gradient of `F_i` is `v_i` by `g` and `-T_i v_i - s_i e` by `e`.
 //!
-//! **Error bounds.** `U` is the unit of the arithmetic at hand, `2^-53` or [`DoubleDouble::UNIT`], and `u = 2^-53`. A
-//! sum of products in which every term passes through at most `n` roundings is computed with error at most
+//! **Error bounds.** `U` is the unit of the arithmetic at hand, `2^-53` or [`DoubleDouble::UNIT`], and `u = 2^-53`. In
+//! a sum of products let every term pass through at most `n` roundings. The error of the computed sum is at most
 //! `gamma_n = nU/(1-nU)` times the sum of the terms' moduli (Higham 2002, lemma 3.1). Real coefficients act on real and
 //! imaginary parts alike, so that bounds by moduli hold for the moduli of the complex errors. `E >= |e_j|`,
 //! `G >= |g_j|`, `P >= sum |e_j|^2`, `t_i` >= the absolute row sums of `T_i`, `W_i` = sum of the `|v|^2` of the four
@@ -22,13 +22,13 @@
 //!   each part, factor `sqrt 2` for two parts: `(sqrt 2 / 2) 7 U (W + s P) < 5U (W + s P)`.
 //! * joints known exactly have low parts as squared lengths have: data in double-double and with 256 bits, within the
 //!   radii in double.
-//! * data: in double the squared length is the double nearest to its middle; what that leaves, `|s_low| P / 2` in `F_i`
-//!   and `|s_low| e` in its gradient, counts as rounding. In double-double it is part of the data.
+//! * data: in double the squared length is the double nearest to its middle. The rest, `|s_low| P / 2` in `F_i` and
+//!   `|s_low| e` in its gradient, counts as rounding. In double-double it is part of the data.
 //! * `F_7`: five roundings, two parts: `sqrt 2 * 5 U * 4 E G < 32 U E G`.
 //! * gradient (always in double): `delta_i` by each `g_j`; `t_i delta_i + 5u (t_i sqrt W + s E)` by each `e_j`.
 //!
 //! **Joints within radii.** The coordinates of `a_i` and `b_i` may be any within radii of the doubles. Then `d` and `c`
-//! change by at most the sum of both radii a coordinate, and the absolute row sums of `T_i` by at most three times
+//! change by at most the sum of both radii a coordinate. The absolute row sums of `T_i` change by at most three times
 //! that, `tau_i`. With `V_i >= |v_i|` at the centre:
 //!
 //! * `v`: `omega = tau_i E` a component; `F_i`: `(1/2) sum |dv| (2|v| + |dv|) <= 2 omega V_i + 2 omega^2`, as above;
@@ -193,13 +193,14 @@ pub(super) struct LegSystem {
     pub(super) c: [[f64; 3]; 6],
     /// Doubles nearest to the middles of the squared lengths.
     pub(super) s: [f64; 6],
-    /// What these leave of the middles: part of the data in double-double, an error of evaluations in double.
+    /// The rest of the middles beyond these doubles: part of the data in double-double, an error of evaluations in
+    /// double.
     pub(super) s_low: [f64; 6],
-    /// How far from the middles the data may be.
+    /// Radii of the data about the middles.
     pub(super) s_radius: [f64; 6],
     pub(super) t: [f64; 6],
-    /// What the doubles leave of the joints: part of the data in double-double and with 256 bits, within the radii in
-    /// double.
+    /// The low parts of the joints beyond the doubles: part of the data in double-double and with 256 bits, within the
+    /// radii in double.
     pub(super) a_low: [[f64; 3]; 6],
     pub(super) b_low: [[f64; 3]; 6],
     /// `tau_i`: how much the radii of the joints may change the absolute row sums of `T_i`; zero for joints that are
@@ -258,7 +259,7 @@ fn rotation_gradient(d: &[f64; 3], c: &[f64; 3], s: f64, v: &[f64; 4], e: &[f64]
     ]
 }
 
-/// How far `F_i` changes when `T_i` does by row sums of `tau` at most.
+/// Bound of the change of `F_i` when `T_i` changes by row sums of at most `tau`.
 fn width_of_value(tau: f64, e: f64, v: f64) -> f64 {
     let omega = tau * e;
     2.0 * omega * (v + omega)
@@ -287,7 +288,7 @@ impl LegSystem {
         }
     }
 
-    /// What the doubles leave of the joints, and the radii that are left then.
+    /// Sets the low parts of the joints, beyond the doubles, and the radii that remain then.
     fn set_low_parts(&mut self, m: &Manipulator) -> Option<()> {
         let inverse = self.unit.recip();
         for i in 0..6 {
@@ -357,12 +358,12 @@ impl LegSystem {
         self.turn_radius[i].is_finite().then_some(())
     }
 
-    /// How far the squared length of leg `i` may be from the double that stands for it.
+    /// Largest distance of the squared length of leg `i` from the double that stands for it.
     pub(super) fn s_blur(&self, i: usize) -> f64 {
         (self.s_low[i].abs() + self.s_radius[i]) * UP
     }
 
-    /// What follows from joints and lengths.
+    /// Computes the quantities that follow from joints and lengths.
     fn prepare_leg(&mut self, i: usize) {
         let (a, b) = (self.a[i], self.b[i]);
         self.d[i] = std::array::from_fn(|j| b[j] - a[j]);
@@ -376,8 +377,8 @@ impl LegSystem {
         self.q[i] = (own + self.joint_width_of_second_order(i)) * UP;
     }
 
-    /// How far `F_i` changes over the joints' radii at a point with coordinates `e` of modulus at most `e` and a leg
-    /// vector of norm at most `v`.
+    /// Bound of the change of `F_i` over the joints' radii, at a point with coordinates `e` of modulus at most `e` and
+    /// a leg vector of norm at most `v`.
     pub(super) fn joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
         width_of_value(self.turn_radius[i], e, v)
     }
@@ -462,8 +463,8 @@ impl LegSystem {
         out
     }
 
-    /// Bounds of the error of `F` computed in the arithmetic with unit `unit`, and of the change of `F` over
-    /// the radii of squared lengths and joints.
+    /// Bounds of the error of `F` computed in the arithmetic with unit `unit`, and of the change of `F` over the radii.
+    /// These are the radii of squared lengths and joints.
     pub(super) fn value_bounds(
         &self,
         x: &Study<f64>,

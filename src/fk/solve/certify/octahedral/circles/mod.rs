@@ -1,11 +1,11 @@
 //! Three corners on three circles, and Krawczyk's test for their angles, eight centres at once.
 //!
 //! **Circles.** Two legs to neighbouring base joints `A`, `B` put a corner of the platform on a circle about the line
-//! `AB`: in the frame of the base triangle it is `m + h a + z n`, with `m` a point of `AB`, `a` across `AB` in the
-//! plane of the base, `n` normal to that plane, and `h^2 + z^2 = rho`. With `u = h + i z`, `v = h - i z` that is
-//! `u v = rho`: where `rho != 0` the circle, over the complex numbers, is run through by `u = c exp(t)`, `v = rho / u`
-//! for any `c != 0`; `t` is `i` times an angle. A corner so given is on its circle whatever `u` is, and has all its
-//! digits where `h` and `z` are large and nearly `+- i` times each other.
+//! `AB`. In the frame of the base triangle it is `m + h a + z n` with `h^2 + z^2 = rho`. Here `m` is a point of `AB`,
+//! `a` is across `AB` in the plane of the base, and `n` is normal to that plane. With `u = h + i z`, `v = h - i z` that
+//! is `u v = rho`. If `rho != 0`, `u = c exp(t)`, `v = rho / u` for any `c != 0` run through the circle over the
+//! complex numbers; `t` is `i` times an angle. A corner so given is on its circle whatever `u` is. It has all its
+//! digits even when `h` and `z` are large and nearly `+- i` times each other.
 //!
 //! **Gaps.** For corners on two circles, `(u, v)` for `P` and `(p, q)` for `Q`, with `m` the difference of the middles
 //! `m_P - m_Q`,
@@ -19,14 +19,14 @@
 //! The poses are the common zeros of the three gaps `45, 56, 64`.
 //!
 //! **The test.** Norm: the largest modulus of the three `t`. Within [`REACH`] no `u`, `v` grows by more than
-//! `exp(REACH)`, so that with bounds `U, V, P, Q` of the four there the second derivatives are at most
-//! `|a| (U + V) + X`, `X` and `|b| (P + Q) + X`, `X = A (U P + V Q) + B (U Q + V P)`, and
+//! `exp(REACH)`. With bounds `U, V, P, Q` of the four there the second derivatives are at most `|a| (U + V) + X`, `X`
+//! and `|b| (P + Q) + X`, `X = A (U P + V Q) + B (U Q + V P)`, and
 //!
 //! ```text
 //! q = (|a| (U + V) + |b| (P + Q)) / 2 + 2 X,   |Y G(c)| <= eta,   |I - Y J(c)| <= kappa,   beta = max_k sum_i |Y_ki| q_i
 //! ```
 //!
-//! take the places of the numbers of the same names in the theorem of `docs/theory/certificates.md`: the remainder
+//! take the places of the numbers of the same names in the theorem of `docs/theory/certificates.md`. The remainder
 //! `R(h)` of `G(c) + J h` has `|R_i(h)| <= q_i |h|^2` and `|R_i(h) - R_i(k)| <= q_i (|h| + |k|) |h - k|`, by the mean
 //! of the derivative along the way.
 
@@ -104,7 +104,7 @@ impl BaseSides {
     }
 }
 
-/// Where a corner can be by its two legs.
+/// The circle of a corner that is held by its two legs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CornerCircle {
     /// In the plane of the base.
@@ -328,8 +328,8 @@ pub(super) fn one_zero_about(
     out
 }
 
-/// Upper bounds of `|u|` and `|v|`, where `v` is known up to `loose` times its modulus: with a squared radius known
-/// within wide bounds that is more than the slack of [`STRETCH`].
+/// Upper bounds of `|u|` and `|v|` when `v` is known up to `loose` times its modulus. A squared radius known within
+/// wide bounds makes this more than the slack of [`STRETCH`].
 #[inline(always)]
 fn moduli_of([u, v]: &OnCircle, loose: f64) -> [Reals; 2] {
     [modulus(u), modulus(v).times(1.0 + loose).up()]
@@ -354,8 +354,8 @@ fn larger([h, z]: &OnCircle, rho: f64) -> ComplexBatch {
     u.select(v.reciprocal().times(rho), first)
 }
 
-/// How far a centre is from its conjugate: bounds from above and below of `|log(rho / |u|^2)|`, the first NaN where the
-/// circle may have no real points, the second infinite where it has none.
+/// Distance of a centre from its conjugate: bounds from above and below of `|log(rho / |u|^2)|`. The first is NaN when
+/// the circle may have no real points, the second infinite when it has none.
 ///
 /// The conjugate of the corner with `u` has `conj(v) = rho / conj(u) = u rho / |u|^2` in its place: for `rho > 0` it is
 /// at `t = log(rho / |u|^2)`, which is real. A corner at `t` is real only for `2 Re t = log(rho / |u|^2)`.

@@ -30,7 +30,7 @@ fn corner(start: [i64; 2], along: [(i64, i64); 2], length: i64, s: [f64; 2], u: 
     ExactCorner { place, height }
 }
 
-/// A triangle with sides 3, 5, 4 and frames in whole numbers: the rounded gaps are within their bounds of the squared
+/// A triangle with sides 3, 5, 4 and frames in whole numbers. The rounded gaps are within their bounds of the squared
 /// distances over the rationals.
 #[test]
 fn gaps_are_squared_distances_over_the_rationals() {
