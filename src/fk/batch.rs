@@ -48,7 +48,13 @@ pub type BatchResult = Result<FkSolutions, FkError>;
 /// `lengths[i]`. A problem that fails leaves the others as they are.
 ///
 /// ```
-/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
+/// # mod equipod {
+/// #     pub use equipod_fk::*;
+/// #     pub mod methods {
+/// #         pub use equipod_fk as fk; pub use equipod_fk::solve;
+/// #         pub use platform::{geom, manipulator};
+/// #     }
+/// # }
 /// use equipod::methods::fk::{Automatic, FkOptions, Threads, solve_batch};
 /// use equipod::methods::manipulator::{LegLengths, Manipulator};
 /// use nalgebra::Point3;

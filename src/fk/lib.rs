@@ -77,7 +77,13 @@ use thiserror::Error;
 /// Options of forward kinematics.
 ///
 /// ```
-/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
+/// # mod equipod {
+/// #     pub use equipod_fk::*;
+/// #     pub mod methods {
+/// #         pub use equipod_fk as fk; pub use equipod_fk::solve;
+/// #         pub use platform::{geom, manipulator};
+/// #     }
+/// # }
 /// use equipod::{FkOptions, Method};
 /// let options = FkOptions::new().method(Method::Homotopy).seed(7);
 /// assert_eq!((options.seed, options.method), (7, Some(Method::Homotopy)));

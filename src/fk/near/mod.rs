@@ -44,7 +44,13 @@ impl Default for NearOptions {
 /// Follows one real pose of a manipulator. Made once a design; a solve allocates nothing.
 ///
 /// ```
-/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
+/// # mod equipod {
+/// #     pub use equipod_fk::*;
+/// #     pub mod methods {
+/// #         pub use equipod_fk as fk; pub use equipod_fk::solve;
+/// #         pub use platform::{geom, manipulator};
+/// #     }
+/// # }
 /// use equipod::methods::fk::{NearOutcome, NearSolver};
 /// use equipod::methods::manipulator::{Leg, Manipulator, default_home};
 /// use nalgebra::Point3;

@@ -26,7 +26,13 @@ const RESIDUAL: f64 = 1e-12;
 /// Forward kinematics of one octahedral design; made once, a solve allocates nothing.
 ///
 /// ```
-/// # mod equipod { pub use equipod_fk::*; pub mod methods { pub use equipod_fk as fk; pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }
+/// # mod equipod {
+/// #     pub use equipod_fk::*;
+/// #     pub mod methods {
+/// #         pub use equipod_fk as fk; pub use equipod_fk::solve;
+/// #         pub use platform::{geom, manipulator};
+/// #     }
+/// # }
 /// use equipod::methods::fk::OcticSolver;
 /// use equipod::methods::manipulator::{LegLengths, Manipulator};
 /// use nalgebra::Point3;

@@ -250,9 +250,9 @@ pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> FormRow {
 }
 
 impl Sections {
-    /// The real rows but the last, rotated among themselves by an orthogonal `O`, as `O rows`, and the sign of the
-    /// last. Both are chosen to be as close to the rows of `other` as possible (orthogonal Procrustes problem): the
-    /// same sections, a shorter way to the others. The last row is the one with `g.g` and stays so.
+    /// The same sections with rows as close to those of `other` as possible, so that the way to the others is shorter
+    /// (orthogonal Procrustes problem). The real rows but the last are rotated among themselves, `O rows` with `O`
+    /// orthogonal, and the sign of the last is chosen. The last row is the one with `g.g` and stays so.
     pub(crate) fn aligned_with(&self, other: &Self) -> Self {
         let real = |s: &Self| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
         let (own, aim) = (real(self), real(other));

@@ -1,7 +1,7 @@
 //! Computes closure polynomials exactly, in integers.
 //!
-//! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers. With `x` the
-//! squared length of the virtual leg, the closure condition of a trilateration sequence is an element of a tower of
+//! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers. Let `x` be the
+//! squared length of the virtual leg. The closure condition of a trilateration sequence is an element of a tower of
 //! square roots over `Q(x)`. Its norm to `Q(x)`, without the singular factors, is the closure polynomial. Every pose at
 //! which no base of a step is singular has its `x` among the roots. Theory and figures:
 //! `docs/theory/closure-polynomials.md`. Source: Porta, Thomas, sec. III.
@@ -164,8 +164,8 @@ pub fn closure_polynomial(
 
 /// Degrees for a random member of the topology of `legs` with the sequence `s`.
 ///
-/// The member's joints and lengths are random integers. The degrees modulo a prime of sixty-one bits are those of
-/// almost all members; they are wrong with a probability of about the degree over the prime.
+/// The member's joints and lengths are random integers. The degrees are computed modulo a prime of sixty-one bits. They
+/// are those of almost all members, and wrong with a probability of about the degree over the prime.
 ///
 /// # Errors
 /// [`ClosureError`].

@@ -256,8 +256,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     ///
     /// With `y = P2 - P1`, `z = P3 - P1`, `n = y x z`: `|n|^2 (K - P1) = c_y y + c_z z + c_n n`, integers. With
     /// `t = P1 - L` the closure is `2 w.z = h`, `w = c_z t + c_n (t x y)`. The four vectors of the Gram matrix are `y`,
-    /// `v = J - P1`, `z` and `2 w`, and `J` is the joint in place that the third step starts from. All products are
-    /// doubled.
+    /// `v = J - P1`, `z` and `2 w`. The third step starts from `J`, a joint in place. All products are doubled.
     fn rigid_products(&self) -> Result<[[Fraction<R>; 4]; 4], ClosureError> {
         let f = &self.fractions;
         let [p1, p2, p3] = self.steps.map(|s| s.place);
@@ -339,8 +338,8 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 }
 
-/// The closures to choose from. With virtual legs it is the closure of the sequence. Otherwise it is every pair of a
-/// placed joint and a joint of the first body without a leg between them, the joint placed last first.
+/// The closures to choose from. With virtual legs it is the closure of the sequence. Otherwise every pair of a placed
+/// joint and a joint of the first body that no leg joins is one, the joint placed last first.
 pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<StripClosure> {
     let steps: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
     let order = |j: JointIndex| {

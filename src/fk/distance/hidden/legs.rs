@@ -1,11 +1,12 @@
 //! Legs with complex squared lengths that close on the circle of a joint shared by two of them. The closure condition
 //! of the last leg is a product over the poses without it.
 //!
-//! With `w` on the circle of the shared joint, all other legs but one leave 8 poses (4 when two of them share a base
-//! joint). The product of `s_m - s` over these poses, `s_m` the squared length of the last leg, is a rational function
-//! of `w`. It vanishes exactly where all legs fit. Its poles do not depend on the last leg. They are the points where a
-//! triangle of the joint and two of the three legs degenerates, a factor `A_ijk` of the trilaterations. Multiplied with
-//! these factors the function is a Laurent polynomial from `w^-20` to `w^20` (from -12 to 12).
+//! With `w` on the circle of the shared joint, all other legs but one leave 8 poses. They leave 4 when two share a base
+//! joint. `s_m` is the squared length of the last leg at such a pose. The product of `s_m - s` over the poses is a
+//! rational function of `w` that vanishes exactly where all legs fit. Its poles do not depend on the last leg. They are
+//! the points where a triangle of the joint and two of the three legs degenerates, a factor `A_ijk` of the
+//! trilaterations. Multiplied with these factors the function is a Laurent polynomial from `w^-20` to `w^20` (from -12
+//! to 12).
 
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;

@@ -2,10 +2,10 @@
 //!
 //! The joint at the end of the virtual leg has two other known distances, so that it turns on a circle. Its angle is a
 //! better unknown than the length of the virtual leg. `u = exp(i angle)` is a rational parameter of the first square
-//! root, and real configurations have `|u| = 1`. The product of the closures over all orientations of the later steps
-//! is a polynomial in `u` and `1/u` over powers of the Gram determinants of the steps' bases. Values on `|u| = 1` give
-//! its coefficients. Each zero gives one configuration, which Newton's method on the closure itself makes accurate.
-//! Theory: `docs/theory/trilateration.md`.
+//! root, and real configurations have `|u| = 1`. The closures of all orientations of the later steps are multiplied.
+//! Their product is a polynomial in `u` and `1/u` over powers of the Gram determinants of the steps' bases. Values on
+//! `|u| = 1` give its coefficients. Each zero gives one configuration, which Newton's method on the closure itself
+//! makes accurate. Theory: `docs/theory/trilateration.md`.
 
 mod chain;
 mod number;

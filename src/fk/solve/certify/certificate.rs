@@ -333,8 +333,8 @@ pub enum WhyUncertified {
     /// The root is proved, but its `R` or `p` need not be that of the pose to half the digits of a double.
     #[error("R or p of the root may be {distance:e} away from those of the pose")]
     Deviation {
-        /// Bound of the distance. It is relative to the larger of 1 and the largest entry for `R`, and to the larger of
-        /// the design's size and the largest entry for `p`.
+        /// Bound of the distance. For `R` it is relative to the larger of 1 and the largest entry. For `p` it is
+        /// relative to the larger of the design's size and the largest entry.
         distance: f64,
     },
     /// `e.e` may be zero in the ball, where there is no pose.

@@ -227,9 +227,9 @@ pub(super) fn rotation_distance(pose: &ComplexPose, enclosure: &PoseEnclosure) -
     (0..9).map(gap).fold(0.0, f64::max) / discs.iter().map(|d| d.centre.norm()).fold(1.0, f64::max)
 }
 
-/// Bound of the distance of the pose from the root: the largest distance of an entry from a point of its disc, or with
-/// `middles` from the middle of it. It is relative to the larger of 1 and the largest entry for `R`, and to the larger
-/// of `unit` and the largest entry for `p`. NaN when nothing is known.
+/// Bound of the distance of the pose from the root. It is the largest distance of an entry from a point of its disc, or
+/// with `middles` from the middle of it. For `R` it is relative to the larger of 1 and the largest entry. For `p` it is
+/// relative to the larger of `unit` and the largest entry. NaN when nothing is known.
 pub(super) fn deviation(pose: &ComplexPose, enclosure: &PoseEnclosure, unit: f64, middles: bool) -> f64 {
     let part = |entries: &[Complex64], discs: &[Disc], least: f64| {
         let (mut gap, mut scale) = (0.0, least);

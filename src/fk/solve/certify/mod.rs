@@ -28,16 +28,29 @@
 //!                                                          differences, with 256 bits
 //! ```
 //!
-//! | verb | decides | theorem and preconditions | without an answer |
-//! |---|---|---|---|
-//! | [`Certifier::certify`] | is this pose, as given, exactly one root to half of the digits of a double? | `certificate_about`, then `pose_is_the_root`; the centre is the pose, refined by at most [`NEAR`] where doubles do not do | [`WhyUncertified`]: not that there is no root |
-//! | `Certifier::root_near` | is there exactly one root where Newton's method leads from a start, and which pose is it? | the same about the end of the iteration, which a `NewtonStart` limits | as above; a root further away is not looked for |
-//! | `certificate_about` | does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs? is the root real? | `one_root_about`; disc arithmetic over the ball, in which `e.e` must not vanish; conjugation for reality | as above; reality has an [`Undecided`](ProvedReality::Undecided) of its own |
-//! | `one_root_about` | does a ball about the centre hold exactly one root? | the contraction theorem of `krawczyk.rs`; the centre is finite, on its patch, with a Newton step of at most [`NEAR`] | no ball contracts: no root, two close ones, or data or digits that are not good enough |
-//! | `pose_is_the_root` | has the pose the digits of the certified root? | the distance from all points of the enclosure is at most [`NEAR`] | the root is proved, but is not shown to be this pose |
-//! | [`Certifier::cluster_near`] | do exactly so many roots, two or more, counted with multiplicity, lie near this pose? | the bordered equations and Rouche's theorem of `cluster.rs`; the Jacobian has one small singular value | as above |
-//! | [`is_of()`] | is a certified root one of a cluster? | it lies in the ball in which the roots of the cluster are the only ones | it may be or not |
-//! | [`relation()`], [`distinct()`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
+//! Each function below decides the question that follows its name.
+//!
+//! * [`Certifier::certify`]: is this pose, as given, exactly one root to half of the digits of a double? It uses
+//!   `certificate_about`, then `pose_is_the_root`. The centre is the pose, refined by at most [`NEAR`] when doubles do
+//!   not suffice. Otherwise [`WhyUncertified`], which does not mean that there is no root.
+//! * `Certifier::root_near`: is there exactly one root where Newton's method leads from a start, and which pose is it?
+//!   The same theorem holds about the end of the iteration, which a `NewtonStart` limits. A root further away is not
+//!   sought.
+//! * `certificate_about`: does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs?
+//!   Is the root real? It uses `one_root_about`, disc arithmetic over the ball, in which `e.e` must not vanish, and
+//!   conjugation for reality. Reality has an [`Undecided`](ProvedReality::Undecided) of its own.
+//! * `one_root_about`: does a ball about the centre hold exactly one root? It uses the contraction theorem of
+//!   `krawczyk.rs`. The centre is finite, on its patch, with a Newton step of at most [`NEAR`]. If no ball contracts,
+//!   there is no root, there are two close ones, or data or digits are not good enough.
+//! * `pose_is_the_root`: has the pose the digits of the certified root? Its distance from all points of the enclosure
+//!   is at most [`NEAR`]. Otherwise the root is proved, but is not shown to be this pose.
+//! * [`Certifier::cluster_near`]: do exactly so many roots, two or more, counted with multiplicity, lie near this pose?
+//!   It uses the bordered equations and Rouche's theorem of `cluster.rs`. The Jacobian has one small singular value.
+//! * [`is_of()`]: is a certified root one of a cluster? It is when it lies in the ball in which the roots of the
+//!   cluster are the only ones. Otherwise it may be or not.
+//! * [`relation()`], [`distinct()`]: are two certified roots of one problem different, or one? They are different when
+//!   enclosures are disjoint, and one when an enclosure lies in the other's ball of uniqueness. Otherwise enclosures
+//!   overlap: [`RootRelation::Undecided`].
 //!
 //! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a
 //! certificate of all sixteen poses at once, [`octahedral`]. Outside this folder [`Certifier::certify`] certifies a
@@ -116,17 +129,18 @@ use system::{LegSystem, RealScalar, Study};
 
 /// The accuracy that a pose must have to be certified: `2^-26`, half of the digits of a double.
 ///
-/// The Newton map contracts on balls far wider than that, so that a proof alone would also go to poses which are wrong
-/// in the sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Two distances
-/// are measured:
+/// The Newton map contracts on balls far wider than that. A proof alone would also go to poses which are wrong in the
+/// sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Two distances are
+/// measured:
 ///
 /// * the Newton step in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`];
-/// * the distance of the entries of the pose from all points of the enclosure. It is relative to the larger of 1 and
-///   the largest entry for `R`, and to the larger of the unit and the largest entry for `p`.
+/// * the distance of the entries of the pose from all points of the enclosure. For `R` it is relative to the larger of
+///   1 and the largest entry. For `p` it is relative to the larger of the unit and the largest entry.
 pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
 
-/// The largest width of an enclosure, in the measure of [`NEAR`], when `e.e` is so small that double-double does not
-/// give `R` and `p` to `NEAR`. The pose is then the middle of the enclosure, whose width shows the valid digits.
+/// The largest width of an enclosure, in the measure of [`NEAR`]. It applies when `e.e` is so small that double-double
+/// does not give `R` and `p` to `NEAR`. The pose is then the middle of the enclosure, whose width shows the valid
+/// digits.
 pub const FAR_OUT: f64 = 1.0 / (1u32 << 10) as f64;
 
 /// A pose this near to the middle of its enclosure is the middle, rounded.

@@ -6,11 +6,14 @@
 //!
 //! **Error bounds.** An operation has a relative error below `2^-252` in each part. Values, gradients and their
 //! products with the inverse are sums of products in which no term passes through more than 200 roundings. So errors
-//! are below [`ERROR`] `= 2^-240` times the sum of the terms' moduli (Higham 2002, lemma 3.1). The quantities `m_i`
-//! (values) and `j_i` (rows of the Jacobian) bound that sum by modulus, notation of the `system` module:
-//! `m_i = 8 (G + t_i E)^2 + 8 |s_i| P`, `j_i = 16 (1 + t_i) (G + t_i E) + 8 |s_i| E`; for `e.g` `8 E G` and
-//! `8 (E + G)`. Moduli are those of both parts added. Radii of squared lengths and joints add the same as in the
-//! `system` module, with `V_i = 2 (G + t_i E)`.
+//! are below [`ERROR`] `= 2^-240` times the sum of the terms' moduli (Higham 2002, lemma 3.1). That sum is at most
+//! `m_i` for values and `j_i` for rows of the Jacobian, in the notation of the `system` module. Moduli are those of
+//! both parts added.
+//!
+//! * `m_i = 8 (G + t_i E)^2 + 8 |s_i| P`, and `8 E G` for `e.g`.
+//! * `j_i = 16 (1 + t_i) (G + t_i E) + 8 |s_i| E`, and `8 (E + G)` for `e.g`.
+//!
+//! Radii of squared lengths and joints add the same as in the `system` module, with `V_i = 2 (G + t_i E)`.
 
 use num_complex::Complex64;
 

@@ -17,9 +17,9 @@
 //!
 //! and the polarised form `Q(h, k)` has the same bound, entry by entry.
 //!
-//! **Rounding.** In each part a coefficient takes at most 9 roundings to form (entries of `T`, product, three sums,
-//! `s`) and 6 in the sum over legs. The error is below `16 u sum_i |y_i|_1 |coefficient_i|`. The moduli of all
-//! coefficients of leg `i` add up to at most `q_i` in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
+//! **Rounding.** In each part a coefficient takes at most 9 roundings (entries of `T`, product, three sums, `s`), and
+//! the sum over legs 6. The error is below `16 u sum_i |y_i|_1 |coefficient_i|`. The moduli of all coefficients of leg
+//! `i` add up to at most `q_i` in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 

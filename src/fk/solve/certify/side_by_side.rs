@@ -1,10 +1,10 @@
 //! Certificates of eight points at once, in doubles. The theorem and the bounds are those of `krawczyk.rs`, with the
 //! numbers of eight points side by side in vector units.
 //!
-//! Sums have the terms given in the `system` and `krawczyk` modules, each with at most the roundings counted there; the
-//! grouping does not matter to those bounds. The approximate inverse is made without exchanges of rows. A small pivot
-//! makes it bad, and the bound of `I - Y J` shows it. A lane without a proof says nothing about its point, which then
-//! goes to the general method with more digits.
+//! Sums have the terms given in the `system` and `krawczyk` modules, each with at most the roundings counted there.
+//! Their grouping does not matter to those bounds. The approximate inverse is made without exchanges of rows. A small
+//! pivot makes it bad, and the bound of `I - Y J` shows it. A lane without a proof says nothing about its point, which
+//! then goes to the general method with more digits.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 

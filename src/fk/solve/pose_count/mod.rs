@@ -1,7 +1,7 @@
 //! Counts the finite poses of a design and lengths exactly as written without finding them, by linear algebra modulo a
 //! prime.
 //!
-//! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the
+//! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`). So the finite poses are the
 //! zeros of quadrics in ten unknowns. Their algebra is built degree by degree (`quotient.rs`), modulo a random prime of
 //! 61 bits. Squared lengths enter as the dyadic numbers they are, joints as the dyadic or algebraic numbers they are
 //! (`joints.rs`). The method shares nothing with those that find poses, nor with their certificates. Theorem, bound on

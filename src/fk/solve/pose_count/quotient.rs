@@ -1,8 +1,8 @@
 //! The algebra of polynomials modulo an ideal, degree by degree, closed under falls of degree.
 //!
-//! `V_d` is the space of polynomials of degree `d` or less that are known to lie in the ideal, `W_d` all polynomials of
-//! degree `d` or less modulo `V_d`. `W_d` has a basis of standard monomials, and only this basis is kept. With
-//! `W_{d-1}`, `W_d` and the products `x_k w` that lead from one to the other the next space is
+//! `V_d` is the space of polynomials of degree `d` or less that are known to lie in the ideal. `W_d` has all
+//! polynomials of degree `d` or less modulo `V_d`. It has a basis of standard monomials, and only this basis is kept.
+//! With `W_{d-1}`, `W_d` and the products `x_k w` that lead from one to the other the next space is
 //!
 //! ```text
 //! W_{d+1} = (W_d + sum x_k W_d) / (x_j (x_k u) = x_k (x_j u), u in W_{d-1}),

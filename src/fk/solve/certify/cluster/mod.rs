@@ -12,14 +12,18 @@
 //! and expand their solution to an order `K`,
 //!
 //! ```text
-//! z_1 = last column of Y,    c_n = -Y (sum over i + j = n, i, j <= K of Q(h_i, h_j), 0),    z_n = c_n as computed, within e_n,
+//! z_1 = last column of Y,
+//! c_n = -Y (sum over i + j = n, i, j <= K of Q(h_i, h_j), 0),
+//! z_n = c_n as computed, within e_n,
 //! z = z_1 t + .. + z_K t^K + zeta,    zeta = (k, nu).
 //! ```
 //!
 //! With `p(t) = (h_p, mu_p)` for the polynomial, the simplified Newton map in `zeta` is
 //!
 //! ```text
-//! T(zeta) = (I - Y B)(p + zeta) - Y (F(c), 0) + sum over 2 <= n <= 2K of c_n t^n, less z_n t^n for n <= K - Y (2 Q(h_p, k) + Q(k, k), 0),
+//! T(zeta) = (I - Y B)(p + zeta) - Y (F(c), 0)
+//!     + sum over 2 <= n <= 2K of c_n t^n, less z_n t^n for n <= K
+//!     - Y (2 Q(h_p, k) + Q(k, k), 0),
 //! ```
 //!
 //! and has the bounds `eta >= |Y (F(c), 0)|`, `kappa >= |I - Y B|`, `beta >= sup |Y (Q(h, k), 0)|` over unit `h`, `k`
@@ -83,9 +87,9 @@ type BorderedMatrix = SMatrix<Complex64, 8, 8>;
 /// are close.
 ///
 /// Coordinates are those of a [`Certificate`](super::Certificate). For every choice of the data within their radii
-/// [`multiplicity`](Self::multiplicity) roots lie within [`radius`](Self::radius) of the centre
-/// [`centre`](Self::centre) `+` [`low`](Self::low), on the curve of the module's text. No others lie within
-/// [`uniqueness_radius`](Self::uniqueness_radius).
+/// there are [`multiplicity`](Self::multiplicity) roots within [`radius`](Self::radius) of the centre. The centre is
+/// [`centre`](Self::centre) `+` [`low`](Self::low), and the roots are on the curve of the module's text. No others lie
+/// within [`uniqueness_radius`](Self::uniqueness_radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClusterCertificate {
     centre: [Complex64; 8],

@@ -50,8 +50,8 @@ pub struct OctahedralCertifier {
 /// Proof that exactly two poses, mirror images of each other in the base plane, have their corners near given ones. It
 /// also proves that two given poses approximate them.
 ///
-/// Each corner `k` is on a circle `h^2 + z^2 = rho` about its side of the base, `h` across the side in the plane of the
-/// base and `z` along `(P2 - P1) x (P3 - P1)`. With `u = h + i z`, `v = h - i z` that is `u v = rho`. The distance of
+/// Each corner `k` is on a circle `h^2 + z^2 = rho` about its side of the base. `h` is across the side in the plane of
+/// the base, `z` along `(P2 - P1) x (P3 - P1)`. With `u = h + i z`, `v = h - i z` that is `u v = rho`. The distance of
 /// two points of a circle is `|log|` of the ratio of their `u`, an angle. The distance of two poses is the largest of
 /// the three.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -38,8 +38,8 @@ fn cross(a: &Points, b: &Points) -> Points {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The pose of the zero: the pose of the corners at the centre, with derivatives by the three `t` times the radius, and
-/// a bound of the rest.
+/// The pose of the zero. It is the pose of the corners at the centre, with derivatives by the three `t` times the
+/// radius, and a bound of the rest.
 ///
 /// The axes of the platform triangle are `x = (P5 - P4) / L`, `y = (P6 - P4 - U x) / H` and `x cross y`. Far out the
 /// corners are nearly isotropic vectors, nearly parallel to each other. Cross products are then much smaller than their

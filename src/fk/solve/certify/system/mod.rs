@@ -377,8 +377,8 @@ impl LegSystem {
         self.q[i] = (own + self.joint_width_of_second_order(i)) * UP;
     }
 
-    /// Bound of the change of `F_i` over the joints' radii, at a point with coordinates `e` of modulus at most `e` and
-    /// a leg vector of norm at most `v`.
+    /// Bound of the change of `F_i` over the joints' radii. The coordinates `e` have modulus at most `e`, and the leg
+    /// vector has norm at most `v`.
     pub(super) fn joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
         width_of_value(self.turn_radius[i], e, v)
     }

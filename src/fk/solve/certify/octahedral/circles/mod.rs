@@ -23,7 +23,8 @@
 //! and `|b| (P + Q) + X`, `X = A (U P + V Q) + B (U Q + V P)`, and
 //!
 //! ```text
-//! q = (|a| (U + V) + |b| (P + Q)) / 2 + 2 X,   |Y G(c)| <= eta,   |I - Y J(c)| <= kappa,   beta = max_k sum_i |Y_ki| q_i
+//! q = (|a| (U + V) + |b| (P + Q)) / 2 + 2 X,
+//! |Y G(c)| <= eta,   |I - Y J(c)| <= kappa,   beta = max_k sum_i |Y_ki| q_i
 //! ```
 //!
 //! take the places of the numbers of the same names in the theorem of `docs/theory/certificates.md`. The remainder
