@@ -5,6 +5,7 @@
 //! recorded when it was written. Text in, text out: nothing here reads or writes files.
 
 mod begin;
+mod derivation;
 mod feasible;
 mod html;
 #[cfg(not(target_arch = "wasm32"))]

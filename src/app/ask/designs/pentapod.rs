@@ -36,6 +36,19 @@ pub struct PentapodReport {
     pub poses: Option<Result<LinePoses, NoLinePoses>>,
 }
 
+impl PentapodReport {
+    /// Why lengths have no list of poses; `None` where the legs hold a line.
+    #[must_use]
+    pub fn without_line(&self) -> Option<String> {
+        self.held.is_none().then(|| {
+            format!(
+                "{}: no body has all its joints on a line, so that the poses for five lengths are a curve",
+                self.design.name
+            )
+        })
+    }
+}
+
 /// What five legs hold, and, where lengths are given, all poses of the line that they hold.
 ///
 /// ```

@@ -11,10 +11,10 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
 use ask::equivalents::{Original, Origins};
-use ask::{ComparedDesigns, Design, SAMPLES, leg_map};
+use ask::{Design, leg_map};
 use fk::FkOptions;
 use platform::manipulator::Octahedral;
-use records::{DerivationRecord, FamilyAnswer, InstanceRecord, VerifyAnswer};
+use records::{DerivationRecord, FamilyAnswer, InstanceRecord};
 use sheet::Sheet;
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
@@ -166,10 +166,8 @@ fn explain(
     built: &Design,
     context: &Context,
 ) -> Result<DerivationRecord, Failure> {
-    let steps = original.derivation(pattern, built);
-    let steps = steps.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))?;
     let options = FkOptions::new().seed(context.seed());
-    let compared = ComparedDesigns::of([&original.design, built], SAMPLES, &options);
-    let verification = VerifyAnswer::from(&compared.map_err(|e| failure_of(&e))?);
-    Ok(DerivationRecord::new(&steps, original, verification))
+    let found = DerivationRecord::compared(original, pattern, built, &options);
+    let found = found.map_err(|e| failure_of(&e))?;
+    found.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))
 }
