@@ -271,3 +271,40 @@ fn parameters_holes_and_lengths_may_be_expressions() {
     assert!(decimals.as_array().is_some_and(|list| list.len() == 16));
     assert_eq!(lengths("99/5,18,36/2,17,149/10,89/5"), decimals);
 }
+
+/// Two triangles with square roots, joined as in the topologies with three joints on each body.
+fn triangles(base: [usize; 6], platform: [usize; 6]) -> String {
+    let legs: Vec<String> =
+        base.iter().zip(platform).map(|(a, b)| format!("[\"A{}\", \"B{}\"]", a + 1, b + 1)).collect();
+    format!(
+        "name = \"triangles\"\nunits = \"mm\"\nlegs = [{}]\n[base]\nA1 = [0, 0, 0]\nA2 = [12, 0, 0]\nA3 = [6, \"6*sqrt(3)\", 1]\n[platform]\nB1 = [0, 0, 0]\nB2 = [6, 0, 0]\nB3 = [2, \"3*sqrt(3)\", 0.5]\n[home]\nposition = [3, 1.5, 11]\nrpy_deg = [3, 5, 40]\n",
+        legs.join(", ")
+    )
+}
+
+/// T32, T33 and T34: moved joints stay on lines and planes of the others exactly, so that equivalence is proved about
+/// exact joints.
+#[test]
+fn platforms_of_every_3_3_topology_that_are_found_are_exact() {
+    let topologies =
+        [([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 0]), ([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 2]), ([0, 0, 1, 1, 2, 2], [0, 1, 0, 2, 1, 2])];
+    let folder = tempfile::tempdir().unwrap();
+    let mut on_lines = 0;
+    for (k, (base, platform)) in topologies.into_iter().enumerate() {
+        let given = folder.path().join(format!("{k}.toml"));
+        std::fs::write(&given, triangles(base, platform)).unwrap();
+        let (given, out) = (given.to_str().unwrap(), folder.path().join(format!("found-{k}")));
+        let asked = ["--search", "--no-shared-joints", "--spacing", "12/25 mm", "-o", out.to_str().unwrap()];
+        let found = equipod(&[&["equivalents", "move", given, "--json"], &asked[..]].concat());
+        assert_eq!(found.status.code(), Some(0), "{}", String::from_utf8_lossy(&found.stderr));
+        let found = document(&found);
+        let designs = found["designs"].as_array().unwrap();
+        assert!(!designs.is_empty());
+        for (design, path) in designs.iter().zip(found["paths"].as_array().unwrap()) {
+            let text = std::fs::read_to_string(path.as_str().unwrap()).unwrap();
+            on_lines += text.matches("{ on = ").count();
+            assert_eq!(design["level"], "exact_joints", "{text}");
+        }
+    }
+    assert!(on_lines >= 12, "{on_lines}");
+}

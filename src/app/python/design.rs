@@ -24,7 +24,6 @@ use machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
 use num::Cancel;
 use platform::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
 use records::{AssessAnswer, CheckAnswer};
-use synthesis::InstantiateError;
 use synthesis::singularity::SingularityVerdict;
 
 /// A design, and `A` and `c` of the leg map to it.
@@ -89,6 +88,9 @@ const OF_SINGULARITY: &str = "ask assess, which proves that no pose of the works
 /// Why there is nothing to ask of cranks in place of leg maps.
 pub(super) const OF_LEG_MAPS: &str =
     "leg maps hold between squared lengths of legs, and nothing follows from them for the angles of cranks";
+
+/// The pattern without shared joints.
+const SEPARATE_JOINTS: &str = "S123456";
 
 /// Rows of a batch between two looks for a signal, milliseconds where rows take longest.
 const SIGNALS: usize = 64;
@@ -486,25 +488,18 @@ impl NativeDesign {
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 
-    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and
-    /// `c`.
+    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets as they are written; the
+    /// design, `A` and `c`.
     fn equivalent<'py>(
         &self,
         py: Python<'py>,
         pattern: Option<&str>,
-        offsets: Vec<f64>,
+        offsets: Vec<String>,
     ) -> PyResult<WithLegMap<'py>> {
         self.only_of_legs(py, OF_LEG_MAPS)?;
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
-            if let Some(name) = pattern {
-                return Ok(class.build(&name.parse()?, &offsets)?);
-            }
-            let six: [f64; 6] = offsets
-                .as_slice()
-                .try_into()
-                .map_err(|_| InstantiateError::OffsetCount { expected: 6, given: offsets.len() })?;
-            Ok(class.joint_free(six)?)
+            Ok(class.build_at(&pattern.unwrap_or(SEPARATE_JOINTS).parse()?, &offsets)?)
         };
         let (design, map) = py.detach(built).map_err(|e| raised(py, e))?;
         let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from . import _core
 from ._display import Figure, Page
 from ._errors import DesignError
-from ._exact import PointsLike, as_texts, plain
+from ._exact import Coordinate, PointsLike, as_texts, offset_texts, plain
 from ._poses import Floats, PoseLike, as_matrices, given
 from ._program import Progress, Workshop, ask, pose_text, text_of
 from ._solutions import BatchSolutions, Solutions
@@ -925,12 +925,12 @@ class Design:
         with Workshop() as shop:
             return FamilyAnswer(ask(["equivalents", "family", shop.file("design.toml", self._native)]))
 
-    def derivation(self, offsets: Sequence[float | str], *, pattern: str = "S123456") -> FamilyAnswer:
+    def derivation(self, offsets: Sequence[Coordinate], *, pattern: str = "S123456") -> FamilyAnswer:
         """How A, c and det A of an equivalent platform follow from coplanar joints, with forward kinematics of both.
 
         Parameters
         ----------
-        offsets : sequence of float or str
+        offsets : sequence of float, Fraction or str
             Shares of the edges, as in `equivalent`; a text such as ``"1/5"`` is exact.
         pattern : str
             A pattern of ``equipod equivalents family``.
@@ -943,17 +943,18 @@ class Design:
         from .records import FamilyAnswer
 
         with Workshop() as shop:
-            shares = ",".join(x if isinstance(x, str) else repr(float(x)) for x in offsets)
             words = ["equivalents", "family", shop.file("design.toml", self._native), "--explain"]
-            return FamilyAnswer(ask([*words, f"--pattern={pattern}", f"--offsets={shares}"]))
+            return FamilyAnswer(ask([*words, f"--pattern={pattern}", f"--offsets={','.join(offset_texts(offsets))}"]))
 
-    def equivalent(self, offsets: Sequence[float], *, pattern: str | None = None) -> Equivalent:
+    def equivalent(self, offsets: Sequence[Coordinate], *, pattern: str | None = None) -> Equivalent:
         """The equivalent platform of an octahedral design with these offsets.
 
         Parameters
         ----------
-        offsets : sequence of float
-            Shares of the edges: six for the platform without shared joints, as many as the pattern has otherwise.
+        offsets : sequence of float, Fraction or str
+            Shares of the edges: six for the platform without shared joints, as many as the pattern has otherwise. Fractions
+            and texts such as ``"1/5"`` stay exact; a text with a unit, ``"12/5 mm"``, is a length from the first corner of
+            the edge.
         pattern : str, optional
             A pattern of ``equipod equivalents family``; without it the one with no shared joint.
 
@@ -961,7 +962,7 @@ class Design:
         -------
         Equivalent
         """
-        design, a, c = self._native.equivalent(pattern, [float(x) for x in offsets])
+        design, a, c = self._native.equivalent(pattern, offset_texts(offsets))
         return Equivalent(Design(design), a, c)
 
     def optimize(

@@ -66,6 +66,11 @@ def plain(value: Any) -> Any:
     raise DesignError(f"{value!r} has no form in a design file", code="design::wrong_type")
 
 
+def offset_texts(offsets: Sequence[Coordinate]) -> list[str]:
+    """Offsets as they are written."""
+    return [str(x) if isinstance(x, (str, Fraction, Decimal)) else repr(float(x)) for x in offsets]
+
+
 def _finite(value: object, finite: bool) -> bool:
     if not finite:
         raise DesignError(f"{value!r} is not finite", code="design::not_finite")

@@ -33,7 +33,8 @@ pub(crate) struct EquivalentsFamilyArgs {
     /// Report only this pattern, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID")]
     pattern: Option<String>,
-    /// Shares of the edges at which the moved joints sit, one for each inner point: decimals or expressions such as 1/5
+    /// Shares of the edges at which the moved joints sit, one for each inner point: decimals or expressions such as 1/5;
+    /// or lengths along the edges with a unit, such as 12/5mm
     #[arg(
         long,
         value_name = "T1,..",
@@ -41,7 +42,7 @@ pub(crate) struct EquivalentsFamilyArgs {
         allow_hyphen_values = true,
         requires = "pattern"
     )]
-    offsets: Option<Vec<Share>>,
+    offsets: Option<Vec<String>>,
     /// Show how A, c and det A follow from coplanar joints, step by step, and what forward kinematics of both platforms
     /// says
     #[arg(long, requires = "offsets")]
@@ -145,11 +146,12 @@ fn realise(
     pattern: &Pattern,
     design: &Design,
     original: &Original,
-    shares: &[Share],
+    offsets: &[String],
 ) -> Result<(InstanceRecord, Design, LegMapOutcome), Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
+    let shares = original.shares(pattern, offsets).map_err(|e| refused(&e))?;
     let offsets: Vec<f64> = shares.iter().map(Share::nearest).collect();
-    let (built, map) = original.equivalent_at(pattern, shares).map_err(|e| refused(&e))?;
+    let (built, map) = original.equivalent_at(pattern, &shares).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, &offsets, &built, &map).map_err(|e| refused(&e))?;
     let found = leg_map(design, &built)
         .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?;

@@ -6,12 +6,12 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use super::tolerances::numbers;
+use super::tolerances::tool_point;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::number;
+use crate::app::cli::numbers::{Length, length, lengths, number};
 use crate::app::cli::output::Answer;
 use ask::Design;
 use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
@@ -27,11 +27,11 @@ pub(crate) struct BuildRoundArgs {
     /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
     design: PathBuf,
     /// Distance between neighbouring holes, instead of the grids that the design states in its table holes
-    #[arg(long, value_name = "PITCH", value_parser = number)]
-    grid: Option<f64>,
+    #[arg(long, value_name = "PITCH", value_parser = length)]
+    grid: Option<Length>,
     /// Distance between neighbouring holes of the platform; that of the base when absent
-    #[arg(long, value_name = "PITCH", value_parser = number)]
-    grid_platform: Option<f64>,
+    #[arg(long, value_name = "PITCH", value_parser = length)]
+    grid_platform: Option<Length>,
     /// How the holes lie; square where neither this nor the design says it
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern: Option<PatternWord>,
@@ -145,7 +145,10 @@ fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<RoundingChoice<'a>> 
 
 /// The grids of the design, or of `--grid`, with what other options say of them.
 fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
-    let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
+    let [grid, grid_platform] = [&args.grid, &args.grid_platform]
+        .map(|pitch| Length::of_option(pitch.as_ref(), &design.units));
+    let (grid, grid_platform) = (grid?, grid_platform?);
+    let pitches = grid.map(|base| [base, grid_platform.unwrap_or(base)]);
     let mut grids = match (design.holes, pitches) {
         (Some(grids), None) => grids,
         (_, Some(pitches)) => pitches.map(|pitch| Some(Grid::square(pitch))),
@@ -154,7 +157,7 @@ fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Fa
                 .with_help("name the distance of neighbouring holes, --grid 25, or state the grids of both plates in [holes]"));
         }
     };
-    if let (Some(pitch), None) = (args.grid_platform, args.grid) {
+    if let (Some(pitch), None) = (grid_platform, grid) {
         // what stands on circles has other lengths than a pitch
         let lattice = grids[1].filter(|grid| grid.pattern.skew().is_some());
         grids[1] = Some(Grid { pitch, ..lattice.unwrap_or(Grid::square(pitch)) });
@@ -179,7 +182,8 @@ fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Fa
             *grid = Grid { pattern: pattern.into(), circles: HoleCircles::NONE, ..*grid };
         }
         if let (Some(text), option) = origin[k] {
-            grid.origin = numbers(text, option, "round::bad_grid")?;
+            grid.origin = lengths::<2>(text, "two", &design.units)
+                .map_err(|why| Failure::refused("round::bad_grid", format!("{option}: {why}")))?;
         }
         grid.angle_deg = angle[k].unwrap_or(grid.angle_deg);
     }
@@ -198,7 +202,7 @@ fn no_grid_to_change(body: Body) -> Failure {
 pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let grids = grids(args, &design)?;
-    let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);
+    let tool = tool_point(&args.tool, &design.units, "round::bad_tool")?;
     if args.variant != Variant::Rule {
         context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
     }
