@@ -272,6 +272,42 @@ fn parameters_holes_and_lengths_may_be_expressions() {
     assert_eq!(lengths("99/5,18,36/2,17,149/10,89/5"), decimals);
 }
 
+#[test]
+fn lengths_on_the_command_line_are_converted_exactly_to_the_unit_of_the_design() {
+    let design = "designs/rbt-octahedral.toml";
+    let asked = |words: &[&str]| super::cli_frame::asked(words);
+    let lengths = |design: &str, text: &str| asked(&["fk", design, "--lengths", text]);
+    let own = lengths(design, "19.8,18,18,17,14.9,17.8").1["solutions"].clone();
+    let mixed = lengths(design, "99/5 mm,1.8 cm,18,17/1000 m,745/1270 in,8 mm + 0.98 cm");
+    assert_eq!(mixed.1["solutions"], own);
+    // an edge of the base is 12 long, one of the platform 6
+    let family = |design: &str, offsets: &str| {
+        let words =
+            ["equivalents", "family", design, "--pattern", "S123456", "--offsets", offsets, "--explain"];
+        asked(&words)
+    };
+    let (code, shares) = family(design, "1/5,1/5,1/5,1/5,1/5,1/5");
+    assert_eq!(code, Some(0));
+    let (code, ways) = family(design, "12/5 mm,6/5mm,6/25 cm,6/5 mm,12/5 mm,6/127 in");
+    assert_eq!((code, &ways["derivation"]), (Some(0), &shares["derivation"]));
+    // a label that names no length has no conversion
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plain.toml");
+    let text = std::fs::read_to_string(design).unwrap().replace("units = \"mm\"", "units = \"edges\"");
+    std::fs::write(&path, text).unwrap();
+    let plain = path.to_str().unwrap();
+    for (code, answer) in
+        [lengths(plain, "19.8 mm,18,18,17,14.9,17.8"), family(plain, "12/5 mm,0.2,0.2,0.2,0.2,0.2")]
+    {
+        let message = answer["error"]["message"].as_str().unwrap();
+        assert_eq!(code, Some(2));
+        assert!(message.contains("no known length"), "{message}");
+    }
+    let out = ["build", "round", plain, "--grid", "1/2 in"];
+    let (code, answer) = asked(&out);
+    assert_eq!((code, answer["error"]["code"].as_str()), (Some(2), Some("length::unit")));
+}
+
 /// Two triangles with square roots, joined as in the topologies with three joints on each body.
 fn triangles(base: [usize; 6], platform: [usize; 6]) -> String {
     let legs: Vec<String> =
@@ -286,8 +322,11 @@ fn triangles(base: [usize; 6], platform: [usize; 6]) -> String {
 /// exact joints.
 #[test]
 fn platforms_of_every_3_3_topology_that_are_found_are_exact() {
-    let topologies =
-        [([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 0]), ([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 2]), ([0, 0, 1, 1, 2, 2], [0, 1, 0, 2, 1, 2])];
+    let topologies = [
+        ([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 0]),
+        ([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 2]),
+        ([0, 0, 1, 1, 2, 2], [0, 1, 0, 2, 1, 2]),
+    ];
     let folder = tempfile::tempdir().unwrap();
     let mut on_lines = 0;
     for (k, (base, platform)) in topologies.into_iter().enumerate() {

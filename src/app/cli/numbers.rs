@@ -39,7 +39,8 @@ impl Length {
     /// # Errors
     /// A unit, where the label of the design's unit names no known length.
     pub(crate) fn of(&self, units: &str) -> Result<f64, Failure> {
-        one_length(&self.0, units).map_err(|why| Failure::refused("length::unit", why).with_help(WITHOUT_UNIT))
+        one_length(&self.0, units)
+            .map_err(|why| Failure::refused("length::unit", why).with_help(WITHOUT_UNIT))
     }
 
     /// The same of an option that may be absent.

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::{begin, derivation, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
+use super::{
+    begin, derivation, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst,
+};
 use ask::design::parse_ideal;
 use files::design::Format;
 use machine::requirements::AssessOptions;
@@ -203,9 +205,7 @@ impl Session {
                 modes::confirm(self.first().manipulator(), second.manipulator(), &Pose::from(&pose))
                     .map(value)
             }
-            PageRequest::Derivation { chosen } => {
-                derivation::record(self, &chosen.equivalent()?).map(value)
-            }
+            PageRequest::Derivation { chosen } => derivation::record(self, &chosen.equivalent()?).map(value),
             PageRequest::Plane { chosen, axes, range, points } => {
                 plane::record(&chosen.equivalent()?, axes, range, points).map(value)
             }

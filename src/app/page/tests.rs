@@ -607,5 +607,8 @@ fn the_derivation_is_the_sheet_of_the_command() {
     let general = ask(&Session::new(design(GENERAL)), &json!({"op": "derivation", "chosen": chosen}));
     assert_eq!(general["error"]["code"], "offsets");
     let text = page(&session, None);
-    assert!(text.contains("Cayley-Menger") && !text.contains("<b>&"), "the page without a core has it recorded");
+    assert!(
+        text.contains("Cayley-Menger") && !text.contains("<b>&"),
+        "the page without a core has it recorded"
+    );
 }

@@ -49,9 +49,8 @@ impl NativeFiveLegs {
 
     /// Base end and platform end of each leg, float64, shape (5, 3).
     fn ends<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray2<f64>>; 2] {
-        [&self.design.pentapod.base, &self.design.pentapod.platform].map(|ends| {
-            Array2::from_shape_fn((5, 3), |(leg, i)| nearest(&ends[leg][i])).into_pyarray(py)
-        })
+        [&self.design.pentapod.base, &self.design.pentapod.platform]
+            .map(|ends| Array2::from_shape_fn((5, 3), |(leg, i)| nearest(&ends[leg][i])).into_pyarray(py))
     }
 
     /// Names of the base joint and of the platform joint of each leg.
@@ -67,8 +66,7 @@ impl NativeFiveLegs {
     /// The answer of `equipod check`, and with lengths that of `equipod fk`.
     fn about(&self, py: Python<'_>, lengths: Option<[f64; 5]>, seed: u64) -> PyResult<String> {
         let design = self.design.clone();
-        let report: PentapodReport =
-            interruptible(py, move || Ok(about_five_legs(&design, lengths, seed)))?;
+        let report: PentapodReport = interruptible(py, move || Ok(about_five_legs(&design, lengths, seed)))?;
         if let (Some(message), Some(_)) = (report.without_line(), lengths) {
             return Err(refused(py, "fk::five_legs", &message));
         }

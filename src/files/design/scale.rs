@@ -3,8 +3,8 @@
 use serde_json::{Map, Value as Json, json};
 use thiserror::Error;
 
-use super::keys::{FILE, KeyForm, KeyKind, KeyShape};
 use super::construction::expression::UnitsBehind;
+use super::keys::{FILE, KeyForm, KeyKind, KeyShape};
 use super::{DesignModel, Format, WrittenNumber, parse_with_cranks};
 
 /// Units by label with their lengths in micrometres, which are whole numbers; the inch is 25.4 mm exactly.

@@ -271,7 +271,14 @@ impl<'t> Findings<'t> {
     pub fn new(text: &'t str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(starts).collect();
-        Self { text, line_starts, violations: Vec::new(), warnings: Vec::new(), unlisted: 0, length_unit: None }
+        Self {
+            text,
+            line_starts,
+            violations: Vec::new(),
+            warnings: Vec::new(),
+            unlisted: 0,
+            length_unit: None,
+        }
     }
 
     /// Line of a byte offset, 1-based.

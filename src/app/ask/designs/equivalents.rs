@@ -309,11 +309,7 @@ impl Equivalents {
     ///
     /// # Errors
     /// Texts that are no offsets; offsets that are too few or too many, or make no platform.
-    pub fn build_at(
-        &self,
-        pattern: &Pattern,
-        offsets: &[String],
-    ) -> Result<(Design, AffineLegMap), Error> {
+    pub fn build_at(&self, pattern: &Pattern, offsets: &[String]) -> Result<(Design, AffineLegMap), Error> {
         Ok(self.original.equivalent_at(pattern, &self.original.shares(pattern, offsets)?)?)
     }
 

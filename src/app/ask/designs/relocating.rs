@@ -359,9 +359,8 @@ impl Design {
                 match o {
                     JointOrigin::Kept(k) => Origin::Kept(*k),
                     JointOrigin::Displaced(_) | JointOrigin::Split(_) => {
-                        let on_line = || {
-                            between(place).map(|(ends, t)| Origin::Between(ends, Box::new(t.clone())))
-                        };
+                        let on_line =
+                            || between(place).map(|(ends, t)| Origin::Between(ends, Box::new(t.clone())));
                         let on_plane = || {
                             let (corners, pair) = in_plane(place)?;
                             Some(Origin::InPlane(corners, Box::new([pair[0].clone(), pair[1].clone()])))

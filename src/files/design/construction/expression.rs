@@ -302,7 +302,8 @@ impl<'t> ExpressionReader<'t> {
                 return self.slip(from, message);
             }
             UnitsBehind::None => {
-                return self.slip(from, format!("`{word}` is a unit of length, and this number is no length"));
+                return self
+                    .slip(from, format!("`{word}` is a unit of length, and this number is no length"));
             }
         };
         self.with_unit += 1;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::expression::{Unsolved, UnitsBehind};
+use super::expression::{UnitsBehind, Unsolved};
 use super::resolve::on_line;
 use super::{Construction, Constructions, LinePlace, RealPoint, Spelling, WrittenHome, WrittenNumber};
 use crate::design::DesignModel;
@@ -91,7 +91,9 @@ impl DesignModel {
         let written = value.exact().and_then(|exact| WrittenNumber::text(&exact.to_string()).ok());
         match written {
             Some(written) => Ok(Share { written, value }),
-            None => Share::shortest(value.nearest()).ok_or_else(|| refuse("the share is not finite".to_owned())),
+            None => {
+                Share::shortest(value.nearest()).ok_or_else(|| refuse("the share is not finite".to_owned()))
+            }
         }
     }
 }

@@ -181,8 +181,7 @@ pub(super) fn quantity(
         Ok(quantity) => Some(quantity),
         Err(Slip { place, message, too_complex }) => {
             let code = if too_complex { Code::TooComplex } else { Code::Expression };
-            let help =
-                "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg()";
+            let help = "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg(); a unit of length may stand behind a length";
             let span = inner(report, &node.span, Some(&place));
             report.refuse(code, &span, format!("{what}: {message}"), help);
             None

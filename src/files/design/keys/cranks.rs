@@ -284,7 +284,8 @@ fn range(found: &mut FoundKey<'_, '_>, places: &mut Places) -> Option<[WrittenNu
         found.refuse(Code::CoordinateCount, message, help);
         return None;
     };
-    let [a, b] = [least, most].map(|e| quantity(found.report, e, NumberKind::Plain, &format!("an angle of {what}")));
+    let [a, b] =
+        [least, most].map(|e| quantity(found.report, e, NumberKind::Plain, &format!("an angle of {what}")));
     places.parts.splice(8..10, [least.span.clone(), most.span.clone()]);
     Some([a?, b?])
 }

@@ -89,8 +89,12 @@ pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<(Pose, Opti
     let turned = pose_rotation(report, node, entries, "[home]");
     let (rotation, angles) = match turned? {
         e if e.key == "rpy_deg" => {
-            let read =
-                three_quantities(report, &e.node, (NumberKind::Plain, "`rpy_deg` of [home]"), ("angle", "angles in degrees"))?;
+            let read = three_quantities(
+                report,
+                &e.node,
+                (NumberKind::Plain, "`rpy_deg` of [home]"),
+                ("angle", "angles in degrees"),
+            )?;
             (Rotation3::identity(), Some(read))
         }
         e => (rotation(report, e, "[home]")?, None),

@@ -145,8 +145,8 @@ fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<RoundingChoice<'a>> 
 
 /// The grids of the design, or of `--grid`, with what other options say of them.
 fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
-    let [grid, grid_platform] = [&args.grid, &args.grid_platform]
-        .map(|pitch| Length::of_option(pitch.as_ref(), &design.units));
+    let [grid, grid_platform] =
+        [&args.grid, &args.grid_platform].map(|pitch| Length::of_option(pitch.as_ref(), &design.units));
     let (grid, grid_platform) = (grid?, grid_platform?);
     let pitches = grid.map(|base| [base, grid_platform.unwrap_or(base)]);
     let mut grids = match (design.holes, pitches) {
