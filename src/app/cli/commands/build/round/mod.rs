@@ -4,8 +4,6 @@ pub(in crate::app::cli::commands) mod render;
 
 use std::path::PathBuf;
 
-use nalgebra::Point3;
-
 use super::tolerances::tool_point;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
