@@ -14,6 +14,7 @@ mod command;
 mod design;
 mod failure;
 mod forms;
+mod pentapod;
 mod solutions;
 mod tracker;
 
@@ -39,6 +40,8 @@ mod core {
     use super::forms::{angles_of, quaternions_of, rotations_of_angles, rotations_of_quaternions};
     #[pymodule_export]
     use super::main;
+    #[pymodule_export]
+    use super::pentapod::NativeFiveLegs;
     #[pymodule_export]
     use super::solutions::NativeSolutions;
     #[pymodule_export]

@@ -30,7 +30,7 @@ mod workspace;
 
 use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
-pub use construction::{InvalidShare, Origin, Share};
+pub use construction::{InvalidShare, Origin, Share, length_in};
 pub use edit::{JointError, Written};
 pub use five_legs::{FiveLegs, FiveLegsOrViolations, parse_five_legs};
 pub use keys::SCHEMA;

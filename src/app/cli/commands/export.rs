@@ -10,7 +10,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::number;
+use crate::app::cli::numbers::{Length, length};
 use crate::app::cli::output::Answer;
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
@@ -33,17 +33,17 @@ pub(crate) struct ExportArgs {
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    thickness: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    thickness: Option<Length>,
     /// Distance from the joints' hull to the outline of a plate, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    margin: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    margin: Option<Length>,
     /// Diameter of the holes under the joints, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    hole_diameter: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    hole_diameter: Option<Length>,
     /// Diameter of the balls, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    ball_diameter: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    ball_diameter: Option<Length>,
     /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees. Adds joint tolerances
     /// to hole plans and tables, as `build tolerances`
     #[arg(long, value_name = "LENGTH,DEG")]
@@ -68,8 +68,10 @@ fn model(args: &ExportArgs, design: &Design, hole_places: Option<f64>) -> Result
     let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
     let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
     let mut options = ExportOptions::new();
-    (options.unit, options.thickness, options.margin) = (unit, args.thickness, args.margin);
-    (options.hole, options.ball, options.mass) = (args.hole_diameter, args.ball_diameter, args.mass);
+    let of = |option: &Option<Length>| Length::of_option(option.as_ref(), &design.units);
+    (options.unit, options.thickness, options.margin) = (unit, of(&args.thickness)?, of(&args.margin)?);
+    (options.hole, options.ball, options.mass) =
+        (of(&args.hole_diameter)?, of(&args.ball_diameter)?, args.mass);
     (options.hole_places, options.gravity_compensation) = (hole_places, args.gravity_compensation);
     Export::of(design, &options).map_err(|why| refusal(&why))
 }

@@ -22,6 +22,7 @@ from ._design import (
     Joints,
     LegMap,
     Margins,
+    SkippedRow,
     Track,
     Tracker,
     compare,
@@ -31,6 +32,7 @@ from ._design import (
 )
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
+from ._pentapod import Pentapod
 from ._poses import PoseLike, pose, quaternion, rpy
 from ._record import Record, table
 from ._solutions import BatchSolutions, Solution, Solutions
@@ -49,8 +51,10 @@ __all__ = [
     "LegMap",
     "Margins",
     "Page",
+    "Pentapod",
     "PoseLike",
     "Record",
+    "SkippedRow",
     "Solution",
     "Solutions",
     "Track",

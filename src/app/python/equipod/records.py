@@ -497,9 +497,9 @@ class CertificateRecord(Record):
     #: A power of two, design units.
     unit: Union[float, None]
     #: The centre.
-    centre: Union[ComplexRecord4, ComplexRecord3, None]
+    centre: Union[ComplexRecord5, ComplexRecord4, None]
     #: To be added to the centre.
-    centre_low: Union[ComplexRecord4, None]
+    centre_low: Union[ComplexRecord5, None]
     #: One root lies within this distance of the centre.
     radius: Union[float, None]
     #: No other root lies within this distance.
@@ -754,12 +754,21 @@ class ComplexRecord(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts.
+    im: tuple[Union[float, None], ...]
+
+
+class ComplexRecord2(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
     re: PoseRecord
     #: Imaginary parts.
     im: PoseRecord
 
 
-class ComplexRecord2(Record):
+class ComplexRecord3(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -768,7 +777,7 @@ class ComplexRecord2(Record):
     im: tuple[tuple[Union[float, None], ...], ...]
 
 
-class ComplexRecord3(Record):
+class ComplexRecord4(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -777,7 +786,7 @@ class ComplexRecord3(Record):
     im: tuple[Union[float, None], ...]
 
 
-class ComplexRecord4(Record):
+class ComplexRecord5(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -871,7 +880,26 @@ class CounterexampleRecord(Record):
     #: The design whose lengths the pose has: A or B.
     solves: Literal["A", "B"]
     #: The pose.
-    pose: ComplexRecord
+    pose: ComplexRecord2
+    #: Whether a certificate proves the pose a solution of the one.
+    certified: bool
+    #: The leg of the other design that is missed most, from 1.
+    leg: int
+    #: By how much its squared length is missed, relative to the squared size.
+    miss: Union[float, None]
+    #: Rounding to expect in this number.
+    rounding: Union[float, None]
+
+
+class CounterexampleRecord2(Record):
+    """A pose that belongs to the lengths of one design and not to those of the other."""
+
+    #: Index into `samples`, from 0.
+    sample: int
+    #: The design whose lengths the pose has: A or B.
+    solves: Literal["A", "B"]
+    #: The pose.
+    pose: ComplexRecord2
     #: Whether a certificate proves the pose a solution of the one.
     certified: bool
     #: The leg of the other design that is missed most, from 1.
@@ -953,6 +981,16 @@ class CrankMotionRecord(Record):
     rms_torque: Union[float, None]
     #: Power of the greatest size, watts; negative where the drive brakes.
     power_w: Union[ExtremeRecord, None]
+
+
+class DecouplingLeg(Record):
+    """A sixth leg with which the platform is solved in steps, each a polynomial of low degree."""
+
+    case: Union[Literal["off_the_line", "to_the_line", "to_the_joint"], None]
+    #: The body.
+    body: Union[Body, None]
+    #: The four legs, counted from 1.
+    legs: Union[tuple[int, ...], None]
 
 
 class DefaultReserveRecord(Record):
@@ -2283,6 +2321,23 @@ class GriffisDuffyRecord(Record):
     assembly: Union[AssemblyRecord, None]
 
 
+class HeldLineRecord(Record):
+    """A line of a body that five legs hold."""
+
+    #: The body.
+    body: Body
+    #: Where the joint of each leg is on the line, from that of leg 1, in units of `length`.
+    marks: tuple[Union[float, None], ...]
+    #: From the joint of leg 1 to the one farthest from it, design units.
+    length: Union[float, None]
+    #: By which equation the line is found; null where the legs are dependent.
+    class_: Union[LineClass, None]
+    #: Poses of the line, real and complex, for generic lengths; null where they were not counted.
+    generic_poses: Union[int, None]
+    #: The poses of the line that are singular.
+    singular_poses: LineLocusRecord
+
+
 class HeldPosesRecord(Record):
     """Numbers of poses."""
 
@@ -2572,6 +2627,63 @@ class LimitsAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+
+
+class LineLocusRecord(Record):
+    """The polynomial `F(p, v)` whose zeros are the singular poses of the line."""
+
+    #: `architecturally singular`, `quadratic in all`, `linear in the position`, `linear in the direction`,
+    #: or `cubic`.
+    family: str
+    #: Its degree.
+    degree: int
+    #: Its degree in the position.
+    degree_in_position: int
+    #: Its degree in the direction.
+    degree_in_direction: int
+    #: Its terms. The position is that of the joint of leg 1 in the frame of the other body, and the
+    #: direction is a vector as long as `length`.
+    terms: tuple[LineTermRecord, ...]
+
+
+class LinePoseRecord(Record):
+    """A pose of a line in the frame of the other body."""
+
+    #: The joint of leg 1, design units.
+    position: ComplexRecord
+    #: The unit vector from the joint of leg 1 towards the one farthest from it.
+    direction: ComplexRecord
+    #: Whether it is real: decided exactly.
+    real: bool
+    #: How often it counts.
+    multiplicity: int
+    #: No coordinate of the position is farther from the true one.
+    position_error: Union[float, None]
+    #: No coordinate of the direction is farther from the true one.
+    direction_error: Union[float, None]
+
+
+class LinePosesRecord(Record):
+    """All poses of a line for given lengths."""
+
+    #: How many there are, real and complex, each as often as its multiplicity says: proved in exact
+    #: arithmetic.
+    counted: int
+    #: How many of them are real.
+    real: int
+    #: The coefficients of the polynomial that gives them, as decimal text, the constant one first.
+    coefficients: tuple[str, ...]
+    #: The poses, the real ones first.
+    poses: tuple[LinePoseRecord, ...]
+
+
+class LineTermRecord(Record):
+    """A term of a polynomial in the position and the direction of a line."""
+
+    #: Exponents of `p_x, p_y, p_z, v_x, v_y, v_z`.
+    exponents: tuple[int, ...]
+    #: The coefficient, an integer as decimal text.
+    coefficient: str
 
 
 class LocalOptimalityRecord(Record):
@@ -3366,6 +3478,36 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
+class PentapodAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: How many legs it has: 5.
+    legs: int
+    #: A joint is no fraction; the answer is about its nearest doubles.
+    rounded_joints: bool
+    #: The line that the legs hold; null where no body has all its joints on a line. The other freedom of
+    #: the platform is the turn about this line.
+    line: Union[HeldLineRecord, None]
+    #: Whether the legs are dependent at every pose; null: not decided.
+    architecturally_singular: Union[bool, None]
+    #: The sixth legs with which the platform is solved in steps.
+    sixth_legs: tuple[DecouplingLeg, ...]
+    #: The lengths that poses were asked for; null: none.
+    lengths: Union[tuple[float, ...], None]
+    #: All poses of the line for them; null where none were asked for, or there is no answer.
+    poses: Union[LinePosesRecord, None]
+    #: Why there are no poses although lengths are given.
+    no_poses: Union[str, None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
 class PlacedFirst(Record):
     """A part of the platform that some of the legs place, before the others place the rest."""
 
@@ -4125,9 +4267,9 @@ class SolutionRecord(Record):
     """One pose with its evidence."""
 
     #: Rotation matrix, rows.
-    R: ComplexRecord2
+    R: ComplexRecord3
     #: Position, base frame, design units.
-    p: ComplexRecord3
+    p: ComplexRecord4
     #: Null: undecided.
     real: Union[bool, None]
     #: Whether there is a certificate.
@@ -4141,7 +4283,7 @@ class SolutionRecord(Record):
     #: Estimate of the condition number.
     condition: Union[float, None]
     #: (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
-    dual_quaternion: Union[ComplexRecord4, None]
+    dual_quaternion: Union[ComplexRecord5, None]
     #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
 

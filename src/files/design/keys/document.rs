@@ -22,6 +22,7 @@ use super::poses::{HOME, home};
 use super::stored::Word;
 use super::workspace::{WORKSPACE, workspace};
 use super::{Code, FoundKey, KeyTable, TEXT, axes, joint_models, key};
+use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{DesignModel, Warning, Workspace};
@@ -131,6 +132,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
         required(report, root, entries, key);
     }
     let units = Some(design.units.clone()).filter(|units| !units.is_empty());
+    report.length_unit = micrometres(&design.units);
     let legs_entry = legs_entry(report, root, entries);
     let parameters = constructions::parameters(report, entries);
     let mut base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));

@@ -98,7 +98,7 @@ fn failure(why: &NoSelfMotion) -> Failure {
 fn start(args: &CurveQuestion, design: &Design) -> Result<MotionStart, Failure> {
     if let Some(text) = &args.lengths {
         let bad = |message: String| Failure::refused("motion::bad_lengths", format!("--lengths: {message}"));
-        let lengths = six(text, &design.leg_offsets()).map_err(bad)?;
+        let lengths = six(text, &design.leg_offsets(), &design.units).map_err(bad)?;
         return Ok(MotionStart::Lengths(lengths.distances.squared()));
     }
     poses::parse(&args.pose, design, "--pose", "motion::bad_pose").map(MotionStart::Pose)
