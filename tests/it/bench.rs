@@ -11,7 +11,7 @@ use super::evidence::size;
 
 fn plan(class: Class, count: u64) -> Plan {
     let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
-    Plan { class, lengths, count, first: 0, seed: 1, threads: 2, count_poses: false, recheck_every: 10 }
+    Plan { class, lengths, digits: None, count, first: 0, seed: 1, threads: 2, count_poses: false, recheck_every: 10 }
 }
 
 fn short(class: Class, count: u64) -> BenchReport {

@@ -1,7 +1,6 @@
 use std::time::Instant;
 
 use super::*;
-use crate::solve::far_points;
 use crate::{FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use nalgebra::{Point3, Rotation3, Vector3};
 use num::Rng;
@@ -60,7 +59,7 @@ fn a_hexapod_typed_in_digits_has_all_real_poses_and_twelve_far_ones() {
     let (m, s) = usual_hexapod();
     let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
     let Completeness::ProvedBounded { proof } = found.completeness else { panic!("{found}") };
-    assert_eq!((proof.poses, proof.far), (28, 12));
+    assert_eq!((proof.poses, proof.far, proof.neighbour), (28, Some(12), None));
     assert!(
         proof.rotation > 1e6 && found.is_complete() && found.all_accounted() && found.missing().is_none()
     );
@@ -70,17 +69,17 @@ fn a_hexapod_typed_in_digits_has_all_real_poses_and_twelve_far_ones() {
 fn a_list_without_one_of_its_poses_is_not_proved() {
     let (m, s) = usual_hexapod();
     let whole = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
-    let points = far_points(&m, 1);
+    let mut surroundings = Surroundings::new(&m, 1);
     for k in 0..whole.roots.len() {
         let mut less = whole.clone();
         less.completeness = Completeness::unproved([]);
         less.roots.remove(k);
-        assert!(!conclude_far(&mut less, &m, &s, &points).unwrap() && !less.is_complete());
+        assert!(!surroundings.conclude(&mut less, &s).unwrap() && !less.is_complete());
     }
     let mut twice = whole.clone();
     twice.completeness = Completeness::unproved([]);
     twice.roots[3] = twice.roots[4].clone();
-    assert!(!conclude_far(&mut twice, &m, &s, &points).unwrap());
+    assert!(!surroundings.conclude(&mut twice, &s).unwrap());
 }
 
 #[test]
@@ -92,7 +91,7 @@ fn designs_without_a_gap_between_near_and_far_poses_are_not_proved_so() {
     let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
     found.completeness = Completeness::unproved([]);
     found.roots.pop();
-    assert!(!bounded(&mut found, &m, &s, &LazyCell::new(|| far_points(&m, 1))).unwrap());
+    assert!(!Surroundings::new(&m, 1).conclude(&mut found, &s).unwrap());
 }
 
 /// Proportion proved and times: `FAR_DESIGNS=300 cargo test -p equipod-fk proportion -- --ignored --nocapture`.
@@ -118,7 +117,7 @@ fn proportion_of_rounded_designs_proved() {
                 };
                 let s = lengths(&m, &mut rng);
                 let start = Instant::now();
-                let points = far_points(&m, 1).len();
+                let points = FarSearch::new(&m, 1).points().count();
                 search += start.elapsed().as_secs_f64();
                 let start = Instant::now();
                 let found = Homotopy.solve(&m, &s, &quick).unwrap();

@@ -15,8 +15,8 @@ use platform::manipulator::Manipulator;
 /// Random starts, and how many in turn may find nothing new.
 const STARTS: usize = 1500;
 const VAIN: usize = 200;
-/// Six legs have at most so many isolated common points.
-const MOST: usize = 40;
+/// So many points, one of each conjugate pair, are looked for: six legs have at most forty isolated ones.
+const MOST: usize = 20;
 /// Steps of one search.
 const STEPS: usize = 40;
 /// Largest residual of what may be a common point: joints are rounded.
@@ -115,41 +115,64 @@ impl Search {
     }
 }
 
-/// Points at infinity that the legs nearly have in common; none where there are more than isolated ones can be.
-pub(crate) fn far_points(m: &Manipulator, seed: u64) -> Vec<FarPoint> {
-    // the unit of length of `certify::far`
-    let inverse = 2f64.powi(m.size().log2().floor() as i32).recip();
-    let legs = m.legs();
-    let search = Search {
-        a: std::array::from_fn(|i| (legs[i].base.coords * inverse).into()),
-        b: std::array::from_fn(|i| (legs[i].platform.coords * inverse).into()),
-    };
-    let mut rng = Purpose::FAR_POINTS.rng(seed);
-    let mut found: Vec<FarPoint> = Vec::new();
-    let mut vain = 0;
-    let draw = |rng: &mut Rng| Complex64::new(rng.normal(), rng.normal());
-    for _ in 0..STARTS {
-        if vain > VAIN {
-            break;
-        }
-        vain += 1;
-        let start = Unknowns::from_fn(|_, _| draw(&mut rng));
-        let Some(x) = search.from(start) else { continue };
-        let Some(point) = Search::point(&x) else { continue };
-        for point in [point, point.map(|z| z.conj())] {
-            let same = |other: &FarPoint| {
-                let size = 1.0 + point.iter().map(|z| z.norm()).fold(0.0, f64::max);
-                other.iter().zip(&point).all(|(x, y)| (x - y).norm() < SAME * size)
-            };
-            if !found.iter().any(same) {
-                found.push(point);
-                vain = 0;
+/// The search for the points at infinity that the legs of a design nearly have in common.
+pub(crate) struct FarSearch {
+    problem: Search,
+    rng: Rng,
+    found: Vec<FarPoint>,
+    starts: usize,
+    vain: usize,
+}
+
+impl FarSearch {
+    pub(crate) fn new(m: &Manipulator, seed: u64) -> Self {
+        // the unit of length of `certify::far`
+        let inverse = 2f64.powi(m.size().log2().floor() as i32).recip();
+        let legs = m.legs();
+        let problem = Search {
+            a: std::array::from_fn(|i| (legs[i].base.coords * inverse).into()),
+            b: std::array::from_fn(|i| (legs[i].platform.coords * inverse).into()),
+        };
+        Self { problem, rng: Purpose::FAR_POINTS.rng(seed), found: Vec::new(), starts: 0, vain: 0 }
+    }
+
+    /// The points, one of each conjugate pair: first those that are known, then new ones as they are found.
+    ///
+    /// Legs that have a curve of common points at infinity have no end of them: then [`MOST`] are looked for.
+    pub(crate) fn points(&mut self) -> impl Iterator<Item = FarPoint> {
+        let mut k = 0;
+        std::iter::from_fn(move || {
+            if k == self.found.len() {
+                let point = self.another()?;
+                self.found.push(point);
+            }
+            k += 1;
+            Some(self.found[k - 1])
+        })
+    }
+
+    /// Those found so far.
+    pub(crate) fn known(&self) -> &[FarPoint] {
+        &self.found
+    }
+
+    /// One that is not known yet.
+    fn another(&mut self) -> Option<FarPoint> {
+        let is_same = |x: &FarPoint, y: &FarPoint| {
+            let size = 1.0 + x.iter().map(|z| z.norm()).fold(0.0, f64::max);
+            x.iter().zip(y).all(|(x, y)| (x - y).norm() < SAME * size)
+        };
+        while self.starts < STARTS && self.vain < VAIN && self.found.len() < MOST {
+            self.starts += 1;
+            self.vain += 1;
+            let start = Unknowns::from_fn(|_, _| Complex64::new(self.rng.normal(), self.rng.normal()));
+            let Some(point) = self.problem.from(start).as_ref().and_then(Search::point) else { continue };
+            let conjugate = point.map(|z| z.conj());
+            if !self.found.iter().any(|x| is_same(&point, x) || is_same(&conjugate, x)) {
+                self.vain = 0;
+                return Some(point);
             }
         }
-        // legs with a curve of common points at infinity: no number of them is all
-        if found.len() > MOST {
-            return Vec::new();
-        }
+        None
     }
-    found
 }

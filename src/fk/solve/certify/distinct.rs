@@ -76,6 +76,12 @@ fn is_apart(x: &[WideDisc; 8], outer: &Certificate) -> bool {
     (0..8).filter(|j| *j != outer.patch).any(|j| x[j].is_disjoint(&coordinate(outer, j)))
 }
 
+/// Proves that the root of `inner`, for every choice of its data, lies where that of `outer` is the only one. The data
+/// of both may differ.
+pub(crate) fn is_captured_by(inner: &Certificate, outer: &Certificate) -> bool {
+    on_patch(inner, outer.patch, outer.unit).is_some_and(|x| is_captured(&x, outer))
+}
+
 /// Proves that `x` lies in the uniqueness ball of `outer`.
 fn is_captured(x: &[WideDisc; 8], outer: &Certificate) -> bool {
     let centre = |j: usize| WideDisc::about(outer.centre[j], outer.low[j], 0.0);
