@@ -52,7 +52,7 @@ impl<'a> Surroundings<'a> {
             return Ok(false);
         }
         let neighbour = self.neighbour.get_or_init(|| Neighbour::of(self.manipulator));
-        if conclude_by_neighbour(found, neighbour.as_ref(), s) {
+        if conclude_by_neighbour(found, neighbour.as_ref(), self.manipulator, s) {
             return Ok(true);
         }
         conclude_far(found, self.manipulator, s, self.search.points())
@@ -76,7 +76,7 @@ impl KnownSurroundings {
         if !are_distinct(found) {
             return Ok(false);
         }
-        if conclude_by_neighbour(found, self.neighbour.as_ref(), s) {
+        if conclude_by_neighbour(found, self.neighbour.as_ref(), m, s) {
             return Ok(true);
         }
         conclude_far(found, m, s, self.points.iter().copied())
@@ -87,9 +87,10 @@ impl KnownSurroundings {
 fn conclude_by_neighbour(
     found: &mut FkSolutions,
     neighbour: Option<&Neighbour>,
+    m: &Manipulator,
     s: &SquaredLegLengths,
 ) -> bool {
-    let Some(proof) = neighbour.and_then(|n| n.prove(found, s)) else { return false };
+    let Some(proof) = neighbour.and_then(|n| n.prove(found, m, s)) else { return false };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     true
@@ -140,7 +141,7 @@ fn conclude_far(
     }
     let mut others: Vec<FarPoses> = far.iter().map(FarPoses::from).collect();
     others.sort_by(|x, y| x.rotation.total_cmp(&y.rotation));
-    let proof = BoundedProof { poses, far: Some(beyond), rotation, neighbour: None, others };
+    let proof = BoundedProof { poses, far: Some(beyond), rotation: Some(rotation), neighbour: None, others };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     Ok(true)

@@ -109,8 +109,8 @@ pub struct BoundedProof {
     /// Others, certified to be different and farther out, or at infinity; null: the proof needs no others.
     pub far: Option<usize>,
     /// The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries of real
-    /// rotations are at most 1.
-    pub rotation: f64,
+    /// rotations are at most 1. Null: the proof is about real poses alone.
+    pub rotation: Option<f64>,
     /// How far the ends of a leg, both together, are at most from those of a design that has no more poses, in design
     /// units, where the proof is about real poses next to those of this design; null: it is about far poses.
     pub neighbour: Option<f64>,
@@ -133,7 +133,7 @@ pub struct FarPoses {
 impl fmt::Display for BoundedProof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { poses, far, rotation, neighbour, .. } = self;
-        let Some(far) = far else {
+        let (Some(far), Some(rotation)) = (far, rotation) else {
             return write!(
                 f,
                 "{poses} certified distinct poses, as many as planar bodies have whose joints are affine images of each other; the ends of the legs are within {:.1e} of such bodies, \
@@ -737,7 +737,7 @@ mod tests {
         let bounded = |rotation| BoundedProof {
             poses: 28,
             far: Some(12),
-            rotation,
+            rotation: Some(rotation),
             neighbour: None,
             others: vec![FarPoses { poses: 12, rotation, rotation_at_most: None }],
         };

@@ -17,9 +17,7 @@ use crate::solve::homotopy::{
     EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
 use crate::solve::pose_count::PoseCount;
-use crate::solve::{
-    LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split,
-};
+use crate::solve::{LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split};
 use platform::geom::{ComplexPose, rotation_from_quaternion};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use prepared::PreparedHomotopy;

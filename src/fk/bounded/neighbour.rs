@@ -8,16 +8,18 @@
 //! the enclosures of these are each where a certified pose of the design is the only one, `P` is this pose.
 
 use nalgebra::Matrix6;
-use num_complex::Complex64;
 
 use crate::bounds::special_bound;
-use crate::{BoundedProof, FkSolutions};
+use crate::evidence::all_distinct;
 use crate::solve::certify::{
-    Certificate, Certifier, Distinctness, NewtonStart, RootCertificate, SquareData, distinct, is_captured_by,
+    Certificate, Certifier, ClusterCertificate, Distinctness, NewtonStart, RootCertificate, SquareData,
+    cluster_is_captured_by, is_captured_by, is_of,
 };
+use crate::{BoundedProof, FkRoot, FkSolutions};
 use num::ball::UP;
 use num::exact::rational;
 use num::surd::Surd;
+use platform::geom::ComplexPose;
 use platform::manipulator::{Body, ExactEnds, Manipulator, SquaredLegLengths};
 
 /// Ends farther from a plane than this, relative to their spread, have no affine hexagons as neighbours worth a try.
@@ -56,7 +58,8 @@ impl Neighbour {
         let point = |i: usize, first: usize| {
             Some([coordinate(i, first)?, coordinate(i, first + 1)?, coordinate(i, first + 2)?])
         };
-        let ends: Vec<ExactEnds> = (0..6).map(|i| Some([point(i, 0)?, point(i, 3)?])).collect::<Option<_>>()?;
+        let ends: Vec<ExactEnds> =
+            (0..6).map(|i| Some([point(i, 0)?, point(i, 3)?])).collect::<Option<_>>()?;
         let manipulator = Manipulator::from_exact_ends(&ends.try_into().ok()?).ok()?;
         let most = special_bound(&manipulator)?.bound();
         let distances = std::array::from_fn(|i| {
@@ -71,33 +74,55 @@ impl Neighbour {
         Some(Self { manipulator, most, distances })
     }
 
-    /// The proof that all real poses are listed.
-    pub(super) fn prove(&self, found: &FkSolutions, s: &SquaredLegLengths) -> Option<BoundedProof> {
-        let listed: Vec<(&Certificate, [Complex64; 8])> = found
+    /// The proof that all real poses of the design `m` are listed.
+    pub(super) fn prove(
+        &self,
+        found: &FkSolutions,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+    ) -> Option<BoundedProof> {
+        let listed: Vec<(&FkRoot, &Certificate)> = found
             .roots
             .iter()
-            .filter_map(|r| match &r.certificate {
-                Some(RootCertificate::Study(c)) => Some((c, r.dual_quaternion?)),
+            .filter_map(|root| match &root.certificate {
+                Some(RootCertificate::Study(c)) => Some((root, c)),
                 _ => None,
             })
             .collect();
         if listed.len() < self.most {
             return None;
         }
-        let certifier = Certifier::new(&self.manipulator, self.lengths(s)?).ok()?;
-        let near: Vec<Certificate> = listed
-            .iter()
-            .filter_map(|(own, x)| {
-                let there = certifier.root_near(NewtonStart::Point(x)).ok()?.certificate;
-                is_captured_by(&there, own).then_some(there)
-            })
-            .collect();
-        let proved = near.len() == self.most && distinct(&near) == Distinctness::AllDistinct;
+        let there = Certifier::new(&self.manipulator, self.lengths(s)?).ok()?;
+        let single = |(root, own): &(&FkRoot, &Certificate)| {
+            let near = there.root_near(NewtonStart::Point(root.dual_quaternion.as_ref()?)).ok()?.certificate;
+            is_captured_by(&near, own).then_some(near)
+        };
+        let (mut near, mut rest) = (Vec::new(), Vec::new());
+        for pose in &listed {
+            match single(pose) {
+                Some(certificate) => near.push(certificate),
+                None => rest.push(*pose),
+            }
+        }
+        let mut pairs = Vec::new();
+        if near.len() < self.most {
+            let here = Certifier::new(m, s).ok()?;
+            while let Some(pose) = rest.pop() {
+                let Some((pair, own)) = pair_near(&here, &there, &pose.0.pose) else { continue };
+                let partner = rest.iter().position(|other| is_of(other.1, &own));
+                if let Some(partner) = partner.filter(|_| is_of(pose.1, &own)) {
+                    rest.swap_remove(partner);
+                    pairs.push(pair);
+                }
+            }
+        }
+        let proved = near.len() + 2 * pairs.len() == self.most
+            && all_distinct(&near, &pairs) == Distinctness::AllDistinct;
         let distance = self.distances.iter().copied().fold(0.0, f64::max);
         proved.then_some(BoundedProof {
             poses: self.most,
             far: None,
-            rotation: 1.0,
+            rotation: None,
             neighbour: Some(distance),
             others: Vec::new(),
         })
@@ -113,4 +138,17 @@ impl Neighbour {
         }
         Some(SquareData::within(middle, radius))
     }
+}
+
+/// Two poses of the neighbour that are not told apart for all its lengths, where two of the design are the only ones.
+fn pair_near(
+    here: &Certifier,
+    there: &Certifier,
+    pose: &ComplexPose,
+) -> Option<(ClusterCertificate, ClusterCertificate)> {
+    let two = |certifier: &Certifier| {
+        certifier.clusters_near(pose, 2).map(|found| found.1).find(|c| c.multiplicity() == 2)
+    };
+    let (own, pair) = (two(here)?, two(there)?);
+    cluster_is_captured_by(&pair, &own).then_some((pair, own))
 }

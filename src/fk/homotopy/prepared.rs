@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
 use crate::bounded::{KnownSurroundings, Surroundings};
-use crate::evidence::attach;
+use crate::evidence::{Bounds, attach};
 use crate::harvest::harvest;
 use crate::judge::{RealityJudgement, judge};
 use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
@@ -91,7 +91,7 @@ impl PreparedHomotopy {
         let problem = SectionProblem { frame, sections, kind, fine: false };
         let found = harvest(m, s, &o.tolerances, &ends_of(&problem, &paths), &[]);
         let (mut found, certificates) = assemble(o, &problem, &paths, self.start.paths(), found);
-        attach(&mut found, m, s, self.theorem, certificates)?;
+        attach(&mut found, m, s, Bounds::Only(self.theorem), certificates)?;
         if found.completeness.is_proved() {
             return Ok(Some(found));
         }

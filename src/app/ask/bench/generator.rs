@@ -48,10 +48,10 @@ impl Problem {
             // doubles of order one have 16 digits
             if scaled.abs() < 1.0 / f64::EPSILON { scaled / scale } else { x }
         };
-        let legs = self.manipulator.legs().map(|leg| Leg {
-            base: leg.base.map(round),
-            platform: leg.platform.map(round),
-        });
+        let legs = self
+            .manipulator
+            .legs()
+            .map(|leg| Leg { base: leg.base.map(round), platform: leg.platform.map(round) });
         let manipulator = Manipulator::from_legs(legs)?;
         match self.pose {
             Some(pose) => at_pose(manipulator, pose),

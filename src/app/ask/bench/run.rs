@@ -13,7 +13,7 @@ use super::raw::{Elimination, RawOutcome};
 use super::statistics::{BenchReport, summarise};
 use super::validator::{Claim, Validation, validate};
 use fk::solve::certify::Certifier;
-use fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
+use fk::{Completeness, FkOptions, FkRoot, FkSolutions, ForwardKinematics, PoseCounting, Reality};
 use platform::geom::ComplexPose;
 
 /// What to run.
@@ -159,12 +159,14 @@ fn one(
     };
     let (claims, certify_us) = found.as_ref().map_or((Vec::new(), 0.0), |f| claims_of(&problem, f));
     let mut others: Vec<ComplexPose> = problem.pose.map(ComplexPose::from).into_iter().collect();
-    // a proof up to a distance says nothing of poses farther out
-    let reach = match found.as_ref().map(|f| &f.completeness) {
-        Some(Completeness::ProvedBounded { proof }) => proof.rotation,
-        _ => f64::INFINITY,
+    // a proof up to a distance says nothing of poses farther out, or of poses that are not real
+    let is_within = |root: &FkRoot| match found.as_ref().map(|f| &f.completeness) {
+        Some(Completeness::ProvedBounded { proof }) => proof.rotation.map_or_else(
+            || root.reality == Reality::Real,
+            |reach| root.pose.rotation.iter().all(|z| z.norm() < reach),
+        ),
+        _ => true,
     };
-    let is_within = |pose: &ComplexPose| pose.rotation.iter().all(|z| z.norm() < reach);
     let start = Instant::now();
     let mut verdict = validate(&problem, &claims, &others);
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
@@ -173,7 +175,7 @@ fn one(
     if rechecked {
         for options in starts(plan.seed) {
             if let Ok(again) = reference.solve(&problem.manipulator, &problem.squares, &options) {
-                others.extend(again.roots.iter().map(|r| r.pose).filter(is_within));
+                others.extend(again.roots.iter().filter(|r| is_within(r)).map(|r| r.pose));
             }
         }
         verdict = validate(&problem, &claims, &others);

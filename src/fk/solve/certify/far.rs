@@ -75,7 +75,7 @@ const REACH: f64 = 0.1;
 /// Two zeros closer than this are tried as a pair.
 const CLOSE: f64 = 1e-2;
 /// Discs of the parameter that are tried about a single zero: the first ones suffice for most.
-const RADII: [f64; 5] = [1e-8, 1e-6, 1e-10, 1e-12, 1e-4];
+const RADII: [f64; 6] = [1e-8, 1e-6, 1e-10, 1e-12, 1e-14, 1e-4];
 /// The smallest and the largest disc about two zeros, and how the ones between follow each other.
 const PAIR_RADII: [f64; 3] = [1e-9, 1e-2, 32.0];
 /// How often a polydisc is widened before it is given up.
@@ -246,24 +246,23 @@ struct Curve {
     direction: Vector,
 }
 
-impl Curve {
-    /// `p_0 .. p_3` of the module's text.
-    fn quadric<T: Ring>(&self, lift: impl Fn(Complex64) -> T) -> [T; 4] {
-        let [x, d]: [[T; N]; 2] =
-            [&self.point, &self.direction].map(|v| std::array::from_fn(|k| lift(v[k])));
-        let product = |u: &[T; N], v: &[T; N]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2] + u[3] * v[3];
-        let h = [product(&x, &x), product(&x, &d).scaled(2.0), product(&d, &d)];
-        [
-            x[6] * x[6] - x[7] * h[0],
-            (x[6] * d[6]).scaled(2.0) - x[7] * h[1] - d[7] * h[0],
-            d[6] * d[6] - x[7] * h[2] - d[7] * h[1],
-            T::of(0.0) - d[7] * h[2],
-        ]
-    }
+/// `p_0 .. p_3` of the module's text, at `x` along `d`.
+fn quadric<T: Ring>(x: &[T; N], d: &[T; N]) -> [T; 4] {
+    let product = |u: &[T; N], v: &[T; N]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2] + u[3] * v[3];
+    let h = [product(x, x), product(x, d).scaled(2.0), product(d, d)];
+    [
+        x[6] * x[6] - x[7] * h[0],
+        (x[6] * d[6]).scaled(2.0) - x[7] * h[1] - d[7] * h[0],
+        d[6] * d[6] - x[7] * h[2] - d[7] * h[1],
+        T::of(0.0) - d[7] * h[2],
+    ]
+}
 
+impl Curve {
     /// The parameters at which the last equation vanishes, up to the term of third order; the smaller one first.
     fn zeros(&self) -> [Complex64; 2] {
-        let [c, slope, bend, _] = self.quadric(|z| z);
+        let [x, d]: [FarPoint; 2] = [self.point.into(), self.direction.into()];
+        let [c, slope, bend, _] = quadric(&x, &d);
         let root = (slope * slope - bend * c * 4.0).sqrt();
         let larger = if (slope + root).norm() > (slope - root).norm() { slope + root } else { slope - root };
         [-c * 2.0 / larger, -larger / (bend * 2.0)]
@@ -371,7 +370,8 @@ impl FarSystem {
         let apart = (zeros[1] - zeros[0]).norm() / 2.0;
         if apart < CLOSE {
             let middle = curve.at((zeros[0] + zeros[1]) / 2.0);
-            let steps = std::iter::successors(Some((4.0 * apart).max(PAIR_RADII[0])), |r| Some(r * PAIR_RADII[2]));
+            let steps =
+                std::iter::successors(Some((4.0 * apart).max(PAIR_RADII[0])), |r| Some(r * PAIR_RADII[2]));
             let radii = steps.take_while(|r| *r < PAIR_RADII[1]);
             if let Some(pair) = self.curve_near(&middle).and_then(|curve| self.prove(&curve, 2, radii)) {
                 return vec![pair];
@@ -388,20 +388,26 @@ impl FarSystem {
     }
 
     /// So many zeros, in the first disc of the parameter for which they are proved.
-    fn prove(&self, curve: &Curve, zeros: usize, radii: impl Iterator<Item = f64>) -> Option<FarRoots> {
-        let point = |z: Complex64| WideDisc::about(z, Complex64::ZERO, 0.0);
-        let centre: [Complex64; N] = std::array::from_fn(|k| curve.point[k]);
-        let f = self.values(&centre.map(point)).map(|v| v.rounded());
-        let step: [f64; N] = std::array::from_fn(|i| {
-            let terms = (0..N).filter(|k| *k != 6).map(|k| Disc::point(curve.inverse[(i, k)]) * f[k]);
-            terms.fold(Disc::of(0.0), |sum, term| sum + term).magnitude()
-        });
-        let quadric = curve.quadric(point).map(|p| p.rounded());
-        let mut radii = radii;
+    fn prove(&self, curve: &Curve, zeros: usize, mut radii: impl Iterator<Item = f64>) -> Option<FarRoots> {
+        let newton = |x: &[WideDisc; N]| -> [Disc; N] {
+            let f = self.values(x).map(|v| v.rounded());
+            std::array::from_fn(|i| {
+                let terms = (0..N).filter(|k| *k != 6).map(|k| Disc::point(curve.inverse[(i, k)]) * f[k]);
+                terms.fold(Disc::of(0.0), |sum, term| sum + term)
+            })
+        };
+        // a step in double-double, so that what is left of it is far below the discs that are tried
+        let rounded = std::array::from_fn(|k| WideDisc::about(curve.point[k], Complex64::ZERO, 0.0));
+        let step = newton(&rounded);
+        let centre: [WideDisc; N] =
+            std::array::from_fn(|k| WideDisc::about(curve.point[k], -step[k].centre, 0.0));
+        let step = newton(&centre).map(|y| y.magnitude());
+        let direction = std::array::from_fn(|k| WideDisc::about(curve.direction[k], Complex64::ZERO, 0.0));
+        let quadric = quadric(&centre, &direction).map(|p| p.rounded());
+        let centre = centre.map(|x| x.rounded());
         radii.find_map(|tau| {
-            let tube = self.tube(curve, &step, tau)?;
-            let discs: [Disc; N] =
-                std::array::from_fn(|k| Disc { centre: centre[k], radius: tube.radius(k, tau) });
+            let tube = self.tube(curve, &centre, &step, tau)?;
+            let discs = tube.polydisc(&centre, tau);
             if !tube.has_zeros(&quadric, zeros, tau, &centre) {
                 return None;
             }
@@ -411,13 +417,12 @@ impl FarSystem {
     }
 
     /// The radii `R` for which Krawczyk's operator maps the tube into itself for all `|t| <= tau`.
-    fn tube(&self, curve: &Curve, step: &[f64; N], tau: f64) -> Option<Tube> {
+    fn tube(&self, curve: &Curve, centre: &[Disc; N], step: &[f64; N], tau: f64) -> Option<Tube> {
         let direction = std::array::from_fn(|k| Disc::point(curve.direction[k]).magnitude());
         let mut tube = Tube { direction, rest: step.map(|y| 2.0 * y + TINY) };
         for _ in 0..WIDENED {
             let radius: [f64; N] = std::array::from_fn(|k| tube.radius(k, tau));
-            let over = std::array::from_fn(|k| Disc { centre: curve.point[k], radius: radius[k] });
-            let rows = self.derivatives::<Disc>(&over);
+            let rows = self.derivatives::<Disc>(&tube.polydisc(centre, tau));
             let image: [f64; N] = std::array::from_fn(|i| {
                 (0..N).fold(step[i], |sum, j| {
                     let one = Disc::of(if i == j { 1.0 } else { 0.0 });
@@ -451,16 +456,25 @@ impl Tube {
         (self.direction[k] * tau + self.rest[k]) * UP
     }
 
+    /// `X` of the module's text.
+    fn polydisc(&self, centre: &[Disc; N], tau: f64) -> [Disc; N] {
+        std::array::from_fn(|k| Disc {
+            centre: centre[k].centre,
+            radius: (centre[k].radius + self.radius(k, tau)) * UP,
+        })
+    }
+
     /// Whether the last equation has so many zeros on the curve with `|t| < tau`: Rouche's theorem.
-    fn has_zeros(&self, quadric: &[Disc; 4], zeros: usize, tau: f64, centre: &[Complex64; N]) -> bool {
+    fn has_zeros(&self, quadric: &[Disc; 4], zeros: usize, tau: f64, centre: &[Disc; N]) -> bool {
         // bounds of the coordinates of `c + d t`
-        let size: [f64; N] =
-            std::array::from_fn(|k| (Disc::point(centre[k]).magnitude() + self.direction[k] * tau) * UP);
+        let size: [f64; N] = std::array::from_fn(|k| (centre[k].magnitude() + self.direction[k] * tau) * UP);
         let r = &self.rest;
         let turned: f64 = (0..4).map(|k| r[k] * (2.0 * size[k] + r[k])).sum();
         // `|h|` over the curve without its remainder, from the discs of the coordinates
-        let e: [Disc; 4] =
-            std::array::from_fn(|k| Disc { centre: centre[k], radius: self.direction[k] * tau * UP });
+        let e: [Disc; 4] = std::array::from_fn(|k| Disc {
+            centre: centre[k].centre,
+            radius: (centre[k].radius + self.direction[k] * tau) * UP,
+        });
         let h = norm(&e).magnitude();
         let remainder = r[6] * (2.0 * size[6] + r[6]) + r[7] * h + (size[7] + r[7]) * turned;
         let power = |k: usize| (0..k).fold(1.0, |x, _| x * tau);
