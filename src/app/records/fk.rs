@@ -190,8 +190,8 @@ impl From<&FkSolutions> for SolvedRecord {
             method: s.method,
             completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
-            bounded: match s.completeness {
-                Completeness::ProvedBounded { proof } => Some(proof),
+            bounded: match &s.completeness {
+                Completeness::ProvedBounded { proof } => Some(proof.clone()),
                 _ => None,
             },
             all_paths_accounted: s.all_accounted(),
