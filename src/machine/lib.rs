@@ -21,3 +21,4 @@ pub mod manufacture;
 pub mod reach;
 pub mod requirements;
 pub mod rotary;
+pub mod statics;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Number, PoseQuaternionRecord};
+use super::{FramesRecord, Number, PoseInFrames, PoseQuaternionRecord};
 use ask::Design;
 use ask::calibrating::{carried, unknown_names};
 use machine::calibration::{
@@ -22,6 +22,8 @@ pub struct CalibrateAnswer {
     pub name: String,
     /// The unit of lengths.
     pub units: String,
+    /// The convention in which measured poses were read, and of `in_frames`.
+    pub frames: FramesRecord,
     /// How it ended.
     pub outcome: CalibrateOutcome,
     /// Why it ended so, in a sentence.
@@ -392,6 +394,8 @@ pub struct NextPoseRecord {
     pub pose: PoseQuaternionRecord,
     /// Roll, pitch and yaw of it, degrees.
     pub rpy_deg: [Number; 3],
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes smaller with
     /// it.
     pub shrinks: Number,

@@ -31,6 +31,7 @@ from ._design import (
 )
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
+from ._frames import Frames
 from ._poses import PoseLike, pose, quaternion, rpy
 from ._record import Record, table
 from ._solutions import BatchSolutions, Solution, Solutions
@@ -45,6 +46,7 @@ __all__ = [
     "Equivalent",
     "Fault",
     "Figure",
+    "Frames",
     "Joints",
     "LegMap",
     "Margins",

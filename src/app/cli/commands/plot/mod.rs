@@ -106,7 +106,8 @@ impl Figure {
             Self::SelfMotion(question) => (FigureWord::SelfMotion, motion::drawing(question, context)?),
             Self::SingularPoses { design, pose, slice } => {
                 let design = context.load(design)?;
-                let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
+                let frames = design.pose_frames(PoseConvention::default());
+                let pose = poses::parse(pose, &frames, "--pose", "plot::bad_pose")?;
                 // the picture needs the shape of the box only
                 let options = design.box_options(0, seed);
                 let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
@@ -61,6 +62,8 @@ pub(crate) struct SingularPosesArgs {
     /// Number of random poses drawn in the search for such paths, for each sign of det J
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
     samples: usize,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// What was found, for [`render`].
@@ -75,7 +78,8 @@ struct SingularPoses {
 /// Judges the poses, proves the box, draws the slice.
 pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let pose = poses::parse(&args.pose, &design, "--pose", "poses::bad_pose")?;
+    let frames = args.frames.of(&design);
+    let pose = poses::parse(&args.pose, &frames, "--pose", "poses::bad_pose")?;
     let lengths = match &args.lengths {
         Some(text) => Some(six(text, "--lengths").and_then(|l| {
             LegLengths::try_new(l).map_err(|e| Failure::refused("poses::bad_lengths", e.to_string()))
