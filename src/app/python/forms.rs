@@ -64,14 +64,8 @@ fn rows_of<const N: usize>(py: Python<'_>, array: &PyReadonlyArray2<'_, f64>) ->
 
 /// A convention as Python has it: rotation order, angles, quaternion, pivot, relative to, up; what is not stated is
 /// `None`.
-pub(super) type ConventionWords = (
-    Option<String>,
-    Option<String>,
-    Option<String>,
-    Option<[f64; 3]>,
-    Option<String>,
-    Option<String>,
-);
+pub(super) type ConventionWords =
+    (Option<String>, Option<String>, Option<String>, Option<[f64; 3]>, Option<String>, Option<String>);
 
 fn word<T: Copy>(
     py: Python<'_>,
@@ -96,7 +90,13 @@ fn convention(py: Python<'_>, words: &ConventionWords) -> PyResult<PoseConventio
     Ok(PoseConvention {
         rotation_order: order.map_err(|why| refused(py, "frames", &why.to_string()))?,
         angles: word(py, "angles", angles.as_ref(), &AngleUnit::BOTH, AngleUnit::name)?,
-        quaternion: word(py, "quaternion", quaternion.as_ref(), &QuaternionOrder::BOTH, QuaternionOrder::name)?,
+        quaternion: word(
+            py,
+            "quaternion",
+            quaternion.as_ref(),
+            &QuaternionOrder::BOTH,
+            QuaternionOrder::name,
+        )?,
         pivot: pivot.map(Into::into),
         relative_to: word(
             py,

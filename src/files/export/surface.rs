@@ -43,7 +43,7 @@ impl SurfaceFormat {
     /// Another end.
     pub fn of_path(path: &Path) -> Result<Self, UnknownName> {
         let end = path.extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
-        named("format of a surface", &Self::ALL, &end, |known| known.0).map(|known| known.1)
+        named("format of a surface", &end, &Self::ALL, |known| known.0).map(|known| known.1)
     }
 }
 
