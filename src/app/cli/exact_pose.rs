@@ -42,14 +42,15 @@ pub(crate) fn read(
     };
     let exact =
         rotation.and_then(|quaternion| placed(convention, ExactPose { position, quaternion }, design));
-    exact.map_or_else(
-        || {
-            let values = numbers::exact::<6>(text).map_err(refuse)?;
-            let found = convention.read(&values.each_ref().map(Surd::nearest), &frames.home);
+    match exact {
+        Some(pose) => Ok(pose),
+        None => {
+            let number = |field: &str| numbers::one(field).unwrap_or(f64::NAN);
+            let values: Vec<f64> = text.split(',').map(number).collect();
+            let found = convention.read(&values, &frames.home);
             found.map(|pose| of_doubles(&pose)).map_err(|why| refuse(why.to_string()))
-        },
-        Ok,
-    )
+        }
+    }
 }
 
 /// The home pose of the design, exactly where it is.

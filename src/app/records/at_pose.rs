@@ -4,11 +4,12 @@ use nalgebra::{Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{FramesRecord, LimitRecord, Number, OutOfReachRecord, PoseInFrames, PoseQuaternionRecord};
+use super::{
+    LimitRecord, Number, OutOfReachRecord, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord,
+};
 use ask::{AtPoseOptions, AtPoseReport, Design, DrivesAt, HeldWrench, PoseFrames, StuckLeg};
 use machine::requirements::LeastStiffness;
 use platform::geom::Pose;
-use platform::manipulator::Body;
 use synthesis::singularity::{NearestSingularPose, SingularEvidence};
 
 /// The answer of `at`.
@@ -21,7 +22,7 @@ pub struct AtPoseAnswer {
     /// Of forces; torques are in it times the unit of length.
     pub force_unit: String,
     /// The convention in which poses were read, and of `in_frames`.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// The pose.
     pub pose: PoseQuaternionRecord,
     /// The pose in the convention of `frames`.
@@ -270,12 +271,6 @@ impl AtPoseAnswer {
     #[must_use]
     pub fn is_held(&self) -> bool {
         self.singular.is_none() && self.out_of_reach.is_none() && self.resolution.is_some()
-    }
-
-    /// `base` or `platform` as a body.
-    #[must_use]
-    pub fn body(&self) -> Body {
-        if self.axes == Body::Platform.name() { Body::Platform } else { Body::Base }
     }
 }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{FramesRecord, Number, PoseInFrames, PoseQuaternionRecord};
+use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 use ask::Design;
 use ask::calibrating::{carried, unknown_names};
 use machine::calibration::{
@@ -23,7 +23,7 @@ pub struct CalibrateAnswer {
     /// The unit of lengths.
     pub units: String,
     /// The convention in which measured poses were read, and of `in_frames`.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// How it ended.
     pub outcome: CalibrateOutcome,
     /// Why it ended so, in a sentence.

@@ -12,8 +12,8 @@ pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
 pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{
-    ComplexRecord, DriveSolutionRecord, FailureRecord, FramesRecord, NearRecord, Number, PoseInFrames,
-    RotationPolynomialRecord,
+    ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number, PoseConventionRecord,
+    PoseInFrames, RotationPolynomialRecord,
 };
 use ask::PoseFrames;
 use fk::solve::pose_count::{CountedLengths, PoseSet};
@@ -40,7 +40,7 @@ impl FkAnswer {
     /// With the convention of its poses.
     #[must_use]
     pub fn with_frames(mut self, frames: &PoseFrames) -> Self {
-        let record = FramesRecord::from(&frames.convention);
+        let record = PoseConventionRecord::from(&frames.convention);
         match &mut self {
             Self::Rows(answer) => answer.frames = record,
             Self::One(one) => one.frames = Some(record),
@@ -53,7 +53,7 @@ impl FkAnswer {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowsAnswer {
     /// The convention of `in_frames`.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// In the order of the file.
     pub rows: Vec<FkRowRecord>,
 }
@@ -98,7 +98,7 @@ pub struct RowFailure {
 pub struct FkOneAnswer {
     /// The convention of `in_frames`; of a row of a table that of the whole answer.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frames: Option<FramesRecord>,
+    pub frames: Option<PoseConventionRecord>,
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    DriveLengthsRecord, FramesRecord, Number, PoseInFrames, PoseRecord, PoseUncertaintyRecord,
+    DriveLengthsRecord, Number, PoseConventionRecord, PoseInFrames, PoseRecord, PoseUncertaintyRecord,
     RotaryIkRecord, RotaryIkRowsAnswer,
 };
 use ask::{Design, PoseFrames};
@@ -32,7 +32,7 @@ impl IkAnswer {
     /// With the convention of its poses.
     #[must_use]
     pub fn with_frames(mut self, convention: &PoseConvention) -> Self {
-        let record = FramesRecord::from(convention);
+        let record = PoseConventionRecord::from(convention);
         match &mut self {
             Self::Rows(answer) => answer.frames = record,
             Self::One(one) => one.frames = Some(record),
@@ -47,7 +47,7 @@ impl IkAnswer {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IkRowsAnswer {
     /// The convention in which the poses were read, and of `in_frames`.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// In the order given.
     pub rows: Vec<IkRecord>,
 }
@@ -62,7 +62,7 @@ pub struct IkRecord {
     pub time: Option<f64>,
     /// The convention in which the pose was read, and of `in_frames`; of several poses that of the whole answer.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frames: Option<FramesRecord>,
+    pub frames: Option<PoseConventionRecord>,
     /// The pose.
     pub pose: PoseRecord,
     /// The pose in the convention of `frames`.

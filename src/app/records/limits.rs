@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FramesRecord, Number, PoseInFrames, PoseQuaternionRecord};
+use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 use ask::{Design, FreeSize, FreeTurn, PoseFrames, WorkspaceSize};
 use machine::reach::{NearestPose, Reach, StraightWay, Travel};
 use machine::requirements::{Limit, TermKind};
@@ -13,7 +13,7 @@ use platform::geom::{Pose, RotationOrder};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LimitsAnswer {
     /// The convention in which poses were read, of `in_frames` and of `axes`.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// The pose of `--at`.
     pub pose: PoseQuaternionRecord,
     /// The same in the convention of `frames`.

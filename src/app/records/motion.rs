@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FramesRecord, MarginRecord, Number, PoseQuaternionRecord};
+use super::{MarginRecord, Number, PoseConventionRecord, PoseQuaternionRecord};
 use ask::Design;
 use ask::{MotionReport, StiffnessReport, TimedMargin};
 use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
@@ -16,7 +16,7 @@ pub struct MotionAnswer {
     pub name: String,
     /// The convention in which poses of options were read, and of the table of instants; a table of poses may say more
     /// in the names of its columns.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// No requirement is violated at the instants looked at, and no pose of the motions is singular.
     pub met: bool,
     /// Of lengths; speeds are in it per second, accelerations per second squared.

@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Number;
-pub use platform::geom::{FramesRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
+pub use platform::geom::{PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
 use platform::manipulator::LegIndex;
 
 /// Where a home pose or a workspace comes from.

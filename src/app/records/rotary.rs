@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{FramesRecord, Number, PoseInFrames, PoseMarginRecord, PoseRecord};
+use super::{Number, PoseConventionRecord, PoseInFrames, PoseMarginRecord, PoseRecord};
 use ask::{Design, PoseFrames};
 use machine::requirements::Terms;
 use machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
@@ -14,7 +14,7 @@ use platform::manipulator::{inverse_condition, jacobian};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
     /// The convention in which the poses were read, and of `in_frames`.
-    pub frames: FramesRecord,
+    pub frames: PoseConventionRecord,
     /// In the order given.
     pub rows: Vec<RotaryIkRecord>,
 }
@@ -29,7 +29,7 @@ pub struct RotaryIkRecord {
     pub time: Option<f64>,
     /// The convention in which the pose was read, and of `in_frames`; of several poses that of the whole answer.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frames: Option<FramesRecord>,
+    pub frames: Option<PoseConventionRecord>,
     /// The pose.
     pub pose: PoseRecord,
     /// The pose in the convention of `frames`.

@@ -34,7 +34,7 @@ pub use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
 pub use pose_set::{ListedFrom, PoseSpace, Region};
 #[cfg(feature = "serde")]
-pub use pose_written::{ByQuaternion, FramesRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
+pub use pose_written::{ByQuaternion, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
 pub use quaternion::rotation_from_quaternion;
 pub use rotation_vector::{rotation_vector, turn_between};
 pub use segment::{LinePair, segment_box_nearest, segment_distance};

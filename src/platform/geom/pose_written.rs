@@ -68,7 +68,7 @@ impl From<&WrittenPose> for PoseInFrames {
 
 /// A convention for poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FramesRecord {
+pub struct PoseConventionRecord {
     /// Order of the turns: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried along, or
     /// `vector` for rotation vectors.
     pub rotation_order: String,
@@ -88,7 +88,7 @@ pub struct FramesRecord {
     pub sentence: String,
 }
 
-impl From<&PoseConvention> for FramesRecord {
+impl From<&PoseConvention> for PoseConventionRecord {
     fn from(convention: &PoseConvention) -> Self {
         let order = convention.order();
         let pivot = convention.pivot.unwrap_or_else(Vector3::zeros);
@@ -105,7 +105,7 @@ impl From<&PoseConvention> for FramesRecord {
     }
 }
 
-impl FramesRecord {
+impl PoseConventionRecord {
     /// Whether poses are written as this program does.
     #[must_use]
     pub fn is_usual(&self) -> bool {

@@ -128,6 +128,8 @@ impl Around<'_> {
     /// Follows the singular poses from one of them towards the given pose.
     fn foot(&self, start: Vector6<f64>) -> NearestSingularPose {
         let size = self.m.size();
+        // heavier than the multiplier of det J = 0, so that a step towards the foot makes the merit less
+        let weight = 2.0 * (size + start.norm());
         let mut y = start;
         for _ in 0..ROUNDS {
             let g = self.gradient(&y);
@@ -136,10 +138,9 @@ impl Around<'_> {
             if !aim.iter().all(|x| x.is_finite()) {
                 break;
             }
-            // half steps as long as the pose after them is farther from both goals
-            let merit = |y: &Vector6<f64>| {
-                0.5 * y.norm_squared() + size * size * (self.value(y).abs() / square.sqrt()) / size
-            };
+            // half steps as long as the merit grows
+            let merit =
+                |y: &Vector6<f64>| 0.5 * y.norm_squared() + weight * self.value(y).abs() / square.sqrt();
             let (now, mut share) = (merit(&y), 1.0);
             while share > 1e-3 && merit(&(y + (aim - y) * share)) > now {
                 share *= 0.5;

@@ -151,7 +151,7 @@ impl Design {
         };
         let loads = rods.iter().flat_map(|rods| {
             let loads = self.all_loads().into_iter();
-            loads.map(|load| (Some(load.name.clone()), at_point(load.wrench(rods, pose), &arm)))
+            loads.map(move |load| (Some(load.name.clone()), at_point(load.wrench(rods, pose), &arm)))
         });
         let own = asked.wrench.map(|wrench| (None, both * Vector6::from(wrench)));
         let springs = self.hardware.leg_stiffness.filter(|_| cranks.is_none()).map(|leg| [leg; 6]);
@@ -234,7 +234,7 @@ impl Design {
                 from = pose;
                 Some((next[leg], pose))
             };
-            if end == now { Vec::new() } else { (1..=WAY_POSES).map_while(step).collect() }
+            if (end - now).abs() > 0.0 { (1..=WAY_POSES).map_while(step).collect() } else { Vec::new() }
         })
     }
 }

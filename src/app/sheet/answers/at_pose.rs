@@ -95,7 +95,7 @@ fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
             let unit = if turns { &torque } else { &answer.force_unit };
             match forces {
                 Some(forces) => table.row(row(name, forces, unit)),
-                None => table.row(row(name, &[], "")),
+                None => table.row([name, "-", "-", "-", "-", "-", "-", ""]),
             }
         }
         out.table(table);

@@ -5,8 +5,8 @@ use fk::{CompletenessWord, NearWord};
 use machine::coupled::DriveSolutionWord;
 use platform::geom::{ComplexPose, Pose};
 use records::{
-    ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FramesRecord,
-    NearRecord, Number, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
+    ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
+    PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
 };
 
 /// The answer of `fk` for a design of this name, in its units.
@@ -162,7 +162,7 @@ fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
 }
 
 /// The number of poses, whether these are all, and the real ones.
-fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord, frames: Option<&FramesRecord>) {
+fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord, frames: Option<&PoseConventionRecord>) {
     if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
     {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
@@ -262,7 +262,7 @@ fn from_home(r: &SolutionRecord) -> f64 {
     r.real_pose.map_or(f64::INFINITY, |pose| pose.distance_from_home)
 }
 
-fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord, frames: Option<&FramesRecord>) {
+fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord, frames: Option<&PoseConventionRecord>) {
     let (position, words, angles) = match (frames, r.real_pose) {
         (Some(frames), Some(pose)) => {
             let own = pose.in_frames;

@@ -8,7 +8,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::frames::FrameArgs;
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::output::Answer;
 use crate::app::cli::{poses, rows};
 use ::files::export::LengthUnit;
@@ -148,6 +148,7 @@ pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Fa
         let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
         return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
     }
+    note_frames(&args.frames.of(&design), context);
     let masses = masses(args, &design)?;
     let found: Vec<(String, MotionReport)> =
         motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();

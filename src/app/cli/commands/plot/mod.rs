@@ -20,6 +20,7 @@ use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ::files::plot::singular_slice;
+use platform::geom::PoseConvention;
 use records::{FigureWord, PictureRecord, PlotAnswer};
 
 /// Arguments of `plot`.

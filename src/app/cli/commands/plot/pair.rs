@@ -7,6 +7,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
 use files::plot::{PairFigure, platform_pair};
+use platform::geom::PoseConvention;
 use synthesis::Relation;
 use verify::judge;
 

@@ -6,7 +6,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exact_pose;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
-use crate::app::cli::frames::FrameArgs;
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
 use num::surd::Surd;
@@ -38,6 +38,7 @@ pub(crate) fn run(args: &SingularLocusArgs, context: &mut Context) -> Result<Ans
     let design = context.load(&args.design)?;
     let frames = args.frames.of(&design);
     let pose = exact_pose::read(&args.pose, (&design, &frames), "--pose", "locus::bad_pose")?;
+    note_frames(&frames, context);
     let family = match (&args.along, &args.about) {
         (Some(text), _) => PoseFamily::Line(direction(text, "--along")?),
         (None, Some(text)) => PoseFamily::Rotation(direction(text, "--about")?),

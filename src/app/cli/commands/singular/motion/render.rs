@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ask::{Design, MotionOrigin, SelfMotionReport};
+use ask::{Design, MotionOrigin, PoseFrames, SelfMotionReport};
 use fk::CompletenessWord;
 use records::{
     CriticalPointsRecord, IsolatedRecord, MotionCurveRecord, MotionEvidenceWord, Number,

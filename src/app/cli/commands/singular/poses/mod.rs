@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::frames::FrameArgs;
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
@@ -80,6 +80,7 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
     let design = context.load(&args.design)?;
     let frames = args.frames.of(&design);
     let pose = poses::parse(&args.pose, &frames, "--pose", "poses::bad_pose")?;
+    note_frames(&frames, context);
     let lengths = match &args.lengths {
         Some(text) => Some(six(text, "--lengths").and_then(|l| {
             LegLengths::try_new(l).map_err(|e| Failure::refused("poses::bad_lengths", e.to_string()))
