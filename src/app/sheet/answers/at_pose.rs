@@ -1,7 +1,7 @@
 //! Forces, small motions and stiffness at one pose.
 
 use crate::{Sheet, Table, left, listed, right};
-use num::shown::significant as short;
+use num::shown::{fixed, significant as short};
 use records::{
     AtPoseAnswer, HeldWrenchRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
     SmallMotionRecord, StuckLegRecord,
@@ -67,7 +67,7 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
 }
 
 fn pose(found: &PoseInFrames) -> String {
-    let numbers = found.position.iter().chain(&found.angles).map(|x| short(x.0));
+    let numbers = found.position.iter().chain(&found.angles).map(|x| fixed(x.0, 4));
     let many = if found.angles_unique { "" } else { " (angles not unique)" };
     numbers.collect::<Vec<_>>().join(", ") + many
 }
