@@ -11,8 +11,8 @@ use super::failure::Failure;
 use super::files;
 use super::rows;
 use ::files::design::{FiveLegs, Format, Warning, parse_five_legs};
-use ask::Design;
 use ask::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
+use ask::{Design, PoseFrames};
 use machine::coupled::CoupledLegs;
 use machine::rotary::RotaryPlatform;
 use records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
@@ -245,12 +245,13 @@ impl Context {
             Ok((mut design, warnings)) => {
                 self.warn(path, &text, warnings);
                 let mut poses = None;
-                let home = design.home_or_default();
+                let frames =
+                    PoseFrames { convention: design.trajectory_frames(), home: design.home_or_default() };
                 if let Some(trajectory) = &mut design.workspace.trajectory {
                     // the name is relative to the folder of the design
                     let table = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
                     let bytes = files::read_table(&table)?;
-                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", &home, self)?;
+                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", &frames, self)?;
                     trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
                     poses = Some((table, bytes));
                 }

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use super::answers::document;
 use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
+use super::forms::{ConventionWords, words_of};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
 use super::tracker::{NativeTracker, TrackerKind};
 use ask::Design;
@@ -220,6 +221,11 @@ impl NativeDesign {
     fn home<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let home = matrices(&[self.design.home_or_default()]);
         home.index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
+    }
+
+    /// The words of the design's own convention for poses.
+    fn frames(&self) -> ConventionWords {
+        words_of(&self.design.frames)
     }
 
     /// The joints of a body, float64, shape (n, 3).

@@ -37,7 +37,10 @@ mod core {
     #[pymodule_export]
     use super::design::NativeDesign;
     #[pymodule_export]
-    use super::forms::{angles_of, quaternions_of, rotations_of_angles, rotations_of_quaternions};
+    use super::forms::{
+        angles_of, frames_sentence, poses_as_numbers, poses_in_frames, quaternions_of, rotations_of_angles,
+        rotations_of_quaternions,
+    };
     #[pymodule_export]
     use super::main;
     #[pymodule_export]

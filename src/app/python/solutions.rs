@@ -137,12 +137,14 @@ impl NativeSolutions {
         let solved = SolvedRecord::from(&self.found);
         let (design, answer) = match &self.of {
             SolvedFor::Lengths(design, _) => {
-                let solved = solved.with_real_poses(design.manipulator(), &design.home_or_default());
+                let frames = design.pose_frames(PoseConvention::default());
+                let solved = solved.with_real_poses(design.manipulator(), &frames);
                 (design, FkOneAnswer::from(solved))
             }
             SolvedFor::Angles(design, platform, angles) => {
                 let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
-                let solved = solved.with_real_poses(&tips, &design.home_or_default());
+                let frames = design.pose_frames(PoseConvention::default());
+                let solved = solved.with_real_poses(&tips, &frames);
                 let solved = solved.with_elbows(platform, angles);
                 let symmetric_finite = platform.symmetric_pose_count(angles);
                 let answer = FkOneAnswer { symmetric_finite, ..solved.into() };

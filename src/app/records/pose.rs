@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Number;
-pub use platform::geom::{PoseQuaternionRecord, PoseRecord};
+pub use platform::geom::{PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
 use platform::manipulator::LegIndex;
 
 /// The source of a home pose or a workspace.

@@ -46,6 +46,7 @@ pub use snap::{FoundRelation, JointRelation, SnappedDesign};
 pub use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidPointTable, InvalidRigSheet, InvalidSeries,
     InvalidSheet, PointTable, RigSheet, SeriesKind, SeriesRow, SheetDialect, SheetLegs, TimeSeries,
+    read_poses, read_poses_with_lengths,
 };
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};

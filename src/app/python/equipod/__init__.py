@@ -32,6 +32,7 @@ from ._design import (
 )
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
+from ._frames import Frames
 from ._pentapod import Pentapod
 from ._poses import PoseLike, pose, quaternion, rpy
 from ._record import Record, table
@@ -47,6 +48,7 @@ __all__ = [
     "Equivalent",
     "Fault",
     "Figure",
+    "Frames",
     "Joints",
     "LegMap",
     "Margins",

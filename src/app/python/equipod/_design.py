@@ -8,9 +8,9 @@ import operator
 import os
 import pathlib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,7 @@ from . import _core
 from ._display import Figure, Page
 from ._errors import DesignError
 from ._exact import Coordinate, PointsLike, as_texts, offset_texts, plain
+from ._frames import Frames
 from ._poses import Floats, PoseLike, as_matrices, given
 from ._program import Progress, Workshop, ask, pose_text, text_of
 from ._solutions import BatchSolutions, Solutions
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
     from .records import (
         AssessAnswer,
+        AtAnswer,
         CalibrateAnswer,
         CheckAnswer,
         CompareAnswer,
@@ -67,6 +69,14 @@ def _whole(name: str, value: int, least: int = 0) -> int:
 
 def _threads(threads: int | None) -> int | None:
     return None if threads is None else _whole("threads", threads, 1)
+
+
+def _row(name: str, values: npt.ArrayLike, count: int) -> str:
+    """So many numbers as an option takes them, to the last digit."""
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != (count,):
+        raise DesignError(f"{name} has {count} numbers, not the shape {array.shape}", code="shape")
+    return ",".join(map(repr, array.tolist()))
 
 
 def _lengths(lengths: npt.ArrayLike) -> Floats:
@@ -652,6 +662,59 @@ class Design:
         return found[0]
 
     @property
+    def frames(self) -> Frames:
+        """The machine's own convention for poses, ``[frames]`` of the file."""
+        order, angles, quaternion, pivot, relative_to, up = self._native.frames()
+        return Frames(
+            rotation_order=order,
+            angles=cast(Any, angles),
+            quaternion=cast(Any, quaternion),
+            pivot=None if pivot is None else (pivot[0], pivot[1], pivot[2]),
+            relative_to=cast(Any, relative_to),
+            up=cast(Any, up),
+        )
+
+    def poses(self, numbers: npt.ArrayLike, *, frames: Frames | None = None) -> Floats:
+        """Matrices of poses that are written in a convention, the design's own when absent.
+
+        Parameters
+        ----------
+        numbers : array_like, shape (..., 6) or (..., 7)
+            Position and angles, or position and quaternion.
+        frames : Frames, optional
+            The convention; poses that count from home count from that of the design.
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 4, 4)
+        """
+        return (self.frames if frames is None else frames).poses(numbers, home=self.home)
+
+    def pose_numbers(
+        self, poses: PoseLike, *, frames: Frames | None = None, form: Literal["angles", "quaternion"] = "angles"
+    ) -> Floats:
+        """Poses in a convention, the design's own when absent: position and three angles, or position and quaternion.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4)
+        frames : Frames, optional
+            The convention.
+        form : {"angles", "quaternion"}
+            What stands behind the position.
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 6) or (..., 7)
+        """
+        return (self.frames if frames is None else frames).numbers(poses, home=self.home, form=form)
+
+    def _rows(self, poses: PoseLike) -> Floats:
+        """Poses as a command reads them from a table of this design, shape (n, 7)."""
+        own = replace(self.frames, quaternion="wxyz")
+        return own.numbers(poses, home=self.home, form="quaternion").reshape(-1, 7)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What is allowed in the file but often a slip."""
         return tuple(self._native.warnings())
@@ -871,6 +934,53 @@ class Design:
             words = ["limits", shop.file("design.toml", self._native)]
             words += [f"--{name}={pose_text(pose)}" for name, pose in (("at", at), ("to", to)) if pose is not None]
             return LimitsAnswer(ask([*words, *options]))
+
+    def at(
+        self,
+        pose: PoseLike | None = None,
+        *,
+        point: npt.ArrayLike | None = None,
+        axes: Literal["base", "platform"] = "base",
+        wrench: npt.ArrayLike | None = None,
+        forces: npt.ArrayLike | None = None,
+        step: float = 1.0,
+        leg: int | None = None,
+        nearest_singular: bool = False,
+        options: Sequence[str] = (),
+    ) -> AtAnswer:
+        """Forces, stiffness and resolution at a pose, what a stuck leg leaves, and the nearest singular pose.
+
+        Parameters
+        ----------
+        pose : pose_like, shape (4, 4), optional
+            Home when absent.
+        point : array_like, shape (3,), optional
+            Point that wrenches, shifts and stiffness are about, platform frame; the pivot of `frames` when absent.
+        axes : {"base", "platform"}
+            The body whose axes vectors have.
+        wrench : array_like, shape (6,), optional
+            Force and torque on the platform about the point: what holds them is computed.
+        forces : array_like, shape (6,), optional
+            Forces of the legs, positive where they push, or torques of the cranks: the wrench that they hold is computed.
+        step : float
+            Step of the drives for which the motion of the platform is computed: the unit of length, degrees of cranks.
+        leg : int, optional
+            Leg that is stuck, or free while the others are locked, from 1.
+        nearest_singular : bool
+            Also the nearest singular pose.
+        options : sequence of str
+            Further options of ``equipod at``.
+        """
+        from .records import AtAnswer
+
+        with Workshop() as shop:
+            words = ["at", shop.file("design.toml", self._native), f"--axes={axes}", f"--step={float(step)!r}"]
+            words += [] if pose is None else [f"--pose={pose_text(pose)}"]
+            lists = (("point", point, 3), ("wrench", wrench, 6), ("forces", forces, 6))
+            words += [f"--{name}={_row(name, value, count)}" for name, value, count in lists if value is not None]
+            words += [] if leg is None else [f"--leg={leg}"]
+            words += ["--nearest-singular"] if nearest_singular else []
+            return AtAnswer(ask([*words, *options]))
 
     def singular_poses(self, pose: PoseLike | None = None, *, options: Sequence[str] = ()) -> SingularPosesAnswer:
         """Where the platform gives way: signs of det J, and a box of poses proved to have no singular one.
@@ -1136,7 +1246,7 @@ class Design:
             if times is not None or poses is not None:
                 if times is None or poses is None:
                     raise DesignError("a trajectory has times and poses", code="shape")
-                words.append(shop.poses("trajectory.csv", times, poses))
+                words.append(shop.poses("trajectory.csv", times, self._rows(poses)))
             words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
             return MotionAnswer(ask([*words, *options], progress))
 
@@ -1213,7 +1323,7 @@ class Design:
         with Workshop() as shop:
             out = shop.path / "calibrated.toml"
             words = ["calibrate", shop.file("design.toml", self._native)]
-            words += [shop.measurements("measurements.csv", poses, _lengths(lengths)), "-o", str(out)]
+            words += [shop.measurements("measurements.csv", self._rows(poses), _lengths(lengths)), "-o", str(out)]
             sigmas = {"length": sigma_length, "position": sigma_position, "rotation-deg": sigma_rotation_deg}
             words += [f"--sigma-{name}={float(x)!r}" for name, x in sigmas.items() if x is not None]
             record = CalibrateAnswer(ask([*words, *options], progress))

@@ -115,7 +115,6 @@ OptimizeWord = Literal[
     "violated",
 ]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
-PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
 PoseFamilyWord = Literal["line", "positions", "rotation"]
 ProofWord = Literal["leg_vectors", "none", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
@@ -368,6 +367,8 @@ class CalibrateAnswer(Record):
     name: str
     #: The unit of lengths.
     units: str
+    #: The convention in which measured poses were read, and of `in_frames`.
+    frames: PoseConventionRecord
     #: How it ended.
     outcome: CalibrateOutcome
     #: Why it ended so, in a sentence.
@@ -1079,6 +1080,8 @@ class Design(Record):
     cranks: Union[dict[str, DesignCrank], None]
     #: the pose the platform is built for
     home: Union[DesignHomePose, None]
+    #: the machine's own convention for poses that commands take and answer
+    frames: Union[dict[str, Any], None]
     #: the poses to reach
     workspace: Union[dict[str, Any], None]
     #: what the optimiser chooses, and by what
@@ -1847,6 +1850,8 @@ class FkAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+    #: The convention of `in_frames`.
+    frames: Union[PoseConventionRecord, None]
     #: In the order of the file.
     rows: Union[tuple[FkRowRecord, ...], None]
     #: The method that found them.
@@ -1950,6 +1955,8 @@ class FkOneAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
+    #: The convention of `in_frames`; of a row of a table that of the whole answer.
+    frames: Union[PoseConventionRecord, None]
     #: The numbers of the proof that all poses up to a distance are listed, where it is one.
     bounded: Union[BoundedProof, None]
     #: What libraries of linear algebra computed for `--method template`.
@@ -2001,6 +2008,8 @@ class FkRowRecord(Record):
     time: Union[float, None]
     #: The angles of the cranks, where these were given.
     angles_deg: Union[tuple[float, ...], None]
+    #: The convention of `in_frames`; of a row of a table that of the whole answer.
+    frames: Union[PoseConventionRecord, None]
     #: The method that found them.
     method: Union[Method, None]
     #: Whether these are known to be all.
@@ -2072,6 +2081,8 @@ class FkRowRecord(Record):
 class FkRowsAnswer(Record):
     """The poses with the lengths of each row of a file."""
 
+    #: The convention of `in_frames`.
+    frames: PoseConventionRecord
     #: In the order of the file.
     rows: tuple[FkRowRecord, ...]
 
@@ -2097,9 +2108,9 @@ class FrameMotionsRecord(Record):
 class FreeRangeRecord(Record):
     """How far one of the six numbers of a pose may move."""
 
-    #: Which number, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
-    axis: PoseAxis
-    #: `deg`, or the unit of length.
+    #: Which number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    axis: str
+    #: `deg` or `rad`, or the unit of length.
     unit: str
     #: At the pose.
     value: float
@@ -2604,14 +2615,18 @@ class LimitsAnswer(Record):
 
     #: Always 1: the version of these definitions.
     schema_version: int
+    #: The convention in which poses were read, of `in_frames` and of `axes`.
+    frames: PoseConventionRecord
     #: The pose of `--at`.
     pose: PoseQuaternionRecord
+    #: The same in the convention of `frames`.
+    in_frames: PoseInFrames
     #: Every requirement is met there, and det J has the sign that it has at home.
     allowed: bool
     #: What is violated there, the worst first.
     violated: tuple[LimitRecord, ...]
-    #: x, y, z, roll, pitch, yaw: how far each may move while the others stay; nothing where the pose is
-    #: not allowed.
+    #: x, y, z and the three angles of `frames`, or turns about x, y and z for rotation vectors: how far
+    #: each may move while the others stay; nothing where the pose is not allowed.
     axes: tuple[FreeRangeRecord, ...]
     #: The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not
     #: allowed.
@@ -2621,6 +2636,8 @@ class LimitsAnswer(Record):
     nearest_allowed: Union[NearestAllowedRecord, None]
     #: How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
     workspace: Union[WorkspaceSizeRecord, None]
+    #: The surface that was written; null: none was asked for, or the pose of `--at` is not allowed.
+    surface: Union[str, None]
     #: Of lengths.
     length_unit: str
     #: What the answer was made from.
@@ -2877,6 +2894,9 @@ class MotionAnswer(Record):
     schema_version: int
     #: The name of the design.
     name: str
+    #: The convention in which poses of options were read, and of the table of instants; a table of poses
+    #: may say more in the names of its columns.
+    frames: PoseConventionRecord
     #: No requirement is violated at the instants looked at, and no pose of the motions is singular.
     met: bool
     #: Of lengths; speeds are in it per second, accelerations per second squared.
@@ -3003,6 +3023,8 @@ class NearestAllowedRecord(Record):
     position: tuple[float, ...]
     #: Its roll, pitch and yaw.
     rpy_deg: tuple[float, ...]
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
     #: Distance from the pose asked for, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     distance: float
     #: The `L` of the distance, design units a radian.
@@ -3133,6 +3155,8 @@ class NextPoseRecord(Record):
     pose: PoseQuaternionRecord
     #: Roll, pitch and yaw of it, degrees.
     rpy_deg: tuple[Union[float, None], ...]
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
     #: By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes
     #: smaller with it.
     shrinks: Union[float, None]
@@ -3561,6 +3585,28 @@ class PoseBoundRecord(Record):
     theorem: str
 
 
+class PoseConventionRecord(Record):
+    """A convention for poses."""
+
+    #: Order of the turns: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried
+    #: along, or `vector` for rotation vectors.
+    rotation_order: str
+    #: The same as a product of matrices for angles a, b, c in the order in which they are written.
+    formula: str
+    #: Unit of angles: `deg` or `rad`.
+    angles: str
+    #: Order of quaternions: `wxyz` or `xyzw`.
+    quaternion: str
+    #: The point of the platform whose position is given, platform frame, design units.
+    pivot: tuple[Union[float, None], ...]
+    #: What poses are measured from: `base` or `home`.
+    relative_to: str
+    #: The axis that points up: `z` or `y`.
+    up: str
+    #: The convention in words.
+    sentence: str
+
+
 class PoseCountRecord(Record):
     """The finite poses of the design, counted without finding them."""
 
@@ -3602,6 +3648,20 @@ class PoseErrorsRecord(Record):
     position: QuantilesRecord
     #: Of the orientation.
     rotation_deg: QuantilesRecord
+
+
+class PoseInFrames(Record):
+    """A pose in the numbers of a convention."""
+
+    #: Position of the pivot, design units.
+    position: tuple[Union[float, None], ...]
+    #: Angles in the unit of `frames`, in the order in which they are written.
+    angles: tuple[Union[float, None], ...]
+    #: Whether the rotation has no other angles: false near the ends of the middle angle, where only a
+    #: combination of the others is determined to more than half of the digits of a double.
+    angles_unique: bool
+    #: The unit quaternion in the order of `frames`.
+    quaternion: tuple[Union[float, None], ...]
 
 
 class PoseQuaternionRecord(Record):
@@ -3727,6 +3787,8 @@ class RealPoseRecord(Record):
     rpy_deg: tuple[float, ...]
     #: Unit quaternion, scalar part first.
     quat_wxyz: tuple[float, ...]
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
     #: On which side of the base the platform is; null: its centre is in the plane of the base, there or at
     #: home.
     mode: Union[SideWord, None]
@@ -3735,6 +3797,9 @@ class RealPoseRecord(Record):
     distance_from_home: float
     #: Whether none of the other real poses listed is nearer to home.
     nearest_home: bool
+    #: Whether the pose meets every requirement and det J has the sign that it has at home, with
+    #: `--limits`.
+    allowed: Union[bool, None]
     #: Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks:
     #: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
     elbow_kept: Union[tuple[bool, ...], None]

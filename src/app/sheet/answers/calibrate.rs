@@ -30,13 +30,18 @@ pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     if !answer.next_poses.is_empty() {
         say!(
             out,
-            "\nposes to measure {}: x, y, z ({units}), roll, pitch, yaw (deg); factor of the deviations; greatest one after it",
-            if answer.calibration.is_some() { "next" } else { "first" }
+            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor of the deviations; greatest one after it",
+            if answer.calibration.is_some() { "next" } else { "first" },
+            if answer.frames.is_usual() { "roll, pitch, yaw" } else { "a, b, c" },
+            answer.frames.angles
         );
+        if !answer.frames.is_usual() {
+            say!(out, "{}", answer.frames.sentence);
+        }
         let columns = (0..6).map(|k| right("", if k < 3 { 10 } else { 9 }));
         let mut table = Table::new(columns.chain([right("", 0).gap(2), left("", 0).gap(2)]));
         for next in &answer.next_poses {
-            let numbers = next.pose.position.iter().chain(&next.rpy_deg).map(|x| fixed(x.0, 3));
+            let numbers = next.in_frames.position.iter().chain(&next.in_frames.angles).map(|x| fixed(x.0, 3));
             let gains = [format!("{:.4}", next.shrinks.0), significant(next.greatest_deviation.0)];
             table.row(numbers.chain(gains));
         }

@@ -18,7 +18,7 @@ type Fields = Map<String, Value>;
 struct DocumentKind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
 
 /// The kinds of documents; the first kind with all its fields present applies.
-const KINDS: [DocumentKind; 16] = [
+const KINDS: [DocumentKind; 17] = [
     DocumentKind(&["samples", "map"], "Equivalence", |f, [a, b]| {
         read(f).map(|x: VerifyAnswer| answers::verify(&x, a, b))
     }),
@@ -42,6 +42,7 @@ const KINDS: [DocumentKind; 16] = [
         read(f).map(|x: MapAnswer| answers::map(&x, a, b))
     }),
     DocumentKind(&["architecturally_singular"], "Architectural singularity", |_, _| None),
+    DocumentKind(&["wrench_matrix", "resolution"], "At a pose", |_, _| None),
     DocumentKind(&["axes", "violated"], "Limits", |f, [a, _]| {
         read(f).map(|x: LimitsAnswer| answers::limits(a, &x))
     }),

@@ -6,7 +6,7 @@ use machine::coupled::DriveSolutionWord;
 use platform::geom::{ComplexPose, Pose};
 use records::{
     ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
-    RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
+    PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
 };
 
 /// The answer of `fk` for a design of this name, in its units.
@@ -25,7 +25,7 @@ fn one_set(name: &str, units: &str, one: &FkOneAnswer) -> Sheet {
         (None, Some(near)) => followed(&mut out, near, units),
         _ => {}
     }
-    poses(&mut out, name, &one.solved);
+    poses(&mut out, name, &one.solved, one.frames.as_ref());
     if one.angles_deg.is_some() {
         out.line(elbows(&one.solved));
         beyond_limits(&mut out, one, "");
@@ -162,7 +162,7 @@ fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
 }
 
 /// The number of poses, the completeness of the list, and the real poses.
-fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
+fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord, frames: Option<&PoseConventionRecord>) {
     if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
     {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
@@ -197,8 +197,20 @@ fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
             call.calls
         );
     }
-    for (i, r) in numbered(s).filter(|(_, r)| r.real != Some(false)) {
-        real_pose(out, i, r);
+    let frames = frames.filter(|frames| !frames.is_usual());
+    let mut listed: Vec<_> = numbered(s).filter(|(_, r)| r.real != Some(false)).collect();
+    let violating = listed.len();
+    listed.retain(|(_, r)| r.real_pose.is_none_or(|pose| pose.allowed != Some(false)));
+    let violating = violating - listed.len();
+    listed.sort_by(|(_, a), (_, b)| from_home(a).total_cmp(&from_home(b)));
+    for (i, r) in listed {
+        real_pose(out, i, r, frames);
+    }
+    if violating > 0 {
+        say!(out, "{violating} real poses do not meet the requirements: see --json");
+    }
+    if let Some(frames) = frames {
+        out.line(&frames.sentence);
     }
     let complex = s.solutions.iter().filter(|r| r.real == Some(false)).count();
     if complex > 0 {
@@ -245,14 +257,34 @@ fn shown(r: &SolutionRecord) -> (Pose, [f64; 3]) {
     (pose, [roll, pitch, yaw].map(f64::to_degrees))
 }
 
-fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
-    let (pose, angles) = shown(r);
+/// How far a pose is from home; poses that are not real come last.
+fn from_home(r: &SolutionRecord) -> f64 {
+    r.real_pose.map_or(f64::INFINITY, |pose| pose.distance_from_home)
+}
+
+fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord, frames: Option<&PoseConventionRecord>) {
+    let (position, words, angles) = match (frames, r.real_pose) {
+        (Some(frames), Some(pose)) => {
+            let own = pose.in_frames;
+            let words = format!("{}_{}", frames.rotation_order, frames.angles);
+            (own.position.map(|x| x.0), words, own.angles.map(|x| x.0))
+        }
+        _ => {
+            let (pose, angles) = shown(r);
+            (pose.position.into(), "rpy_deg".to_owned(), angles)
+        }
+    };
     let undecided = if r.real.is_none() { "  reality undecided" } else { "" };
     let certified = if r.certified { "  certified" } else { "" };
+    let nearest = if r.real_pose.is_some_and(|pose| pose.nearest_home) { "  nearest to home" } else { "" };
+    let many = match r.real_pose {
+        Some(pose) if !pose.in_frames.angles_unique => "  angles not unique",
+        _ => "",
+    };
     say!(
         out,
-        "{number:>3}  p = {}  rpy_deg = {}  residual {:.1e}{certified}{undecided}",
-        listed(pose.position.iter().copied(), 6),
+        "{number:>3}  p = {}  {words} = {}  residual {:.1e}{certified}{undecided}{nearest}{many}",
+        listed(position, 6),
         listed(angles, 4),
         r.residual.0
     );

@@ -24,6 +24,9 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
             say!(out, "  {} is missed by {} {unit}", named(limit), short(-limit.margin.0));
         }
     }
+    if !answer.frames.is_usual() {
+        say!(out, "{}", answer.frames.sentence);
+    }
     if let Some(found) = &answer.way {
         way(&mut out, found);
     }
@@ -31,6 +34,9 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
         nearest(&mut out, answer, found);
     } else if !answer.allowed {
         out.line("No allowed pose was found, home among those tried.");
+    }
+    if let Some(path) = &answer.surface {
+        say!(out, "\nwrote {path}");
     }
     if let Some(found) = &answer.workspace {
         workspace(&mut out, found, &answer.length_unit);
@@ -53,7 +59,7 @@ fn bound(limit: Option<&LimitRecord>) -> String {
 
 fn axis(row: &FreeRangeRecord) -> [String; 7] {
     [
-        row.axis.name().to_string(),
+        row.axis.clone(),
         short(row.value),
         short(row.back.value),
         bound(row.back.binds.as_ref()),

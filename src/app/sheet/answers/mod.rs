@@ -1,6 +1,7 @@
 //! The sheet of each answer, one file for each; [`document()`] chooses the sheet for a JSON document.
 
 mod assess;
+mod at_pose;
 #[cfg(feature = "lab")]
 mod bench;
 mod calibrate;
@@ -34,6 +35,7 @@ pub use assess::{
     assess, assumptions, requirements, requirements_without_assumptions, sentence,
     table as requirements_table,
 };
+pub use at_pose::at_pose;
 #[cfg(feature = "lab")]
 pub use bench::bench;
 pub use calibrate::calibrate;

@@ -5,7 +5,7 @@ use fk::{
     RejectionReason, SolutionSet,
 };
 use nalgebra::{Rotation3, Vector3};
-use platform::geom::{ComplexPose, Pose};
+use platform::geom::{ComplexPose, Pose, PoseConvention};
 use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
 use serde_json::{Value, json};
 
@@ -89,7 +89,12 @@ fn a_row_without_answer_says_why_in_the_last_column() {
         row(3, FkRowOutcome::Solved(Box::new(solved))),
     ];
     assert_eq!(
-        sheet::answers::fk("x", "mm", &FkAnswer::Rows(FkRowsAnswer { rows })).to_string(),
+        sheet::answers::fk(
+            "x",
+            "mm",
+            &FkAnswer::Rows(FkRowsAnswer { frames: (&PoseConvention::default()).into(), rows })
+        )
+        .to_string(),
         "line  method         finite  real  complete\n   \
          2  -                   -     -  the legs are not octahedral\n   \
          3  homotopy            3     1  ROOTS MAY BE MISSING\n"

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
@@ -62,6 +63,8 @@ pub(crate) struct SingularPosesArgs {
     /// Number of random poses in the search for such paths, for each sign of det J
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
     samples: usize,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// The results, for [`render`].
@@ -76,7 +79,9 @@ struct SingularPoses {
 /// Evaluates the poses, proves the box, draws the slice.
 pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let pose = poses::parse(&args.pose, &design, "--pose", "poses::bad_pose")?;
+    let frames = args.frames.of(&design);
+    let pose = poses::parse(&args.pose, &frames, "--pose", "poses::bad_pose")?;
+    note_frames(&frames, context);
     let lengths = match &args.lengths {
         Some(text) => {
             let lengths = numbers::lengths(text, "six", &design.units)
