@@ -271,10 +271,10 @@ impl LimitRecord {
         Self::new(design, limit, margin)
     }
 
-    /// Its code: that of the requirement, or `singularity`.
+    /// The name for people.
     #[must_use]
-    pub fn code(&self) -> &'static str {
-        self.name.map_or("singularity", TermKind::code)
+    pub fn label(&self) -> &'static str {
+        self.name.map_or("singular pose", TermKind::label)
     }
 }
 

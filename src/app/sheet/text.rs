@@ -2,12 +2,13 @@
 
 use std::fmt::{self, Display, Write as _};
 
-use super::{Block, Column, Sheet, Table, Tone};
+use super::{Block, Column, DIGITS, Sheet, Table, Tone};
 
-/// Lines as they are, tables in columns of their widths.
+/// Lines as they are, tables in columns of their widths. The precision of the format is the number of significant
+/// digits: `format!("{sheet:.6}")`.
 impl Display for Sheet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for block in &self.0 {
+        for block in &self.rounded(f.precision().unwrap_or(DIGITS.into())).0 {
             match block {
                 Block::Line(line) => writeln!(f, "{line}")?,
                 Block::Space => writeln!(f)?,

@@ -1,6 +1,7 @@
 //! det J over a family of poses, as a polynomial.
 
 use crate::Sheet;
+use crate::figure::figure;
 use num::shown::significant;
 use records::{CoefficientsWord, Number, PolynomialRecord, PoseFamilyWord, SingularLocusAnswer};
 
@@ -51,10 +52,10 @@ fn roots(out: &mut Sheet, r: &SingularLocusAnswer) {
     for ([low, high], times) in p.real_roots.iter().zip(&p.real_root_multiplicities) {
         let u = 0.5 * (low.0 + high.0);
         let angle = r.axis_squared.map_or_else(String::new, |square| {
-            format!(", a turn of {:.9} degrees", 2.0 * (u * square.0.sqrt()).atan().to_degrees())
+            format!(", a turn of {} deg", figure(2.0 * (u * square.0.sqrt()).atan().to_degrees()))
         });
         let often = if *times > 1 { format!(", {times} times") } else { String::new() };
-        say!(out, "  u = {u:.12}{angle}{often}");
+        say!(out, "  u = {}{angle}{often}", figure(u));
     }
 }
 

@@ -183,9 +183,13 @@ pub(super) fn pair(text: &str, design: &Design, code: &'static str) -> Result<(u
 
 /// The answer with its table, or with its sheet where no table was asked for.
 fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) -> Answer {
-    let sheet = || sheet::answers::fk(&design.name, &design.units, &answer).to_string();
-    let text = table.text(design, &answer).unwrap_or_else(sheet);
-    Answer::new(exit, answer, text)
+    match table.text(design, &answer) {
+        Some(text) => Answer::new(exit, answer, text),
+        None => {
+            let sheet = sheet::answers::fk(&design.name, &design.units, &answer);
+            Answer::new(exit, answer, sheet)
+        }
+    }
 }
 
 fn threads(asked: Option<u16>) -> Threads {
