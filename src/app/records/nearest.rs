@@ -139,8 +139,7 @@ impl NearestAnswer {
 /// Displacements below this share of the size are rounding.
 const SAME: f64 = 1e-9;
 
-/// Six digits.
+/// Three digits, for a sentence.
 pub(super) fn short(x: f64) -> String {
-    let digits = format!("{x:.5e}").parse::<f64>().unwrap_or(x);
-    digits.to_string()
+    num::shown::rounded(x, 3)
 }

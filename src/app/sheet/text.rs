@@ -21,7 +21,7 @@ impl Display for Sheet {
 }
 
 /// Cells that are longer than this push their row aside instead of making the column wide.
-const WIDEST: usize = 40;
+const WIDEST: usize = 52;
 
 fn rows(table: &Table) -> String {
     let mut out = String::new();

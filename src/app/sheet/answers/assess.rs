@@ -32,7 +32,7 @@ fn key_numbers(sheet: &mut Sheet, found: &AssessAnswer) {
         let margin = found.requirements.iter().find(|m| m.name == t.name);
         let margin = margin.map_or_else(String::new, |m| format!("{} {}, ", figure(m.margin.0), m.unit));
         let share = figure(100.0 * t.share.0);
-        say!(sheet, "Tightest requirement: {}, margin {margin}{share} % of its limit.", t.name.label());
+        say!(sheet, "Tightest requirement: {} (margin {margin}{share} % of its limit).", t.name.label());
     }
     let said = &found.regular_explanation;
     let at = place(found.regular.pose.as_ref());

@@ -9,8 +9,8 @@ use records::{CompareAnswer, FigureCell};
 #[must_use]
 pub fn compare(answer: &CompareAnswer) -> Sheet {
     let mut out = Sheet::new();
-    for (k, design) in answer.designs.iter().enumerate() {
-        say!(out, "{}: {} ({})", k + 1, design.name, design.path);
+    for (k, (design, verdict)) in answer.designs.iter().zip(answer.verdicts()).enumerate() {
+        say!(out, "{}: {verdict} ({})", k + 1, design.path);
     }
     let designs = (1..=answer.designs.len()).map(|k| right(k.to_string(), 12));
     let mut table = Table::new([left("figure", 34)].into_iter().chain(designs));
@@ -23,7 +23,6 @@ pub fn compare(answer: &CompareAnswer) -> Sheet {
         });
         table.row([column.heading().into()].into_iter().chain(cells));
     }
-    answer.verdicts().iter().for_each(|verdict| out.line(verdict));
     out.space();
     out.table(table);
     out.space();

@@ -190,8 +190,9 @@ fn poses(out: &mut Sheet, name: &str, units: &str, s: &SolvedRecord) {
         };
         say!(
             out,
-            "{name}: {} poses, {} of them real{undecided} (method {})",
+            "{name}: {} {}, {} of them real{undecided} (method {})",
             s.finite_count,
+            if s.finite_count == 1 { "pose" } else { "poses" },
             s.real_count,
             s.method
         );
@@ -254,7 +255,8 @@ fn shown(r: &SolutionRecord) -> [f64; 6] {
 
 /// A row for each real pose.
 fn real_poses(s: &SolvedRecord, units: &str) -> Table {
-    let position = ["x", "y", "z"].map(|axis| format!("{axis} {units}"));
+    let position =
+        ["x", "y", "z"].map(|axis| if units == "1" { axis.to_owned() } else { format!("{axis} {units}") });
     let angles = ["roll", "pitch", "yaw"].map(|angle| format!("{angle} deg"));
     let columns = position.into_iter().chain(angles).map(|title| right(title, 8).gap(2));
     let columns = [right("pose", 0)].into_iter().chain(columns);
@@ -324,11 +326,12 @@ fn rotations(out: &mut Sheet, found: &RotationPolynomialRecord) {
     let widest = most(|[low, high]| high.0 - low.0) / most(|[low, high]| low.0.abs().max(high.0.abs()));
     say!(
         out,
-        "polynomial in c3 = z / w of the quaternion: degree {}, {} real roots; coefficients enclosed to {widest:.0e} of the largest, see --json",
+        "polynomial in c3 = z / w of the quaternion: degree {}, {} real roots; coefficients enclosed to {} of the largest, see --json",
         p.degree.unwrap_or(0),
-        p.real_roots.len()
+        p.real_roots.len(),
+        figure(widest)
     );
-    let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
+    let middle = |[low, high]: &[Number; 2]| figure(0.5 * (low.0 + high.0));
     let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
         say!(out, "its real roots: {}", roots.join(", "));
@@ -350,7 +353,7 @@ fn closure(out: &mut Sheet, closure: &ClosureRecord) {
         p.polynomial.distinct_roots.unwrap_or(0),
         p.polynomial.real_roots.len()
     );
-    let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
+    let middle = |[low, high]: &[Number; 2]| figure(0.5 * (low.0 + high.0));
     let roots: Vec<String> = p.polynomial.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
         say!(out, "its real roots: {}", roots.join(", "));

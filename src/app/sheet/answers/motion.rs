@@ -45,14 +45,14 @@ pub fn motion(answer: &MotionAnswer) -> Sheet {
 fn sentence(answer: &MotionAnswer) -> String {
     let missed = |m: &MotionRunRecord| {
         let of = m.requirements.iter().filter(|r| r.margin.violates()).map(|r| r.margin.name.label());
-        of.chain(m.singular_at_s.map(|_| "no singular pose"))
+        of.chain(m.singular_at_s.map(|_| "singular pose"))
             .chain(m.unreached_at_s.map(|_| "reach"))
             .collect::<Vec<_>>()
     };
     let mut all: Vec<&str> = answer.motions.iter().flat_map(missed).collect();
     all.sort_unstable();
     all.dedup();
-    if all == ["no singular pose"] {
+    if all == ["singular pose"] {
         return "passes a singular pose".into();
     }
     if !all.is_empty() {

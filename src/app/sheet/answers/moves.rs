@@ -16,6 +16,17 @@ pub fn moves(r: &MovesAnswer) -> Sheet {
     let mut out = Sheet::new();
     let regular = r.steps.iter().all(|s| s.outcome == Some(Relation::Equivalent));
     let undecided = r.steps.iter().any(|s| s.outcome.is_none());
+    match (undecided, regular) {
+        (true, _) => say!(out, "{}: undecided whether the moved legs make an equivalent platform", r.name),
+        (false, true) => say!(out, "{}: the moved legs make an equivalent platform", r.name),
+        (false, false) => say!(out, "{}: the moved legs make an architecturally singular platform", r.name),
+    }
+    if let Some(path) = &r.output {
+        say!(out, "wrote {path}");
+    } else if !regular {
+        out.line("No design is written.");
+    }
+    out.space();
     for (k, s) in r.steps.iter().enumerate() {
         for moved in &s.moves {
             let number = if r.steps.len() > 1 { format!("{}. ", k + 1) } else { String::new() };
@@ -41,15 +52,6 @@ pub fn moves(r: &MovesAnswer) -> Sheet {
     if r.steps.len() > 1 {
         let difference = r.composition_difference.0;
         say!(out, "composed from the steps, A and c differ by {}", figure(difference));
-    }
-    if let Some(path) = &r.output {
-        say!(out, "wrote {path}");
-    } else if !regular {
-        out.line(if undecided {
-            "no design is written: the platform may be architecturally singular"
-        } else {
-            "no design is written: the platform is architecturally singular"
-        });
     }
     out
 }

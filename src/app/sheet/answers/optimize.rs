@@ -162,7 +162,7 @@ fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
         n.failed
     );
     for r in ConflictReasonRecord::all(a.branches.as_deref().unwrap_or_default()) {
-        say!(out, "  {:>3} {}, for example: {}", r.branches, r.code, r.message);
+        say!(out, "  {:>3} {}, for example: {}", r.branches, words(&r.code), r.message);
     }
     for (i, b) in a.runners_up.iter().flatten().enumerate() {
         if let (Some(value), Some(offsets)) = (b.objective, b.offsets) {
@@ -271,9 +271,6 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
             o.unit,
             figure(o.at_held_poses.0)
         );
-    }
-    if let Some(worst) = &s.worst_pose {
-        say!(out, "Worst at held pose {}", worst.index + 1);
     }
     if let (Some(det), Some(margin)) = (s.det, s.search_margins.and_then(|m| m.abs_det)) {
         say!(out, "det A = {} (margin {})", figure(det.0), figure(margin.0));

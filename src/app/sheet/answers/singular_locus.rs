@@ -12,16 +12,20 @@ const EXACT_LENGTH: usize = 400;
 #[must_use]
 pub fn singular_locus(r: &SingularLocusAnswer) -> Sheet {
     let mut out = Sheet::new();
-    let [position, quaternion] = [r.position.join(", "), r.quaternion.join(", ")];
+    let position = r.position.join(", ");
+    let rotation = match r.quaternion.join(", ") {
+        none if none == "1, 0, 0, 0" => "without rotation".to_owned(),
+        quaternion => format!("with the rotation of the quaternion ({quaternion})"),
+    };
     let direction = r.direction.as_ref().map(|d| d.join(", ")).unwrap_or_default();
     let p = &r.polynomial;
     let family = match r.family {
-        PoseFamilyWord::Positions => format!("at the positions (x, y, z) with the quaternion ({quaternion})"),
+        PoseFamilyWord::Positions => format!("at the positions (x, y, z) {rotation}"),
         PoseFamilyWord::Line => {
-            format!("on the line ({position}) + u ({direction}) with the quaternion ({quaternion})")
+            format!("on the line ({position}) + u ({direction}) {rotation}")
         }
         PoseFamilyWord::Rotation => format!(
-            "at the position ({position}) with the rotations (1, u ({direction})) before the quaternion ({quaternion})"
+            "at the position ({position}) {rotation} after rotations by the quaternions (1, u ({direction}))"
         ),
     };
     say!(out, "{}: det J {family}", r.name);
