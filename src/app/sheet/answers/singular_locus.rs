@@ -25,7 +25,7 @@ pub fn singular_locus(r: &SingularLocusAnswer) -> Sheet {
             format!("on the line ({position}) + u ({direction}) {rotation}")
         }
         PoseFamilyWord::Rotation => format!(
-            "at the position ({position}) {rotation} after rotations by the quaternions (1, u ({direction}))"
+            "at the position ({position}) {rotation}, then rotated by the quaternions (1, u ({direction}))"
         ),
     };
     say!(out, "{}: det J {family}", r.name);
