@@ -280,8 +280,8 @@ impl LimitRecord {
 
     /// The code of the requirement, or `singularity`.
     #[must_use]
-    pub fn code(&self) -> &'static str {
-        self.name.map_or("singularity", TermKind::code)
+    pub fn label(&self) -> &'static str {
+        self.name.map_or("singular pose", TermKind::label)
     }
 }
 

@@ -669,7 +669,7 @@ impl DesignModel {
         match quantity {
             Quantity::Length => self.units.clone(),
             Quantity::Angle => "deg".to_string(),
-            Quantity::Force => self.force_units.map_or("force", ForceUnit::label).to_string(),
+            Quantity::Force => self.force_unit().label().to_owned(),
             Quantity::Speed => format!("{}/s", self.units),
             Quantity::LinearStiffness => format!("{}/{}", self.unit_of(Quantity::Force), self.units),
             Quantity::AngularStiffness => format!("{} {}/rad", self.unit_of(Quantity::Force), self.units),

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use num::Number;
-use num::shown::fixed;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -149,15 +148,6 @@ pub struct PoseQuaternionRecord {
     /// Unit quaternion, scalar part first.
     #[serde(rename = "q")]
     pub quaternion: [Number; 4],
-}
-
-impl PoseQuaternionRecord {
-    /// `x,y,z,qw,qx,qy,qz` with four decimals, for people.
-    #[must_use]
-    pub fn short(&self) -> String {
-        let values = self.position.iter().chain(&self.quaternion);
-        values.map(|x| fixed(x.0, 4)).collect::<Vec<_>>().join(",")
-    }
 }
 
 impl From<&PoseQuaternionRecord> for Pose {

@@ -15,6 +15,7 @@ mod frames;
 mod holding;
 mod judging;
 mod locus;
+mod moved_legs;
 mod moving;
 #[cfg(feature = "optimize")]
 pub mod optimizing;
@@ -45,6 +46,9 @@ pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;
 pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
+pub use moved_legs::{
+    InvalidMove, LegMoveRequest, MoveOptions, MovedAtOnce, MovesReport, NamedFamily, NoMoves,
+};
 pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(feature = "optimize")]
 pub use optimizing::{

@@ -193,9 +193,13 @@ fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) ->
         let required = design.requirements();
         answer = answer.with_limits(&design.reach(&required));
     }
-    let sheet = || sheet::answers::fk(&design.name, &design.units, &answer).to_string();
-    let text = table.text(design, &answer).unwrap_or_else(sheet);
-    Answer::new(exit, answer, text)
+    match table.text(design, &answer) {
+        Some(text) => Answer::new(exit, answer, text),
+        None => {
+            let sheet = sheet::answers::fk(&design.name, &design.units, &answer);
+            Answer::new(exit, answer, sheet)
+        }
+    }
 }
 
 fn threads(asked: Option<u16>) -> Threads {

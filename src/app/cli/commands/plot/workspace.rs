@@ -102,7 +102,7 @@ impl LimitKind {
 
     fn words(self) -> String {
         match self {
-            Self::Requirement(kind) => kind.code().replace('_', " "),
+            Self::Requirement(kind) => kind.label().into(),
             Self::Singular => "beyond a singular pose".into(),
         }
     }
