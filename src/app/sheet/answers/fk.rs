@@ -172,13 +172,7 @@ fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
 }
 
 /// The number of poses, the completeness of the list, and the real poses.
-fn poses(
-    out: &mut Sheet,
-    name: &str,
-    units: &str,
-    s: &SolvedRecord,
-    frames: Option<&PoseConventionRecord>,
-) {
+fn poses(out: &mut Sheet, name: &str, units: &str, s: &SolvedRecord, frames: Option<&PoseConventionRecord>) {
     if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
     {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
