@@ -4,81 +4,164 @@
 //! poses have certificates, and so have the far ones, in coordinates of their own (`solve::certify::far`). When both
 //! together are forty, every pose whose `R` has no entry beyond those of the far ones is in the list. Entries of real
 //! rotations are at most one: all real poses are.
+//!
+//! Designs next to affine hexagons have far poses that no certificate of single points reaches, and a proof of their
+//! own for real poses ([`neighbour`]).
 
-use std::cell::LazyCell;
+mod neighbour;
+
+use std::cell::OnceCell;
 
 use super::evidence::reject_others;
 use super::judge::are_distinct;
-use super::{BoundedProof, Completeness, FkError, FkRoot, FkSolutions, Theorem};
-use crate::solve::certify::far::{FarPoint, FarRoot, FarSystem};
-use crate::solve::certify::{PoseEnclosure, SquareData};
+use super::{BoundedProof, Completeness, FarPoses, FkError, FkRoot, FkSolutions, Reason, Theorem};
+use crate::solve::FarSearch;
+use crate::solve::certify::SquareData;
+use crate::solve::certify::far::{FarPoint, FarRoots, FarSystem};
+use neighbour::Neighbour;
+use num::ball::Disc;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// [`conclude_far`] with the points at infinity of the design, which are looked for once a design, and where poses are
-/// missing.
-pub(super) fn bounded<F: FnOnce() -> Vec<FarPoint>>(
-    found: &mut FkSolutions,
-    m: &Manipulator,
-    s: &SquaredLegLengths,
-    points: &LazyCell<Vec<FarPoint>, F>,
-) -> Result<bool, FkError> {
-    let near = found.certified_count();
-    if near == 0 || near >= Theorem::SixLegs.bound() || !are_distinct(found) {
-        return Ok(false);
-    }
-    conclude_far(found, m, s, points)
+/// Knowledge about the joints of a design that proofs up to a distance need: computed when it is asked for.
+pub(super) struct Surroundings<'a> {
+    manipulator: &'a Manipulator,
+    neighbour: OnceCell<Option<Neighbour>>,
+    search: FarSearch,
 }
 
-/// Proves that what is missing of forty poses is far out, or at infinity; whether that succeeds. `points` are starts.
-pub(super) fn conclude_far(
+/// The same, kept for many lengths of the design.
+#[derive(Debug)]
+pub(super) struct KnownSurroundings {
+    neighbour: Option<Neighbour>,
+    points: Vec<FarPoint>,
+}
+
+impl<'a> Surroundings<'a> {
+    pub(super) fn new(m: &'a Manipulator, seed: u64) -> Self {
+        Self { manipulator: m, neighbour: OnceCell::new(), search: FarSearch::new(m, seed) }
+    }
+
+    /// Proves, where poses are missing, that those listed are all up to a distance; whether that succeeds.
+    pub(super) fn conclude(
+        &mut self,
+        found: &mut FkSolutions,
+        s: &SquaredLegLengths,
+    ) -> Result<bool, FkError> {
+        let near = found.certified_count();
+        if near == 0 || near >= Theorem::SixLegs.bound() || !are_distinct(found) {
+            return Ok(false);
+        }
+        let neighbour = self.neighbour.get_or_init(|| Neighbour::of(self.manipulator));
+        if conclude_by_neighbour(found, neighbour.as_ref(), self.manipulator, s) {
+            return Ok(true);
+        }
+        conclude_far(found, self.manipulator, s, self.search.points())
+    }
+
+    /// The part that does not depend on lengths, as far as it was needed.
+    pub(super) fn known(self) -> KnownSurroundings {
+        let points = self.search.known().to_vec();
+        KnownSurroundings { neighbour: self.neighbour.into_inner().flatten(), points }
+    }
+}
+
+impl KnownSurroundings {
+    /// As [`Surroundings::conclude`], with what is known.
+    pub(super) fn conclude(
+        &self,
+        found: &mut FkSolutions,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+    ) -> Result<bool, FkError> {
+        if !are_distinct(found) {
+            return Ok(false);
+        }
+        if conclude_by_neighbour(found, self.neighbour.as_ref(), m, s) {
+            return Ok(true);
+        }
+        conclude_far(found, m, s, self.points.iter().copied())
+    }
+}
+
+/// All real poses are next to those of the neighbour.
+fn conclude_by_neighbour(
+    found: &mut FkSolutions,
+    neighbour: Option<&Neighbour>,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+) -> bool {
+    let Some(proof) = neighbour.and_then(|n| n.prove(found, m, s)) else { return false };
+    found.completeness.learn(Completeness::ProvedBounded { proof });
+    reject_others(found);
+    true
+}
+
+/// Proves that the rest of forty poses is far out, or at infinity; whether that succeeds. The certified roots are
+/// distinct; `points` are starts, one of each conjugate pair.
+fn conclude_far(
     found: &mut FkSolutions,
     m: &Manipulator,
     s: &SquaredLegLengths,
-    points: &[FarPoint],
+    points: impl Iterator<Item = FarPoint>,
 ) -> Result<bool, FkError> {
     let Some(system) = FarSystem::new(m, &SquareData::from(s)) else { return Ok(false) };
-    if !are_distinct(found) {
-        return Ok(false);
-    }
-    let mut far: Vec<FarRoot> = Vec::new();
-    let prove = |far: &mut Vec<FarRoot>, start: &FarPoint| {
-        let root = system.root_near(start).filter(|root| far.iter().all(|other| root.is_apart(other)));
-        far.extend(root);
+    let bound = Theorem::SixLegs.bound();
+    // roots of the list that are as far out as the others may be among them, and are not counted twice
+    let sizes: Vec<(f64, usize)> = found.roots.iter().filter_map(size).collect();
+    let mut far: Vec<FarRoots> = Vec::new();
+    let count = |far: &[FarRoots]| {
+        let rotation = far.iter().map(|root| root.rotation).fold(f64::INFINITY, f64::min);
+        let near: usize = sizes.iter().filter(|(entry, _)| *entry < rotation).map(|(_, number)| number).sum();
+        (near, far.iter().map(|r| r.multiplicity).sum::<usize>(), rotation)
     };
-    for start in points.iter().filter_map(|point| system.starts(point)).flatten() {
-        prove(&mut far, &start);
-    }
-    // of two that are very close, the first one shows where the other is
-    if far.len() + found.certified_count() < Theorem::SixLegs.bound() {
-        let others: Vec<FarPoint> =
-            far.iter().filter_map(|root| Some(system.starts(&root.centre())?[1])).collect();
-        for start in &others {
-            prove(&mut far, start);
+    for point in points {
+        for roots in system.roots_near(&point) {
+            for roots in [roots.conjugate(), roots] {
+                if far.iter().all(|other| roots.is_apart(other)) {
+                    far.push(roots);
+                }
+            }
+        }
+        let (near, beyond, _) = count(&far);
+        if near + beyond >= bound {
+            break;
         }
     }
-    // roots of the list that are as far out may be among these, and are not counted twice
-    let rotation = far.iter().map(|root| root.rotation).fold(f64::INFINITY, f64::min);
-    let within = |e: &PoseEnclosure| e.rotation.iter().flatten().all(|entry| entry.magnitude() < rotation);
-    let is_near = |r: &&FkRoot| r.certificate.as_ref().is_some_and(|c| within(c.enclosure()));
-    let near: usize = found.roots.iter().filter(is_near).map(|r| r.multiplicity as usize).sum();
-    if far.is_empty() {
-        return Ok(false);
-    }
-    let (total, bound) = (near + far.len(), Theorem::SixLegs.bound());
-    if total > bound {
-        let what = format!(
-            "{near} near and {} far poses are certified, but six legs have at most {bound}",
-            far.len()
-        );
+    let (poses, beyond, rotation) = count(&far);
+    if poses + beyond > bound {
+        let what =
+            format!("{poses} near and {beyond} far poses are certified, but six legs have at most {bound}");
         return Err(FkError::Contradiction { what });
     }
-    if total < bound {
+    if poses + beyond < bound {
+        if beyond > 0 {
+            found.completeness.doubt(Reason::NotSeparated { near: poses, far: beyond });
+        }
         return Ok(false);
     }
-    let proof = BoundedProof { poses: near, far: far.len(), rotation };
+    let mut others: Vec<FarPoses> = far.iter().map(FarPoses::from).collect();
+    others.sort_by(|x, y| x.rotation.total_cmp(&y.rotation));
+    let proof = BoundedProof { poses, far: Some(beyond), rotation: Some(rotation), neighbour: None, others };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     Ok(true)
+}
+
+impl From<&FarRoots> for FarPoses {
+    fn from(roots: &FarRoots) -> Self {
+        Self {
+            poses: roots.multiplicity,
+            rotation: roots.rotation,
+            rotation_at_most: roots.rotation_at_most.is_finite().then_some(roots.rotation_at_most),
+        }
+    }
+}
+
+/// The largest entry of `R` of a certified root, and how many roots it stands for.
+fn size(root: &FkRoot) -> Option<(f64, usize)> {
+    let entries = root.certificate.as_ref()?.enclosure().rotation;
+    let largest = entries.iter().flatten().map(Disc::magnitude).fold(0.0, f64::max);
+    Some((largest, root.multiplicity as usize))
 }
 
 #[cfg(test)]

@@ -101,21 +101,46 @@ impl CompletenessWord {
 }
 
 /// The numbers of a proof that all poses up to a distance are listed.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[derive(Debug, Clone, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
 pub struct BoundedProof {
     /// Certified poses listed, with multiplicity.
     pub poses: usize,
-    /// Others, certified to be different and farther out, or at infinity.
-    pub far: usize,
+    /// Others, certified to be different and farther out, or at infinity; null: the proof needs no others.
+    pub far: Option<usize>,
     /// The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries of real
-    /// rotations are at most 1.
+    /// rotations are at most 1. Null: the proof is about real poses alone.
+    pub rotation: Option<f64>,
+    /// How far the ends of a leg, both together, are at most from those of a design that has no more poses, in design
+    /// units, where the proof is about real poses next to those of this design; null: it is about far poses.
+    pub neighbour: Option<f64>,
+    /// The far poses, the nearest ones first.
+    pub others: Vec<FarPoses>,
+}
+
+/// Poses far out, certified in coordinates that are regular at infinity.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
+pub struct FarPoses {
+    /// Their number: two that are too close to be told apart, or one.
+    pub poses: usize,
+    /// The largest entry of their rotation matrices is at least this.
     pub rotation: f64,
+    /// It is at most this; null: they may be at infinity.
+    pub rotation_at_most: Option<f64>,
 }
 
 impl fmt::Display for BoundedProof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { poses, far, rotation } = self;
+        let Self { poses, far, rotation, neighbour, .. } = self;
+        let (Some(far), Some(rotation)) = (far, rotation) else {
+            return write!(
+                f,
+                "{poses} certified distinct poses, as many as planar bodies have whose joints are affine images of each other; the ends of the legs are within {:.1e} of such bodies, \
+                 and for all lengths within that distance these have one pose next to each listed one: all real poses are listed",
+                neighbour.unwrap_or_default()
+            );
+        };
         write!(
             f,
             "{poses} certified distinct poses, and the other {far} of at most {} are proved to be far from every real pose, with entries of R above {rotation:.1e}: \
@@ -365,6 +390,13 @@ pub enum Reason {
     /// The equations of the legs cannot be told apart in doubles. The lengths are much longer than the design, or one
     /// body is much larger than the other.
     LegsNotToldApart,
+    /// Near and far poses are certified, fewer than there can be: others are missing, or no proof tells near from far.
+    NotSeparated {
+        /// Certified poses nearer than the far ones.
+        near: usize,
+        /// Certified far ones.
+        far: usize,
+    },
     /// Paths that end near points without a certificate.
     EndsUnproved {
         /// Paths.
@@ -457,6 +489,7 @@ impl Reason {
             | Self::PairsNotDistinct { .. }
             | Self::LegsNearlyDependent
             | Self::LegsNotToldApart
+            | Self::NotSeparated { .. }
             | Self::EndsUnproved { .. } => false,
         }
     }
@@ -562,6 +595,11 @@ impl fmt::Display for Reason {
             ),
             Self::LegsNotToldApart => f.write_str(
                 "doubles do not tell the legs apart, because the lengths are much longer than the design or one body is much larger than the other: no poses were computed",
+            ),
+            Self::NotSeparated { near, far } => write!(
+                f,
+                "{near} poses and {far} that are far out are certified, of at most 40: the other {} are missing, or no proof tells whether they are near or far",
+                40usize.saturating_sub(near + far)
             ),
             Self::EndsUnproved { paths, points } => write!(
                 f,
@@ -696,12 +734,19 @@ mod tests {
     fn samples() -> Vec<Completeness> {
         let proved = |theorem| Completeness::Proved { theorem };
         let reason = |r: Reason| Completeness::unproved([r]);
+        let bounded = |rotation| BoundedProof {
+            poses: 28,
+            far: Some(12),
+            rotation: Some(rotation),
+            neighbour: None,
+            others: vec![FarPoses { poses: 12, rotation, rotation_at_most: None }],
+        };
         vec![
             Completeness::unproved([]),
             proved(Theorem::SixLegs),
             proved(Theorem::SharedJoints { poses: 8, construction: "three trilaterations" }),
-            Completeness::ProvedBounded { proof: BoundedProof { poses: 28, far: 12, rotation: 1e9 } },
-            Completeness::ProvedBounded { proof: BoundedProof { poses: 28, far: 12, rotation: 1e10 } },
+            Completeness::ProvedBounded { proof: bounded(1e9) },
+            Completeness::ProvedBounded { proof: bounded(1e10) },
             Completeness::Modular { poses: 12, lengths: CountedLengths::Given, error_probability: 1e-20 },
             reason(Reason::LegsNearlyDependent),
             reason(Reason::PosesUncertified { poses: 2 }),

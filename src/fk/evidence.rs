@@ -212,22 +212,38 @@ pub(super) enum KnownCertificates {
     Listed(Vec<Certificate>),
 }
 
+/// The upper bounds that the number of certified roots is compared with.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Bounds {
+    /// That of this theorem, then those that the joints of the design have.
+    First(Theorem),
+    /// That of this theorem alone: of those of the joints it is known that they are not reached.
+    Only(Theorem),
+}
+
+impl From<Theorem> for Bounds {
+    fn from(theorem: Theorem) -> Self {
+        Self::First(theorem)
+    }
+}
+
 /// [`certify`], then [`conclude`].
 pub(super) fn attach(
     solutions: &mut FkSolutions,
     m: &Manipulator,
     s: &SquaredLegLengths,
-    theorem: Theorem,
+    bounds: impl Into<Bounds>,
     known: KnownCertificates,
 ) -> Result<(), FkError> {
+    let bounds = bounds.into();
     let known = match known {
         KnownCertificates::AllApart => {
-            return conclude_by_number(solutions, m, solutions.roots.len(), theorem).map(|_| ());
+            return conclude_by_number(solutions, m, solutions.roots.len(), bounds).map(|_| ());
         }
         KnownCertificates::Listed(known) => known,
     };
     match certify(solutions, m, s, known) {
-        Some(certificates) => conclude(solutions, m, &certificates, theorem),
+        Some(certificates) => conclude(solutions, m, &certificates, bounds),
         None => Ok(()),
     }
 }
@@ -248,12 +264,12 @@ pub(super) fn conclude(
     solutions: &mut FkSolutions,
     m: &Manipulator,
     certificates: &[Certificate],
-    theorem: Theorem,
+    bounds: impl Into<Bounds>,
 ) -> Result<(), FkError> {
     let clusters = cluster_certificates(solutions);
     let distinct = all_distinct(certificates, &clusters);
     let count = certificates.len() + clusters.iter().map(ClusterCertificate::multiplicity).sum::<usize>();
-    if distinct == Distinctness::AllDistinct && conclude_by_number(solutions, m, count, theorem)? {
+    if distinct == Distinctness::AllDistinct && conclude_by_number(solutions, m, count, bounds.into())? {
         return Ok(());
     }
     let unproved = solutions.roots.iter().filter(|r| !r.certified() && r.multiplicity == 1).count();
@@ -273,12 +289,16 @@ fn conclude_by_number(
     solutions: &mut FkSolutions,
     m: &Manipulator,
     count: usize,
-    theorem: Theorem,
+    bounds: Bounds,
 ) -> Result<bool, FkError> {
+    let (theorem, number) = match bounds {
+        Bounds::First(theorem) => (theorem, 3),
+        Bounds::Only(theorem) => (theorem, 1),
+    };
     // the work for a bound is done only where the one before is not met
     let bounds: [&dyn Fn() -> Option<Theorem>; 3] =
         [&|| Some(theorem), &|| class_bound(m), &|| special_bound(m)];
-    for theorem in bounds.iter().filter_map(|bound| bound()) {
+    for theorem in bounds[..number].iter().filter_map(|bound| bound()) {
         if theorem.bound() == count {
             solutions.completeness.learn(Completeness::Proved { theorem });
             reject_others(solutions);

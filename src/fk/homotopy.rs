@@ -4,9 +4,7 @@ mod prepared;
 
 use num_complex::Complex64;
 
-use std::cell::LazyCell;
-
-use super::bounded::bounded;
+use super::bounded::Surroundings;
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
@@ -19,9 +17,7 @@ use crate::solve::homotopy::{
     EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
 use crate::solve::pose_count::PoseCount;
-use crate::solve::{
-    LegDependence, ScaledFrames, Sections, dependence, far_points, mirror, quaternion_product, split,
-};
+use crate::solve::{LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split};
 use platform::geom::{ComplexPose, rotation_from_quaternion};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use prepared::PreparedHomotopy;
@@ -61,7 +57,7 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };
-        let far = LazyCell::new(|| far_points(m, o.seed));
+        let mut far = Surroundings::new(m, o.seed);
         let mut best: Option<FkSolutions> = None;
         let mut count: Option<PoseCount> = None;
         let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
@@ -74,7 +70,7 @@ impl ForwardKinematics for Homotopy {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let (mut found, certificates) = problem.solve(m, s, o, seed)?;
             attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
-            if found.completeness.is_proved() || bounded(&mut found, m, s, &far)? {
+            if found.completeness.is_proved() || far.conclude(&mut found, s)? {
                 return Ok(found);
             }
             // before any end without a proof is taken for a pose: what kind of set is it?

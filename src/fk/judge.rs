@@ -6,13 +6,10 @@
 //! count. For lengths known within radii only, the poses of generic lengths are counted, which are as many or more. As
 //! many certified roots are then all isolated poses; fewer may be all.
 
-use std::cell::LazyCell;
-
-use super::bounded::bounded;
+use super::bounded::Surroundings;
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
-use crate::solve::far_points;
 use crate::solve::pose_count::{
     CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
@@ -140,8 +137,7 @@ pub(super) fn compared_with_count(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    let far = LazyCell::new(|| far_points(m, o.seed));
-    if found.completeness.is_proved() || bounded(&mut found, m, s, &far)? {
+    if found.completeness.is_proved() || Surroundings::new(m, o.seed).conclude(&mut found, s)? {
         return Ok(found);
     }
     let Some(count) = counted(m, s, o) else { return Ok(found) };

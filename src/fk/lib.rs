@@ -51,7 +51,7 @@ pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure, closure_between};
 pub use closure_poses::closure_candidates;
 pub use completeness::{
-    BoundedProof, Completeness, CompletenessWord, PathsEnded, Reason, Reasons, Theorem, Tried,
+    BoundedProof, Completeness, CompletenessWord, FarPoses, PathsEnded, Reason, Reasons, Theorem, Tried,
 };
 pub use homotopy::Homotopy;
 pub use near::NearNumbers;

@@ -4,13 +4,13 @@ use super::distance::plans;
 use super::pentapod::{LineClass, line_class};
 use num::exact::{Rational, rational};
 use platform::manipulator::{Body, ExactLegs, JointKnowledge, Manipulator, flat_dimension};
-use platform::pentapod::{Pentapod, RationalPoint};
+use platform::pentapod::{Pentapod, RationalPoint, joints_of_legs, lines_without_one_leg};
 
 /// A part of the platform that some of the legs place, before the others place the rest.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(tag = "part", rename_all = "snake_case")
 )]
 #[non_exhaustive]
@@ -37,7 +37,7 @@ pub enum PlacedFirst {
 
 /// The ways to find the poses in steps.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 pub struct Solvability {
     /// A chain of quadratic equations gives all poses.
     pub quadratic: bool,
@@ -120,11 +120,7 @@ pub fn solvability(m: &Manipulator) -> Solvability {
             let others = body.other().of((&exact.base, &exact.platform));
             let dimension = |legs: &[usize]| flat_dimension(legs.iter().map(|leg| &ends[*leg]));
             let counted = |legs: &[usize]| legs.iter().map(|leg| leg + 1).collect::<Vec<_>>();
-            for left in 0..6 {
-                let five: Vec<usize> = (0..6).filter(|leg| *leg != left).collect();
-                if dimension(&five) != 1 || dimension(&[0, 1, 2, 3, 4, 5]) == 1 {
-                    continue;
-                }
+            for five in lines_without_one_leg(6, dimension) {
                 let class = fractions.as_ref().and_then(|ends| {
                     let of = |k: usize| -> Option<[RationalPoint; 5]> {
                         five.iter().map(|leg| ends[*leg][k].clone()).collect::<Vec<_>>().try_into().ok()
@@ -133,19 +129,11 @@ pub fn solvability(m: &Manipulator) -> Solvability {
                     line_class(&pentapod.linear_on(body)?)
                 });
                 let other_ends_in_plane = flat_dimension(five.iter().map(|leg| &others[*leg])) == 2;
-                placed_first.push(PlacedFirst::Line {
-                    body,
-                    legs: counted(&five),
-                    class,
-                    other_ends_in_plane,
-                });
+                let legs = counted(&five);
+                placed_first.push(PlacedFirst::Line { body, legs, class, other_ends_in_plane });
             }
-            for i in 0..6 {
-                let at_joint: Vec<usize> = (0..6).filter(|leg| dimension(&[i, *leg]) == 0).collect();
-                if at_joint.len() == 3 && at_joint[0] == i {
-                    placed_first.push(PlacedFirst::Joint { body, legs: counted(&at_joint) });
-                }
-            }
+            let joints = joints_of_legs(6, 3, dimension);
+            placed_first.extend(joints.iter().map(|legs| PlacedFirst::Joint { body, legs: counted(legs) }));
         }
     }
     let by_line = placed_first

@@ -19,3 +19,4 @@ pub mod manufacture;
 pub mod reach;
 pub mod requirements;
 pub mod rotary;
+pub mod statics;

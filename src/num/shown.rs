@@ -29,6 +29,27 @@ pub fn significant(x: f64) -> String {
     }
 }
 
+/// At least so many significant digits; the digits before the point stay up to a million, and zeros at the end go.
+pub fn rounded(x: f64, digits: usize) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{}", x + 0.0);
+    }
+    let digits = digits.clamp(1, 17);
+    let scientific = format!("{x:.*e}", digits - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i64 = exponent.parse().unwrap_or(0);
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    match usize::try_from(digits as i64 - 1 - exponent) {
+        // 0.000123 is still read at a glance
+        Ok(decimals) if exponent >= -4 => trimmed(&format!("{x:.decimals$}")),
+        Err(_) if x.abs() < 1e6 => format!("{x:.0}"),
+        _ => format!("{}e{exponent}", trimmed(mantissa)),
+    }
+}
+
 /// A positive number, rounded down to three significant digits, so that a limit of this value implies the original one.
 pub fn rounded_down(x: f64) -> String {
     let (mut decimals, mut scale) = (0, 1.0);
@@ -50,6 +71,28 @@ mod tests {
         let down = [0.012_399, 1.0, 0.999_99, 123.4, 5432.1, 6.015e-7].map(rounded_down);
         assert_eq!(down, ["0.0123", "1.00", "0.999", "123", "5432", "0.000000601"]);
         assert_eq!([-0.4, -0.6, f64::NEG_INFINITY].map(|x| fixed(x, 0)), ["0", "-1", "-inf"]);
+    }
+
+    #[test]
+    fn digits_before_the_point_are_never_rounded_away() {
+        for (x, digits, text) in [
+            (1_234.56, 3, "1235"),
+            (123.456, 3, "123"),
+            (12.345_6, 3, "12.3"),
+            (9.999, 3, "10"),
+            (0.5, 3, "0.5"),
+            (-0.000_123_456, 3, "-0.000123"),
+            (1.239_9e-7, 3, "1.24e-7"),
+            (7.0e-16, 3, "7e-16"),
+            (123_456_789.0, 3, "1.23e8"),
+            (123_456.78, 3, "123457"),
+            (0.1, 17, "0.10000000000000001"),
+            (0.0, 3, "0"),
+            (-0.0, 3, "0"),
+            (f64::INFINITY, 3, "inf"),
+        ] {
+            assert_eq!(rounded(x, digits), text, "{x}");
+        }
     }
 
     #[test]

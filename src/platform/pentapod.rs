@@ -78,6 +78,27 @@ fn flat_dimension<'a>(points: impl IntoIterator<Item = &'a RationalPoint>) -> us
     rank(&homogeneous(points)).saturating_sub(1)
 }
 
+/// All legs but one, of `count` whose ends do not lie on a line together, where the ends of these do. `dimension` is
+/// that of the flat that the ends of some legs, counted from 0, span.
+pub fn lines_without_one_leg(count: usize, dimension: impl Fn(&[usize]) -> usize) -> Vec<Vec<usize>> {
+    let without = |left: usize| (0..count).filter(move |leg| *leg != left).collect::<Vec<_>>();
+    if dimension(&(0..count).collect::<Vec<_>>()) == 1 {
+        return Vec::new();
+    }
+    (0..count).map(without).filter(|legs| dimension(legs) == 1).collect()
+}
+
+/// The legs at each joint that so many of `count` legs share, and no more.
+pub fn joints_of_legs(
+    count: usize,
+    shared_by: usize,
+    dimension: impl Fn(&[usize]) -> usize,
+) -> Vec<Vec<usize>> {
+    let at_joint = |i: usize| (0..count).filter(|leg| dimension(&[i, *leg]) == 0).collect::<Vec<_>>();
+    let own = |(i, legs): &(usize, Vec<usize>)| legs.len() == shared_by && legs[0] == *i;
+    (0..count).map(|i| (i, at_joint(i))).filter(own).map(|(_, legs)| legs).collect()
+}
+
 impl Pentapod {
     /// Joints given as doubles, which are rational numbers; `None` if a coordinate is not finite.
     #[must_use]

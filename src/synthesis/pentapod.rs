@@ -16,7 +16,9 @@ use std::collections::BTreeMap;
 use num::exact::{ExactVector, Rational, rank};
 use num_traits::{One, Zero};
 use platform::manipulator::Body;
-use platform::pentapod::{LINE_NUMBERS, LinearPentapod, Pentapod, RationalPoint, cross};
+use platform::pentapod::{
+    LINE_NUMBERS, LinearPentapod, Pentapod, RationalPoint, cross, joints_of_legs, lines_without_one_leg,
+};
 
 /// Exponents of `p_x, p_y, p_z, v_x, v_y, v_z`.
 type LineExponents = [u8; 6];
@@ -252,25 +254,13 @@ impl DecouplingLeg {
         for body in [Body::Platform, Body::Base] {
             let dimension = |legs: &[usize]| p.dimension(body, legs);
             let counted = |legs: &[usize]| legs.iter().map(|leg| leg + 1).collect();
-            let all = [0, 1, 2, 3, 4];
-            if dimension(&all) == 1 {
+            if dimension(&[0, 1, 2, 3, 4]) == 1 {
                 out.push(Self::OffTheLine { body });
-            } else {
-                let fours = (0..5).map(|left| all.into_iter().filter(|leg| *leg != left).collect::<Vec<_>>());
-                out.extend(
-                    fours
-                        .filter(|four| dimension(four) == 1)
-                        .map(|four| Self::ToTheLine { body, legs: counted(&four) }),
-                );
             }
-            for i in 0..5 {
-                for j in i + 1..5 {
-                    let third = (0..5).any(|k| k != i && k != j && dimension(&[i, j, k]) == 0);
-                    if dimension(&[i, j]) == 0 && !third {
-                        out.push(Self::ToTheJoint { body, legs: counted(&[i, j]) });
-                    }
-                }
-            }
+            let lines = lines_without_one_leg(5, dimension);
+            out.extend(lines.iter().map(|legs| Self::ToTheLine { body, legs: counted(legs) }));
+            let joints = joints_of_legs(5, 2, dimension);
+            out.extend(joints.iter().map(|legs| Self::ToTheJoint { body, legs: counted(legs) }));
         }
         out
     }

@@ -357,8 +357,8 @@ fn set_aside(v: &Verification) -> String {
 /// Compares platforms A and B, described in the same two frames and units.
 ///
 /// The leg map `s' = A s + c` is derived from the leg vectors alone. At each sample pose the best method solves the
-/// forward kinematics of A. That for B is solved by the general method, which does not use the map. The complex poses
-/// are then matched. Poses without partner that joints in double precision do not determine are excluded
+/// forward kinematics of A. The general method, which does not use the map, solves it for B. The complex poses are
+/// then matched. Poses without partner that joints in double precision do not determine are excluded
 /// (`docs/theory/leg-maps.md`). A regular map and perfect matchings of the other poses give `Equivalent`.
 ///
 /// # Errors

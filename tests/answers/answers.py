@@ -42,6 +42,9 @@ CALLS = """
 1 export {rbt-octahedral} --to all --hole-diameter 20 --ball-diameter 25 --margin 30 -o {exported}
 0 equivalents-family {rbt-octahedral}
 0 equivalents-family {rbt-octahedral} --pattern S123456 --offsets=0.2,0.21,0.22,0.2,0.2,0.23
+0 at {bench-octahedral} --wrench 0,0,-10,0,0,0 --leg 2 --nearest-singular
+0 at {symmetric-hexapod} --forces 1,1,1,1,1,1 --point 0,0,20 --axes platform
+0 ik {symmetric-hexapod} --pose 0,0,360,5,0,0 --rotation-order pi --pivot 0,0,20 --angle-unit rad
 0 limits {bench-octahedral}
 0 limits {rbt-octahedral}
 1 limits {bench-octahedral} --at 0,0,900,0,0,0 --starts 1

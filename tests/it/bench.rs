@@ -11,7 +11,17 @@ use super::evidence::size;
 
 fn plan(class: Class, count: u64) -> Plan {
     let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
-    Plan { class, lengths, count, first: 0, seed: 1, threads: 2, count_poses: false, recheck_every: 10 }
+    Plan {
+        class,
+        lengths,
+        digits: None,
+        count,
+        first: 0,
+        seed: 1,
+        threads: 2,
+        count_poses: false,
+        recheck_every: 10,
+    }
 }
 
 fn short(class: Class, count: u64) -> BenchReport {
@@ -105,6 +115,19 @@ fn poses_far_out_are_found_and_certified() {
         assert!(report.passed(), "{class}: {:?}", report.failures);
         assert_eq!((report.complete, report.certified), (1, 1), "{class} {first}");
         assert_eq!(report.certified_roots, report.roots, "{class} {first}");
+    }
+}
+
+/// Rounded joints take the class from the design; far poses, or a neighbour of the class, keep the proof.
+#[test]
+fn rounded_members_of_special_classes_have_all_real_poses_proved() {
+    for class in [Class::GriffisDuffy, Class::Hexapod, Class::Similar, Class::Affine, Class::Collinear] {
+        let rounded = Plan { digits: Some(12), ..plan(class, 2) };
+        let report = run(&rounded, solver(None).as_ref(), &Homotopy).unwrap();
+        assert!(report.passed(), "{class}: {:?}", report.failures);
+        assert_eq!((report.proved, report.proved_bounded, report.open.len()), (0, 2, 0), "{class}");
+        let whole = run(&plan(class, 2), solver(None).as_ref(), &Homotopy).unwrap();
+        assert_eq!((whole.proved, whole.proved_bounded), (2, 0), "{class}");
     }
 }
 

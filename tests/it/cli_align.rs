@@ -176,5 +176,5 @@ fn a_symmetric_hexapod_meets_itself_six_times() {
     let text = String::from_utf8(out.stdout).unwrap();
     assert_eq!(out.status.code(), Some(3), "{text}");
     assert!(text.contains("6 pairs of rigid motions make the second design equivalent"), "{text}");
-    assert!(text.contains("there are no others") && text.contains("platform  turn by"), "{text}");
+    assert!(text.contains("there are no others") && text.contains("platform  rotate by"), "{text}");
 }

@@ -68,8 +68,8 @@ fn a_distance_equal_to_the_least_one_is_at_its_limit() {
     let (code, doc) = assess(&with("6.0"));
     assert_eq!((code, platform(&doc)), (Some(0), (Some(true), Some(true))), "{doc}");
     let text = String::from_utf8(equipod(&["assess", &with("6.0")]).stdout).unwrap();
-    let row = text.lines().find(|l| l.starts_with("platform_spacing")).unwrap();
-    assert!(row.starts_with("platform_spacing =") && !row.contains("-0.0"), "{text}");
+    let row = text.lines().find(|l| l.starts_with("spacing of platform joints")).unwrap();
+    assert!(row.starts_with("spacing of platform joints  =") && !row.contains("-0.0"), "{text}");
     let (code, doc) = assess(&with("6.000000001"));
     assert_eq!((code, platform(&doc)), (Some(1), (Some(false), Some(false))), "{doc}");
     let (code, doc) = assess(&with("5.999999999"));
@@ -192,7 +192,10 @@ fn a_stiffness_that_cells_do_not_decide_is_not_called_met() {
     let out = equipod(&words);
     let text = String::from_utf8(out.stdout).unwrap();
     assert_eq!(out.status.code(), Some(3), "{text}");
-    assert!(text.lines().next().unwrap().contains("not all is proved: angular_stiffness"), "{text}");
+    assert!(
+        text.lines().next().unwrap().contains("not all is proved: stiffness against torque, minimum"),
+        "{text}"
+    );
     // on a single pose the same requirement is decided
     let home = text_of_home(&path);
     std::fs::write(&path, home).unwrap();

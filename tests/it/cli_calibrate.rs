@@ -359,7 +359,7 @@ fn the_text_says_what_was_found() {
         "pose left out",
         "chi-square",
         "platform.B6",
-        "offset 6",
+        "leg offset [mm]",
         "observability: volume",
         "poses to measure next",
     ] {

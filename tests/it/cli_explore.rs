@@ -382,7 +382,7 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     let least = |of: &Value| of["requirements"][1]["margin"].as_f64().unwrap();
     assert!((least(&assessed) - least(&d["assessment"])).abs() < 1e-6);
     assert!(read(&folder, "report.md").contains("## Requirements\n\nlimited, separate joints meets all"));
-    assert!(read(&folder, "report.html").contains("leg_too_long"));
+    assert!(read(&folder, "report.html").contains("leg length, maximum"));
     // limits that nothing can meet: no platform, and no green word
     let (code, d, folder) = run(&limited().replace("[9.0, 18.0]", "[9.0, 9.1]"), "unmet");
     assert_eq!((code, d["verdict"].as_str()), (Some(1), Some("infeasible")), "{d}");

@@ -48,7 +48,7 @@ fn every_axis_has_its_range_and_what_ends_it() {
         }
     }
     let text = String::from_utf8(equipod(&["limits", BENCH]).stdout).unwrap();
-    assert!(text.contains("yaw") && text.contains("leg_too_long (leg"), "{text}");
+    assert!(text.contains("yaw") && text.contains("leg length, maximum (leg"), "{text}");
 }
 
 #[test]

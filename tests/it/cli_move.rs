@@ -271,3 +271,79 @@ fn parameters_holes_and_lengths_may_be_expressions() {
     assert!(decimals.as_array().is_some_and(|list| list.len() == 16));
     assert_eq!(lengths("99/5,18,36/2,17,149/10,89/5"), decimals);
 }
+
+#[test]
+fn lengths_on_the_command_line_are_converted_exactly_to_the_unit_of_the_design() {
+    let design = "designs/rbt-octahedral.toml";
+    let asked = |words: &[&str]| super::cli_frame::asked(words);
+    let lengths = |design: &str, text: &str| asked(&["fk", design, "--lengths", text]);
+    let own = lengths(design, "19.8,18,18,17,14.9,17.8").1["solutions"].clone();
+    let mixed = lengths(design, "99/5 mm,1.8 cm,18,17/1000 m,745/1270 in,8 mm + 0.98 cm");
+    assert_eq!(mixed.1["solutions"], own);
+    // an edge of the base is 12 long, one of the platform 6
+    let family = |design: &str, offsets: &str| {
+        let words =
+            ["equivalents", "family", design, "--pattern", "S123456", "--offsets", offsets, "--explain"];
+        asked(&words)
+    };
+    let (code, shares) = family(design, "1/5,1/5,1/5,1/5,1/5,1/5");
+    assert_eq!(code, Some(0));
+    let (code, ways) = family(design, "12/5 mm,6/5mm,6/25 cm,6/5 mm,12/5 mm,6/127 in");
+    assert_eq!((code, &ways["derivation"]), (Some(0), &shares["derivation"]));
+    // a label that names no length has no conversion
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plain.toml");
+    let text = std::fs::read_to_string(design).unwrap().replace("units = \"mm\"", "units = \"edges\"");
+    std::fs::write(&path, text).unwrap();
+    let plain = path.to_str().unwrap();
+    for (code, answer) in
+        [lengths(plain, "19.8 mm,18,18,17,14.9,17.8"), family(plain, "12/5 mm,0.2,0.2,0.2,0.2,0.2")]
+    {
+        let message = answer["error"]["message"].as_str().unwrap();
+        assert_eq!(code, Some(2));
+        assert!(message.contains("no known length"), "{message}");
+    }
+    let out = ["build", "round", plain, "--grid", "1/2 in"];
+    let (code, answer) = asked(&out);
+    assert_eq!((code, answer["error"]["code"].as_str()), (Some(2), Some("length::unit")));
+}
+
+/// Two triangles with square roots, joined as in the topologies with three joints on each body.
+fn triangles(base: [usize; 6], platform: [usize; 6]) -> String {
+    let legs: Vec<String> =
+        base.iter().zip(platform).map(|(a, b)| format!("[\"A{}\", \"B{}\"]", a + 1, b + 1)).collect();
+    format!(
+        "name = \"triangles\"\nunits = \"mm\"\nlegs = [{}]\n[base]\nA1 = [0, 0, 0]\nA2 = [12, 0, 0]\nA3 = [6, \"6*sqrt(3)\", 1]\n[platform]\nB1 = [0, 0, 0]\nB2 = [6, 0, 0]\nB3 = [2, \"3*sqrt(3)\", 0.5]\n[home]\nposition = [3, 1.5, 11]\nrpy_deg = [3, 5, 40]\n",
+        legs.join(", ")
+    )
+}
+
+/// T32, T33 and T34: moved joints stay on lines and planes of the others exactly, so that equivalence is proved about
+/// exact joints.
+#[test]
+fn platforms_of_every_3_3_topology_that_are_found_are_exact() {
+    let topologies = [
+        ([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 0]),
+        ([0, 0, 0, 1, 1, 2], [0, 1, 2, 0, 1, 2]),
+        ([0, 0, 1, 1, 2, 2], [0, 1, 0, 2, 1, 2]),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let mut on_lines = 0;
+    for (k, (base, platform)) in topologies.into_iter().enumerate() {
+        let given = folder.path().join(format!("{k}.toml"));
+        std::fs::write(&given, triangles(base, platform)).unwrap();
+        let (given, out) = (given.to_str().unwrap(), folder.path().join(format!("found-{k}")));
+        let asked = ["--search", "--no-shared-joints", "--spacing", "12/25 mm", "-o", out.to_str().unwrap()];
+        let found = equipod(&[&["equivalents", "move", given, "--json"], &asked[..]].concat());
+        assert_eq!(found.status.code(), Some(0), "{}", String::from_utf8_lossy(&found.stderr));
+        let found = document(&found);
+        let designs = found["designs"].as_array().unwrap();
+        assert!(!designs.is_empty());
+        for (design, path) in designs.iter().zip(found["paths"].as_array().unwrap()) {
+            let text = std::fs::read_to_string(path.as_str().unwrap()).unwrap();
+            on_lines += text.matches("{ on = ").count();
+            assert_eq!(design["level"], "exact_joints", "{text}");
+        }
+    }
+    assert!(on_lines >= 12, "{on_lines}");
+}

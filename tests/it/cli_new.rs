@@ -41,7 +41,11 @@ fn sizes_make_a_design_that_every_command_takes() {
     let out = equipod(&[&["new"], &SIZES[..], &["-o", file]].concat());
     let said = String::from_utf8(out.stdout).unwrap();
     assert_eq!(out.status.code(), Some(0));
-    assert!(said.contains("z 400.000 mm") && said.contains("leg lengths at home: "), "{said}");
+    assert!(
+        said.contains("home: x,y,z,roll,pitch,yaw = 0,0,400,0,0,0 (mm, deg)")
+            && said.contains("leg lengths at home: "),
+        "{said}"
+    );
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(
         text.contains("base_radius = 500") && text.contains("mirror = ") && text.contains("turn = "),

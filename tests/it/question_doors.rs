@@ -1,7 +1,8 @@
 //! One question, one function: the commands give the answers of the library.
 
 use equipod::methods::questions::{
-    ExploreOptions, ExploreProgress, ExploreReport, LocusOptions, MoveWishes, ReplaceableOptions,
+    ExploreOptions, ExploreProgress, ExploreReport, LocusOptions, MoveOptions, MoveWishes, NoMoves,
+    ReplaceableOptions,
 };
 use equipod::methods::synthesis::components::ComponentOptions;
 use equipod::methods::synthesis::relocate::search::MoveSearchOptions;
@@ -57,6 +58,32 @@ fn replaceable_legs_and_the_platforms_made_of_them_are_those_of_the_commands() {
     let names: Vec<Value> =
         found.platforms.iter().map(|p| json!(p.design.as_ref().map(|d| &d.name))).collect();
     assert!(!names.is_empty() && said.into_iter().eq(&names), "{names:?}");
+}
+
+#[test]
+fn moves_of_legs_are_those_of_the_command() {
+    let file = "designs/rbt-octahedral.toml";
+    let design = Design::load(file).unwrap();
+    let moves = ["1:P1-P2:P4:1/5", "2:P2:P4-P5:1/4"];
+    for together in [false, true] {
+        let requests: Vec<_> = moves.iter().map(|text| text.parse().unwrap()).collect();
+        let options = MoveOptions { together, ..MoveOptions::default() };
+        let found = design.move_legs(&requests, options).unwrap();
+        let mut args = vec!["equivalents", "move", file, "--move", moves[0], "--move", moves[1]];
+        args.extend(together.then_some("--together"));
+        let (code, answer) = asked(&args);
+        assert_eq!((code, found.is_regular()), (Some(0), true));
+        assert_eq!(answer["outcome"], json!(found.outcome()));
+        assert_eq!(answer["steps"].as_array().unwrap().len(), found.steps.len());
+        assert_eq!(answer["det"], json!(found.chain.direct.determinant));
+        let lengths = found.design.as_ref().and_then(|d| d.lengths).map(|l| l.get());
+        assert_eq!(answer["design"]["lengths"], json!(lengths));
+    }
+    // what is refused names the families that there are, whoever asks
+    let refused = design.move_legs(&["1:9:0.2".parse().unwrap()], MoveOptions::default());
+    let Err(NoMoves::NoSuchFamily { families, .. }) = refused else { panic!("{refused:?}") };
+    let (code, answer) = asked(&["equivalents", "move", file, "--move", "1:9:0.2"]);
+    assert_eq!((code, &answer["error"]["help"]), (Some(2), &json!(families)));
 }
 
 #[test]

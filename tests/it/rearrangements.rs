@@ -1,6 +1,8 @@
 //! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the
 //! documentation.
 
+use std::path::Path;
+
 use equipod::methods::equivalence::{InconclusiveReason, Verdict, verify};
 use equipod::methods::fk::FkOptions;
 use equipod::methods::geom::{Pose, SamplePlan, random_rotation};
@@ -128,14 +130,21 @@ fn all_three_topologies_with_three_joints_a_body_can_be_freed() {
     );
 }
 
-fn page() -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/theory/rearrangements.md");
-    std::fs::read_to_string(path).unwrap()
+fn document(name: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(name)).unwrap()
+}
+
+/// Compares the lines of a table that begin with a topology with those computed.
+fn assert_table(name: &str, begin: &str, expected: &[String]) {
+    let text = document(name);
+    let lines: Vec<&str> = text.lines().filter(|l| l.starts_with(begin)).collect();
+    let first = lines.iter().zip(expected).find(|(l, e)| l != e);
+    assert!(lines == expected, "{name} should have:\n{}\nfirst difference: {first:?}", expected.join("\n"));
 }
 
 fn reason(r: &Rearrangement) -> String {
     match &r.octahedral {
-        Reduction::Octahedral(_) => "**yes**".to_string(),
+        Reduction::Octahedral(_) => "yes".to_string(),
         Reduction::Not(why) => why.name().replace('_', " "),
     }
 }
@@ -157,7 +166,6 @@ fn argument(r: &Rearrangement) -> &'static str {
 
 #[test]
 fn the_tables_of_the_documentation_are_those_computed() {
-    let text = page();
     let all = rearrangements().unwrap();
     let mut expected = Vec::new();
     for t in catalogue() {
@@ -175,18 +183,17 @@ fn the_tables_of_the_documentation_are_those_computed() {
             if both.is_some() { "planes" } else { "no" }
         ));
     }
-    for r in &all {
-        let [base, platform] = r.planar.names();
-        expected.push(format!(
-            "| {} | {base} | {platform} | {} | {} | {} | {} |",
-            r.topology.id(),
-            r.family_names(),
-            argument(r),
-            sharing(r),
-            reason(r)
-        ));
-    }
-    let lines: Vec<&str> = text.lines().filter(|l| l.starts_with("| T")).collect();
-    let first = lines.iter().zip(&expected).find(|(l, e)| l != e);
-    assert!(lines == expected, "the tables should be:\n{}\nfirst difference: {first:?}", expected.join("\n"));
+    assert_table("theory/rearrangements.md", "| T", &expected);
+    let cases: Vec<String> = all
+        .iter()
+        .map(|r| {
+            let [base, platform] = r.planar.names();
+            // a list has commas
+            let families = Some(r.family_names()).filter(|names| names.contains(','));
+            let families = families.map_or_else(|| r.family_names(), |names| format!("\"{names}\""));
+            let (id, argument, sharing, reason) = (r.topology.id(), argument(r), sharing(r), reason(r));
+            format!("{id},{base},{platform},{families},{argument},{sharing},{reason}")
+        })
+        .collect();
+    assert_table("evidence/rearrangements.csv", "T", &cases);
 }

@@ -36,6 +36,27 @@ def slider_moves_det(shown, program, folder):
     return det
 
 
+def derivation_is_that_of_the_command(shown, program, folder):
+    """The steps for the offsets shown are those of `equivalents family --explain`, and follow a slider."""
+    page = shown.page
+    page.locator("#derivation-details summary").first.click()
+    texts = []
+    for key in ("ArrowRight", "ArrowLeft"):
+        page.focus("#offset-t1")
+        page.keyboard.press(key)
+        shown.settle()
+        page.wait_for_function("document.getElementById('derivation').textContent.includes('det A')")
+        original = shown.download("original, TOML", folder / "derived.toml")
+        chosen = ["--pattern", page.input_value("#pattern"), f"--offsets={numbers(shown.offsets())}"]
+        steps = program.json("equivalents", "family", original, *chosen, "--explain")["derivation"]
+        text = page.text_content("#derivation")
+        assert all(f"leg {step['leg']}: {step['moved']}" in text for step in steps["moves"]), text
+        assert ("exact numbers" in text) == steps["exact"], text[:200]
+        texts.append(text)
+    assert texts[0] != texts[1], "the steps stay while an offset moves"
+    page.locator("#derivation-details summary").first.click()
+
+
 def singular_at_the_mark(shown, program, folder):
     """The button of a slider puts it where det A vanishes, and `check` agrees."""
     shown.page.locator(".slider button").first.click()

@@ -42,6 +42,7 @@ def octahedral(chromium, program, folder, pictures):
         access.contrast(shown)
         access.spoken(shown)
         behaviour.slider_moves_det(shown, program, folder)
+        behaviour.derivation_is_that_of_the_command(shown, program, folder)
         behaviour.pointer_drags_a_leg(shown)
         behaviour.no_motion_when_regular(shown)
         behaviour.confirmed_by_the_equivalent(shown)

@@ -20,6 +20,7 @@ ANSWERS = {
     "build-tolerances": "TolerancesAnswer",
     "calibrate": "CalibrateAnswer",
     "check": "CheckAnswer",
+    "check-pentapod": "PentapodAnswer",
     "compare": "CompareAnswer",
     "equivalents-family": "FamilyAnswer",
     "equivalents-map": "MapAnswer",

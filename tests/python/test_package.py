@@ -234,6 +234,58 @@ def test_forms_of_poses_agree_with_scipy():
         assert np.allclose(design.ik(rigid), design.ik(given[0]))
 
 
+def test_conventions_agree_with_scipy_and_give_poses_back():
+    rng = np.random.default_rng(8)
+    home = equipod.pose([1.0, 2.0, 300.0], rpy=[0.1, -0.2, 0.3])
+    axes = [a + b + c for a in "xyz" for b in "xyz" for c in "xyz" if a != b != c]
+    for order in axes:
+        for frame, letters in (("fixed", order), ("moving", order.upper())):
+            frames = equipod.Frames(rotation_order=f"{frame}-{order}")
+            numbers = np.concatenate([rng.normal(size=(20, 3)), rng.uniform(-180, 180, (20, 3))], axis=-1)
+            poses = frames.poses(numbers)
+            expected = spatial.Rotation.from_euler(letters, numbers[:, 3:], degrees=True).as_matrix()
+            assert np.allclose(poses[:, :3, :3], expected, atol=1e-14), frames
+            own = equipod.Frames(
+                rotation_order=f"{frame}-{order}", angles="rad", quaternion="xyzw", pivot=(1.0, 2.0, 3.0), relative_to="home", up="y"
+            )
+            for form in ("angles", "quaternion"):
+                again = own.poses(own.numbers(poses, home=home, form=form), home=home)
+                assert np.allclose(again, poses, atol=1e-12), (own, form)
+    vectors = equipod.Frames(rotation_order="vector", angles="rad")
+    numbers = np.concatenate([np.zeros((20, 3)), rng.normal(size=(20, 3))], axis=-1)
+    assert np.allclose(vectors.poses(numbers)[:, :3, :3], spatial.Rotation.from_rotvec(numbers[:, 3:]).as_matrix())
+    assert not equipod.Frames().angles_unique(equipod.pose(rpy=[0, 90, 0], degrees=True))
+    for bad in (equipod.Frames(rotation_order="xyz"), equipod.Frames(up="x")):
+        with pytest.raises(equipod.DesignError):
+            bad.poses(np.zeros(6))
+    with pytest.raises(equipod.DesignError):
+        equipod.Frames(relative_to="home").poses(np.zeros(6))
+
+
+def test_a_design_has_its_own_convention_and_commands_take_matrices_all_the_same():
+    text = (DESIGNS / "presets" / "bench-l16.toml").read_text(encoding="utf-8")
+    table = '[frames]\nrotation_order = "pi"\npivot = [0.0, 0.0, 40.0]\nrelative_to = "home"\nup = "y"\n'
+    design, plain = equipod.Design.loads(text + "\n" + table), equipod.Design.loads(text)
+    assert design.frames == equipod.Frames(rotation_order="moving-xyz", pivot=(0.0, 0.0, 40.0), relative_to="home", up="y")
+    assert plain.frames == equipod.Frames()
+    assert np.allclose(design.poses(np.zeros(6)), design.home)
+    pose = design.home.copy()
+    pose[2, 3] += 5.0
+    assert np.allclose(design.pose_numbers(pose), [0, 5, 0, 0, 0, 0], atol=1e-12)
+    own, usual = design.limits(pose), plain.limits(pose)
+    assert own.pose == usual.pose and own.in_frames != usual.in_frames
+    found = design.at(pose, wrench=[0, 0, -10, 0, 0, 0], axes="platform", leg=2, nearest_singular=True)
+    assert found.stuck.leg == 2 and found.nearest_singular.distance > 0
+    # the wrench has the axes of the convention, in which y is up and z is our -y, and is about its pivot
+    same = plain.at(pose, wrench=[0, 10, 0, 0, 0, 0], point=[0, -40, 0])
+    assert np.allclose(found.held[-1].forces, same.held[-1].forces, atol=1e-9)
+    forces = np.array(plain.at(pose, wrench=[0, 10, 0, 0, 0, 0]).held[-1].forces)
+    back = plain.at(pose, forces=forces).wrench
+    assert np.allclose(back.force, [0, 10, 0], atol=1e-9) and np.allclose(back.torque, 0, atol=1e-6)
+    with pytest.raises(equipod.DesignError):
+        plain.at(pose, wrench=[1, 2, 3])
+
+
 def test_bad_input_is_refused_with_code_place_and_help(octahedral):
     with pytest.raises(equipod.DesignError) as caught:
         equipod.Design.loads("name = 'slip'\nunit = 'mm'\n")

@@ -8,7 +8,7 @@ use thiserror::Error;
 #[cfg(all(feature = "files", feature = "optimize"))]
 use super::SingularHome;
 #[cfg(feature = "files")]
-use files::design::{JointError, Violation};
+use files::design::{InvalidShare, JointError, Violation};
 #[cfg(feature = "files")]
 use files::export::{NoExport, Unsupported};
 use fk::FkError;
@@ -132,6 +132,10 @@ pub enum Error {
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Offsets(#[from] InstantiateError),
+    /// A text that is no offset.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    OffsetText(#[from] InvalidShare),
     /// The design has no requirement to assess.
     #[cfg(feature = "files")]
     #[error("the design requires nothing: add [hardware] with lengths, swing, diameters or greatest forces")]

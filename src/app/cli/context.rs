@@ -11,8 +11,8 @@ use super::failure::Failure;
 use super::files;
 use super::rows;
 use ::files::design::{FiveLegs, Format, Warning, parse_five_legs};
-use ask::Design;
 use ask::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
+use ask::{Design, PoseFrames};
 use machine::coupled::CoupledLegs;
 use machine::rotary::RotaryPlatform;
 use records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
@@ -29,6 +29,9 @@ pub(crate) struct Global {
     /// Write no warnings and no progress to standard error
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
+    /// Significant digits of the numbers printed for people; --json and tables always have all of them
+    #[arg(long, global = true, value_name = "N", default_value_t = sheet::DIGITS, value_parser = clap::value_parser!(u8).range(1..=17))]
+    pub(crate) digits: u8,
 }
 
 /// A warning and the file it is about.
@@ -46,6 +49,7 @@ pub(crate) struct Context {
     seed_taken: Cell<bool>,
     json: bool,
     quiet: bool,
+    digits: usize,
     /// Options that were typed, by their identifiers.
     typed: Vec<String>,
     warnings: Vec<FileWarning>,
@@ -55,12 +59,13 @@ pub(crate) struct Context {
 
 impl Context {
     pub(crate) fn new(global: &Global, matches: &ArgMatches) -> Self {
-        let Global { json, seed, quiet } = *global;
+        let Global { json, seed, quiet, digits } = *global;
         Self {
             seed,
             seed_taken: Cell::new(false),
             json,
             quiet,
+            digits: digits.into(),
             typed: typed(matches),
             warnings: Vec::new(),
             designs: Vec::new(),
@@ -70,7 +75,7 @@ impl Context {
     /// The context of a command without arguments, for tests.
     #[cfg(test)]
     pub(crate) fn silent() -> Self {
-        Self::new(&Global { json: false, seed: 1, quiet: true }, &ArgMatches::default())
+        Self::new(&Global { json: false, seed: 1, quiet: true, digits: 3 }, &ArgMatches::default())
     }
 
     /// Refuses an option that was typed but has no effect for `reason`: no option is silently ignored.
@@ -121,6 +126,11 @@ impl Context {
     /// `--quiet`: no progress on standard error.
     pub(crate) fn quiet(&self) -> bool {
         self.quiet
+    }
+
+    /// `--digits`: of the numbers printed for people.
+    pub(crate) fn digits(&self) -> usize {
+        self.digits
     }
 
     pub(crate) fn warnings(&self) -> &[FileWarning] {
@@ -245,12 +255,13 @@ impl Context {
             Ok((mut design, warnings)) => {
                 self.warn(path, &text, warnings);
                 let mut poses = None;
-                let home = design.home_or_default();
+                let frames =
+                    PoseFrames { convention: design.trajectory_frames(), home: design.home_or_default() };
                 if let Some(trajectory) = &mut design.workspace.trajectory {
                     // the name is relative to the folder of the design
                     let table = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
                     let bytes = files::read_table(&table)?;
-                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", &home, self)?;
+                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", &frames, self)?;
                     trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
                     poses = Some((table, bytes));
                 }

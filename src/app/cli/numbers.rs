@@ -1,6 +1,7 @@
-//! Numbers in options: decimals, or expressions as in design files.
+//! Numbers in options: decimals, or expressions as in design files. Lengths may have a unit behind them.
 
-use files::design::Share;
+use super::failure::Failure;
+use files::design::{Share, length_in};
 use num::surd::Surd;
 
 /// The double nearest to a finite number.
@@ -17,6 +18,64 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     one(text).ok_or_else(|| {
         "this is no finite number, neither a decimal nor an expression such as 12/5".to_owned()
     })
+}
+
+/// A length as it is typed, before the design with its unit is read: `25`, `12/5 mm`, `36/19 in`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Length(String);
+
+/// The value of an option that is one length.
+///
+/// # Errors
+/// What is wrong with the text.
+pub(crate) fn length(text: &str) -> Result<Length, String> {
+    // in some unit it has to be a finite number; whether the design has one is not known yet
+    one_length(text, "mm").map(|_| Length(text.to_owned()))
+}
+
+impl Length {
+    /// In the unit of a design.
+    ///
+    /// # Errors
+    /// A unit, where the label of the design's unit names no known length.
+    pub(crate) fn of(&self, units: &str) -> Result<f64, Failure> {
+        one_length(&self.0, units)
+            .map_err(|why| Failure::refused("length::unit", why).with_help(WITHOUT_UNIT))
+    }
+
+    /// The same of an option that may be absent.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub(crate) fn of_option(option: Option<&Self>, units: &str) -> Result<Option<f64>, Failure> {
+        option.map(|length| length.of(units)).transpose()
+    }
+}
+
+/// What to do about a unit that cannot be converted.
+const WITHOUT_UNIT: &str =
+    "write the number in the unit of the design, or name a unit in the design: units = \"mm\"";
+
+/// The double nearest to a length.
+fn one_length(text: &str, units: &str) -> Result<f64, String> {
+    let value = length_in(text, units).map_err(|why| why.to_string())?.nearest();
+    if value.is_finite() { Ok(value) } else { Err(format!("`{text}` is no finite number")) }
+}
+
+/// So many lengths separated by commas, in the unit of a design; `word` is how many.
+///
+/// # Errors
+/// What is wrong with the text.
+pub(crate) fn lengths<const N: usize>(text: &str, word: &str, units: &str) -> Result<[f64; N], String> {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let fields: [&str; N] =
+        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of {word}", f.len()))?;
+    let mut values = [0.0; N];
+    for (i, field) in fields.iter().enumerate() {
+        values[i] =
+            one_length(field, units).map_err(|why| format!("value {} is not a length: {why}", i + 1))?;
+    }
+    Ok(values)
 }
 
 /// Finite numbers separated by commas.

@@ -1,9 +1,11 @@
 //! Answers and failures to standard output and standard error.
 
-use std::fmt::{Debug, Display};
+use std::borrow::Cow;
+use std::fmt::Debug;
 use std::io;
 
 use serde::Serialize;
+use sheet::Sheet;
 
 use super::context::{Context, FileWarning};
 use super::diagnostic;
@@ -18,12 +20,50 @@ use records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord
 pub(crate) struct Answer {
     pub(crate) exit: Exit,
     record: Box<dyn ErasedRecord>,
-    text: String,
+    text: AnswerText,
+}
+
+/// What people read: a sheet whose numbers are rounded where it is printed, or a text as it is.
+#[derive(Debug)]
+pub(crate) enum AnswerText {
+    Sheet(Sheet),
+    Plain(String),
+}
+
+impl AnswerText {
+    fn with_digits(&self, digits: usize) -> Cow<'_, str> {
+        match self {
+            Self::Sheet(sheet) => format!("{sheet:.digits$}").into(),
+            Self::Plain(text) => text.into(),
+        }
+    }
+}
+
+impl From<Sheet> for AnswerText {
+    fn from(sheet: Sheet) -> Self {
+        Self::Sheet(sheet)
+    }
+}
+
+impl From<String> for AnswerText {
+    fn from(text: String) -> Self {
+        Self::Plain(text)
+    }
+}
+
+impl From<&str> for AnswerText {
+    fn from(text: &str) -> Self {
+        Self::Plain(text.into())
+    }
 }
 
 impl Answer {
-    pub(crate) fn new(exit: Exit, record: impl Serialize + Debug + 'static, text: impl Display) -> Self {
-        Self { exit, record: Box::new(record), text: text.to_string() }
+    pub(crate) fn new(
+        exit: Exit,
+        record: impl Serialize + Debug + 'static,
+        text: impl Into<AnswerText>,
+    ) -> Self {
+        Self { exit, record: Box::new(record), text: text.into() }
     }
 }
 
@@ -55,13 +95,13 @@ impl Output {
 
     pub(crate) fn answer(self, answer: &Answer, context: &Context) -> Exit {
         if !self.json {
+            let text = answer.text.with_digits(context.digits());
             let Some(file) = files::standard_output() else {
-                return write_out(&diagnostic::harmless(&answer.text), answer.exit);
+                return write_out(&diagnostic::harmless(&text), answer.exit);
             };
             // if a file goes to standard output, the text goes to standard error
             if !context.quiet() {
-                let said = answer
-                    .text
+                let said = text
                     .lines()
                     .filter(|line| !["wrote -", "-"].contains(line))
                     .collect::<Vec<_>>()

@@ -5,8 +5,9 @@ use std::path::Path;
 use super::context::Context;
 use super::failure::Failure;
 use super::files;
-use ::files::design::{InvalidSeries, SeriesKind, TimeSeries};
-use platform::geom::{InvalidPose, Pose};
+use ::files::design::{InvalidSeries, SeriesKind, TimeSeries, read_poses, read_poses_with_lengths};
+use ask::PoseFrames;
+use platform::geom::Pose;
 
 /// The description of a table for refusals.
 #[derive(Debug, Clone, Copy)]
@@ -29,23 +30,31 @@ pub(crate) fn read<T>(
     context: &Context,
     record: impl Fn(&str) -> Result<T, String>,
 ) -> Result<TimeSeries<T>, Failure> {
-    read_bytes(kind, table, &files::read_table(table.path)?, context, record)
+    told(kind.read(&files::read_table(table.path)?, record), table, context)
 }
 
-fn read_bytes<T>(
-    kind: SeriesKind,
+/// The table, with its guesses on standard error.
+///
+/// # Errors
+/// Exit 2 with what is wrong with it.
+fn told<T>(
+    read: Result<TimeSeries<T>, InvalidSeries>,
     table: TableName<'_>,
-    bytes: &[u8],
     context: &Context,
-    record: impl Fn(&str) -> Result<T, String>,
 ) -> Result<TimeSeries<T>, Failure> {
     let shown = files::shown(table.path);
-    let series = kind.read(bytes, record).map_err(|why| {
-        let message = match why {
+    let series = read.map_err(|why| {
+        let message = match &why {
             InvalidSeries::Empty => format!("{shown} has no line of numbers"),
             why => format!("{shown}: {why}"),
         };
-        Failure::refused(table.code, message).with_help(format!("write {}", table.form))
+        let help = match &why {
+            InvalidSeries::Order(_) => {
+                "state --rotation-order, such as moving-xyz, fixed-xyz or vector, or rotation_order in [frames]".into()
+            }
+            _ => format!("write {}", table.form),
+        };
+        Failure::refused(table.code, message).with_help(help)
     })?;
     context.note_guesses(&shown, &series.guesses);
     Ok(series)
@@ -58,10 +67,10 @@ fn read_bytes<T>(
 pub(crate) fn poses(
     path: &Path,
     code: &'static str,
-    home: &Pose,
+    frames: &PoseFrames,
     context: &Context,
 ) -> Result<TimeSeries<Pose>, Failure> {
-    poses_of(&files::read_table(path)?, path, code, home, context)
+    poses_of(&files::read_table(path)?, path, code, frames, context)
 }
 
 /// The poses of a table read before.
@@ -72,12 +81,28 @@ pub(crate) fn poses_of(
     bytes: &[u8],
     path: &Path,
     code: &'static str,
-    home: &Pose,
+    frames: &PoseFrames,
     context: &Context,
 ) -> Result<TimeSeries<Pose>, Failure> {
     let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz, or name the columns x,y,z,u,v,w or surge,sway,heave,roll,pitch,yaw";
-    let series = read_bytes(SeriesKind::Poses, TableName { path, code, form }, bytes, context, |line| {
-        line.parse().map_err(|e: InvalidPose| e.to_string())
-    })?;
-    Ok(series.with_home(home))
+    told(read_poses(bytes, &frames.convention, &frames.home), TableName { path, code, form }, context)
+}
+
+/// The poses of a table with six lengths each.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn poses_with_lengths(
+    path: &Path,
+    code: &'static str,
+    frames: &PoseFrames,
+    context: &Context,
+) -> Result<TimeSeries<(Pose, [f64; 6])>, Failure> {
+    let form = "a pose and six lengths a line: x,y,z,roll_deg,pitch_deg,yaw_deg,l1,..,l6 or x,y,z,qw,qx,qy,qz,l1,..,l6";
+    let bytes = files::read_table(path)?;
+    told(
+        read_poses_with_lengths(&bytes, &frames.convention, &frames.home),
+        TableName { path, code, form },
+        context,
+    )
 }

@@ -156,6 +156,7 @@ struct Recorded {
     modes: Value,
     plane: Option<Value>,
     motion: Value,
+    derivation: Option<Value>,
     designs: RecordedDesigns,
 }
 
@@ -188,6 +189,7 @@ fn recorded(session: &Session) -> Recorded {
         }),
         plane: two.map(|s| session.reply(plane(s.into()))),
         motion: session.reply(PageRequest::Motion { pose: home, which: moving, chosen: chosen.clone() }),
+        derivation: chosen.clone().map(|chosen| session.reply(PageRequest::Derivation { chosen })),
         designs: RecordedDesigns {
             first: design(Which::First),
             second: chosen.as_ref().map(|_| design(Which::Second)),

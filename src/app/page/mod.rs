@@ -5,6 +5,7 @@
 //! written. The functions here map text to text, without access to files.
 
 mod begin;
+mod derivation;
 mod feasible;
 mod html;
 #[cfg(not(target_arch = "wasm32"))]

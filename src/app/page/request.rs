@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::{begin, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
+use super::{
+    begin, derivation, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst,
+};
 use ask::design::parse_ideal;
 use files::design::Format;
 use machine::requirements::AssessOptions;
@@ -60,6 +62,8 @@ pub(super) enum PageRequest {
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
     Confirm { pose: PoseRecord, chosen: Chosen },
+    /// How the leg map follows from coplanar joints.
+    Derivation { chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
     /// Violated requirements over two offsets, at the poses that `assess` with this number of points evaluates before
@@ -201,6 +205,7 @@ impl Session {
                 modes::confirm(self.first().manipulator(), second.manipulator(), &Pose::from(&pose))
                     .map(value)
             }
+            PageRequest::Derivation { chosen } => derivation::record(self, &chosen.equivalent()?).map(value),
             PageRequest::Plane { chosen, axes, range, points } => {
                 plane::record(&chosen.equivalent()?, axes, range, points).map(value)
             }

@@ -10,7 +10,7 @@ use super::session::{Equivalent, Session};
 use ask::Design;
 use machine::requirements::{Margin, Term, TermKind, Terms};
 use machine::rotary::RotaryPlatform;
-use platform::geom::Pose;
+use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
 use synthesis::AffineLegMap;
@@ -161,7 +161,7 @@ fn platform(
 }
 
 fn cranks(design: &Design, platform: &RotaryPlatform, at: &Pose) -> CranksRecord {
-    let found = RotaryIkRecord::new(design, platform, at);
+    let found = RotaryIkRecord::new(design, platform, at, &design.pose_frames(PoseConvention::default()));
     let place = |(i, crank): (usize, CrankRecord)| CrankPlace {
         other_tip: platform.tip(i, crank.other_angle_deg.to_radians()).coords.into(),
         crank,

@@ -587,3 +587,28 @@ fn the_page_says_of_the_joints_of_the_file_what_check_says() {
     }
     assert_eq!(opened("griffis-duffy-rounded")["reason"], "singular to the digits given (0.0005 mm)");
 }
+
+/// The steps shown are those of `equivalents family --explain` at the offsets asked for, with escaped names.
+#[test]
+fn the_derivation_is_the_sheet_of_the_command() {
+    let renamed = OCTAHEDRAL.replacen("name = \"", "name = \"<b>&", 1);
+    let session = session(&renamed);
+    let chosen = json!({"pattern": "S123456", "offsets": [0.25, 0.25, 0.25, 0.25, 0.25, 0.25]});
+    let found = ask(&session, &json!({"op": "derivation", "chosen": chosen}));
+    let html = found["html"].as_str().unwrap();
+    assert!(!html.contains("<b>") && html.contains("&lt;b&gt;&amp;"), "{html}");
+    // (3/4)^6 - (1/4)^6
+    for part in ["Cayley-Menger", "det A is their difference, 91/512", "equivalent"] {
+        assert!(html.contains(part), "{part}: {html}");
+    }
+    let halves = json!({"pattern": "S123456", "offsets": [0.5, 0.5, 0.5, 0.5, 0.5, 0.5]});
+    let singular = ask(&session, &json!({"op": "derivation", "chosen": halves}));
+    assert!(singular["html"].as_str().unwrap().contains("0: singular"), "{singular}");
+    let general = ask(&Session::new(design(GENERAL)), &json!({"op": "derivation", "chosen": chosen}));
+    assert_eq!(general["error"]["code"], "offsets");
+    let text = page(&session, None);
+    assert!(
+        text.contains("Cayley-Menger") && !text.contains("<b>&"),
+        "the page without a core has it recorded"
+    );
+}

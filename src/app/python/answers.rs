@@ -17,8 +17,12 @@ use synthesis::LegCorrespondence;
 
 /// The document of an answer about designs, as the command line prints it.
 pub(super) fn document(answer: impl Serialize, designs: &[&Design], seed: Option<u64>) -> PyResult<String> {
-    let whole = Document::new(answer, ProvenanceRecord::of(designs, seed), Vec::new());
-    serde_json::to_string(&whole).map_err(|e| PyRuntimeError::new_err(e.to_string()))
+    as_json(&Document::new(answer, ProvenanceRecord::of(designs, seed), Vec::new()))
+}
+
+/// A record as JSON.
+pub(super) fn as_json(record: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string(record).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }
 
 /// The names of the presets.

@@ -72,10 +72,10 @@ pub(super) fn poses_in(py: Python<'_>, poses: &ArrayView3<'_, f64>) -> PyResult<
 }
 
 /// An array of this shape with these entries, row by row.
-pub(super) fn shaped<D: Dimension>(
+pub(super) fn shaped<T, D: Dimension>(
     shape: impl Into<StrideShape<D>>,
-    entries: Vec<f64>,
-) -> PyResult<Array<f64, D>> {
+    entries: Vec<T>,
+) -> PyResult<Array<T, D>> {
     Array::from_shape_vec(shape, entries).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }
 

@@ -1,7 +1,7 @@
 //! Designs, with the questions about them as methods.
 
 use std::num::NonZeroUsize;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Point3;
 use ndarray::Array2;
@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use super::answers::document;
 use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
+use super::forms::{ConventionWords, words_of};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
 use super::tracker::{NativeTracker, TrackerKind};
 use ask::Design;
@@ -18,13 +19,12 @@ use ask::design::parse_ideal;
 use ask::{Error, Solver, solve_angles};
 use equipod::PRESETS;
 use files::design::Format;
-use fk::{FkOptions, Method, Threads};
+use fk::{FkOptions, Method, PoseCounting, Threads};
 use machine::requirements::{AssessOptions, Terms};
 use machine::rotary::{InvalidRotary, RotaryPlatform, RotaryTracker};
 use num::Cancel;
 use platform::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
 use records::{AssessAnswer, CheckAnswer};
-use synthesis::InstantiateError;
 use synthesis::singularity::SingularityVerdict;
 
 /// A design with `A` and `c` of the leg map to it.
@@ -36,8 +36,8 @@ pub(super) struct NativeDesign {
     design: Arc<Design>,
     /// The cranks, for rods on cranks.
     cranks: Result<Option<RotaryPlatform>, InvalidRotary>,
-    /// Forward kinematics prepared with the default options, for batches.
-    solver: OnceLock<Solver>,
+    /// What the last batch was prepared with, for the next one with the same options.
+    solver: Mutex<Option<(FkOptions, Solver)>>,
 }
 
 /// Crank angles, angles on the other sides, transmissions, margins to the limits; float64, shape (.., 6).
@@ -45,7 +45,7 @@ type CrankArrays<'py> = [Bound<'py, PyArrayDyn<f64>>; 4];
 
 impl NativeDesign {
     pub(super) fn of(design: Design) -> Self {
-        Self { cranks: design.rotary(), design: Arc::new(design), solver: OnceLock::new() }
+        Self { cranks: design.rotary(), design: Arc::new(design), solver: Mutex::default() }
     }
 
     pub(super) fn inner(&self) -> &Design {
@@ -66,6 +66,19 @@ impl NativeDesign {
         if self.design.has_cranks() { Err(refused_for_cranks(py, instead)) } else { Ok(()) }
     }
 
+    /// The design prepared for many lengths; a second batch with the same options finds it prepared.
+    fn prepared(&self, options: FkOptions) -> Solver {
+        let mut kept = self.solver.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some((own, solver)) if *own == options => solver.clone(),
+            _ => {
+                let solver = self.design.solver(options);
+                *kept = Some((options, solver.clone()));
+                solver
+            }
+        }
+    }
+
     fn body(py: Python<'_>, name: &str) -> PyResult<Body> {
         name.parse().map_err(|e: NoSuchBody| refused(py, "unknown_name", &e.to_string()))
     }
@@ -76,6 +89,9 @@ const OF_SINGULARITY: &str = "ask assess, which proves that no pose of the works
 /// The reason why cranks have no question that replaces leg maps.
 pub(super) const OF_LEG_MAPS: &str =
     "leg maps hold between squared lengths of legs, and nothing follows from them for the angles of cranks";
+
+/// The pattern without shared joints.
+const SEPARATE_JOINTS: &str = "S123456";
 
 /// Number of rows of a batch between two checks for a signal; they take milliseconds for the slowest rows.
 const SIGNALS: usize = 64;
@@ -98,8 +114,9 @@ fn points(py: Python<'_>, joints: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Po
     Ok(joints.rows().into_iter().map(|r| Point3::new(r[0], r[1], r[2])).collect())
 }
 
-fn options(py: Python<'_>, seed: u64, method: Option<&str>) -> PyResult<FkOptions> {
-    let options = FkOptions::new().seed(seed);
+fn options(py: Python<'_>, seed: u64, method: Option<&str>, pose_count: bool) -> PyResult<FkOptions> {
+    let counting = if pose_count { PoseCounting::WhenUnproved } else { PoseCounting::Never };
+    let options = FkOptions::new().seed(seed).pose_count(counting);
     match method {
         None => Ok(options),
         Some(name) => {
@@ -166,6 +183,18 @@ impl NativeDesign {
         Ok(Self::of(design))
     }
 
+    /// The design with a joint, `"A1"` or `"base.A1"`, at other coordinates.
+    fn with_joint(&self, py: Python<'_>, name: &str, point: [f64; 3]) -> PyResult<Self> {
+        let mut design = Design::clone(&self.design);
+        design.set_joint(name, point).map_err(|e| raised(py, Error::Joint(e)))?;
+        Ok(Self::of(design))
+    }
+
+    /// Leg lengths of the file, float64, shape (6,); `None` where it has none.
+    fn lengths<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.design.lengths.map(|l| ndarray::Array1::from_iter(l.get()).into_pyarray(py))
+    }
+
     #[getter]
     fn name(&self) -> &str {
         &self.design.name
@@ -192,6 +221,11 @@ impl NativeDesign {
     fn home<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let home = matrices(&[self.design.home_or_default()]);
         home.index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
+    }
+
+    /// The words of the design's own convention for poses.
+    fn frames(&self) -> ConventionWords {
+        words_of(&self.design.frames)
     }
 
     /// The joints of a body, float64, shape (n, 3).
@@ -335,8 +369,9 @@ impl NativeDesign {
         lengths: [f64; 6],
         seed: u64,
         method: Option<&str>,
+        pose_count: bool,
     ) -> PyResult<NativeSolutions> {
-        let options = options(py, seed, method)?;
+        let options = options(py, seed, method, pose_count)?;
         if let Some(platform) = self.cranks(py)? {
             let found = py.detach(|| platform.fk(&lengths, &options)).map_err(|e| raised(py, e.into()))?;
             return Ok(NativeSolutions::new(
@@ -345,28 +380,33 @@ impl NativeDesign {
             ));
         }
         let found = py.detach(|| self.design.fk_with(lengths, options)).map_err(|e| raised(py, e))?;
-        Ok(NativeSolutions::new(found, SolvedFor::Lengths(Arc::clone(&self.design))))
+        Ok(NativeSolutions::new(found, SolvedFor::Lengths(Arc::clone(&self.design), lengths)))
     }
 
-    /// All finite poses for each row of lengths, or of crank angles (n, 6).
+    /// All finite poses with each row of lengths, or of angles of cranks (n, 6); of `real_only` batches the real ones.
+    #[allow(clippy::too_many_arguments, reason = "Python gives each by its name")]
     fn fk_batch<'py>(
         &self,
         py: Python<'py>,
         lengths: PyReadonlyArray2<'py, f64>,
         threads: Option<usize>,
+        seed: u64,
+        method: Option<&str>,
+        pose_count: bool,
+        real_only: bool,
     ) -> PyResult<SolutionArrays<'py>> {
         let rows = lengths_in(py, &lengths.as_array())?;
         let threads = threads_of(py, threads)?;
+        let options = options(py, seed, method, pose_count)?;
         let cancel = Cancel::new();
         let cranks = self.cranks(py)?.cloned();
         let found = py.detach(|| {
             let solved: Box<dyn Iterator<Item = _>> = if let Some(platform) = cranks {
-                Box::new(solve_angles(platform, rows.into_iter(), FkOptions::new(), threads, &cancel))
+                Box::new(solve_angles(platform, rows.into_iter(), options, threads, &cancel))
             } else {
-                let prepared = self.solver.get_or_init(|| self.design.solver(FkOptions::new()));
-                Box::new(prepared.clone().threads(threads).cancel(&cancel).solve_all(rows))
+                Box::new(self.prepared(options).threads(threads).cancel(&cancel).solve_all(rows))
             };
-            let mut found = SolutionColumns::default();
+            let mut found = SolutionColumns::new(real_only);
             for (k, row) in solved.enumerate() {
                 found.push(&row);
                 if k % SIGNALS == 0 && interrupted() {
@@ -460,19 +500,12 @@ impl NativeDesign {
         &self,
         py: Python<'py>,
         pattern: Option<&str>,
-        offsets: Vec<f64>,
+        offsets: Vec<String>,
     ) -> PyResult<WithLegMap<'py>> {
         self.only_of_legs(py, OF_LEG_MAPS)?;
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
-            if let Some(name) = pattern {
-                return Ok(class.build(&name.parse()?, &offsets)?);
-            }
-            let six: [f64; 6] = offsets
-                .as_slice()
-                .try_into()
-                .map_err(|_| InstantiateError::OffsetCount { expected: 6, given: offsets.len() })?;
-            Ok(class.joint_free(six)?)
+            Ok(class.build_at(&pattern.unwrap_or(SEPARATE_JOINTS).parse()?, &offsets)?)
         };
         let (design, map) = py.detach(built).map_err(|e| raised(py, e))?;
         let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);

@@ -109,7 +109,7 @@ fn code_of(error: &Error) -> &'static str {
         Error::Units(_) => "different_units",
         Error::Verify(_) => "verify",
         Error::Pattern(_) => "pattern",
-        Error::Offsets(_) => "offsets",
+        Error::Offsets(_) | Error::OffsetText(_) => "offsets",
         Error::NothingRequired => "nothing_required",
         Error::Export(_) | Error::Format(_) => "export",
         _ => "computation",

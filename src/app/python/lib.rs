@@ -14,6 +14,7 @@ mod command;
 mod design;
 mod failure;
 mod forms;
+mod pentapod;
 mod solutions;
 mod tracker;
 
@@ -36,9 +37,14 @@ mod core {
     #[pymodule_export]
     use super::design::NativeDesign;
     #[pymodule_export]
-    use super::forms::{angles_of, quaternions_of, rotations_of_angles, rotations_of_quaternions};
+    use super::forms::{
+        angles_of, frames_sentence, poses_as_numbers, poses_in_frames, quaternions_of, rotations_of_angles,
+        rotations_of_quaternions,
+    };
     #[pymodule_export]
     use super::main;
+    #[pymodule_export]
+    use super::pentapod::NativeFiveLegs;
     #[pymodule_export]
     use super::solutions::NativeSolutions;
     #[pymodule_export]

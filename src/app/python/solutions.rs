@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use ndarray::{Array1, Array3};
+use ndarray::Array1;
 use num_complex::Complex64;
 use numpy::{IntoPyArray, PyArray1, PyArray3};
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use super::answers::document;
-use super::arrays::complex_matrices;
-use super::failure::raised;
+use super::answers::{as_json, document};
+use super::arrays::{complex_matrices, shaped};
+use super::failure::{raised, refused_for_cranks};
 use ask::Design;
 use ask::Error;
 use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use machine::rotary::RotaryPlatform;
-use records::{FkOneAnswer, SolvedRecord};
+use platform::manipulator::LegLengths;
+use records::{ClosureRecord, FkOneAnswer, RotationPolynomialRecord, SolvedRecord};
 
 /// Code of reality: 1 for a real pose, 0 for a complex one, -1 if undecided.
 fn reality(root: &FkRoot) -> i8 {
@@ -38,8 +38,8 @@ fn completeness(found: &FkSolutions) -> i8 {
 
 /// The input of the solved poses.
 pub(super) enum SolvedFor {
-    /// Leg lengths.
-    Lengths(Arc<Design>),
+    /// Leg lengths, as the legs show them.
+    Lengths(Arc<Design>, [f64; 6]),
     /// Crank angles, radians.
     Angles(Arc<Design>, Box<RotaryPlatform>, [f64; 6]),
 }
@@ -116,17 +116,35 @@ impl NativeSolutions {
         self.found.method.name()
     }
 
+    /// The polynomial in the Cayley parameter c3 of all poses, or why there is none, as JSON.
+    fn rotation_polynomial(&self, py: Python<'_>) -> PyResult<String> {
+        self.of_legs(py)?;
+        as_json(&RotationPolynomialRecord::from(fk::rotation_polynomial(&self.found)))
+    }
+
+    /// The closure polynomial in the squared distance of a base joint and a platform joint, by their numbers, as JSON.
+    fn closure(&self, py: Python<'_>, pair: (usize, usize)) -> PyResult<String> {
+        let (design, lengths) = self.of_legs(py)?;
+        let shown = LegLengths::try_new(lengths).map_err(|e| raised(py, e.into()))?;
+        let distances = shown.without(&design.leg_offsets()).map_err(|e| raised(py, e.into()))?;
+        let found =
+            py.detach(|| fk::closure_between(design.manipulator(), &distances.squared(), &self.found, pair));
+        as_json(&ClosureRecord::new(design, &found))
+    }
+
     /// The document of one set of lengths, certificates included.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         let solved = SolvedRecord::from(&self.found);
         let (design, answer) = match &self.of {
-            SolvedFor::Lengths(design) => {
-                let solved = solved.with_real_poses(design.manipulator(), &design.home_or_default());
+            SolvedFor::Lengths(design, _) => {
+                let frames = design.pose_frames(PoseConvention::default());
+                let solved = solved.with_real_poses(design.manipulator(), &frames);
                 (design, FkOneAnswer::from(solved))
             }
             SolvedFor::Angles(design, platform, angles) => {
                 let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
-                let solved = solved.with_real_poses(&tips, &design.home_or_default());
+                let frames = design.pose_frames(PoseConvention::default());
+                let solved = solved.with_real_poses(&tips, &frames);
                 let solved = solved.with_elbows(platform, angles);
                 let symmetric_finite = platform.symmetric_pose_count(angles);
                 let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
@@ -138,6 +156,14 @@ impl NativeSolutions {
 }
 
 impl NativeSolutions {
+    /// Design and lengths of legs; cranks have no polynomials.
+    fn of_legs(&self, py: Python<'_>) -> PyResult<(&Design, [f64; 6])> {
+        match &self.of {
+            SolvedFor::Lengths(design, lengths) => Ok((design, *lengths)),
+            SolvedFor::Angles(..) => Err(refused_for_cranks(py, "ask `record` for the poses")),
+        }
+    }
+
     fn column<'py, T: numpy::Element>(
         &self,
         py: Python<'py>,
@@ -150,8 +176,14 @@ impl NativeSolutions {
 /// The poses of many sets of leg lengths, one after the other, as columns.
 #[derive(Default)]
 pub(super) struct SolutionColumns {
-    /// The transforms row by row, complex 4 x 4.
+    /// Real poses alone are kept.
+    real_only: bool,
+    /// Row by row, complex 4 x 4; empty where real poses alone are kept.
     transforms: Vec<Complex64>,
+    /// Row by row, 4 x 4, where real poses alone are kept.
+    real_transforms: Vec<f64>,
+    /// Poses of each row of which it is not decided whether they are real.
+    undecided: Vec<u32>,
     reality: Vec<i8>,
     certified: Vec<bool>,
     residual: Vec<f64>,
@@ -168,29 +200,39 @@ pub(super) struct SolutionColumns {
 
 /// Transforms, reality, certified, residual, multiplicity; offsets, completeness and reason of each row; the reasons.
 pub(super) type SolutionArrays<'py> = (
-    Bound<'py, PyArray3<Complex64>>,
+    Bound<'py, PyAny>,
     Bound<'py, PyArray1<i8>>,
     Bound<'py, PyArray1<bool>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i8>>,
+    Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray1<i64>>,
     Vec<String>,
 );
 
 impl SolutionColumns {
+    pub(super) fn new(real_only: bool) -> Self {
+        Self { real_only, ..Self::default() }
+    }
+
     /// Appends the answer of the next row; certificates are dropped.
     pub(super) fn push(&mut self, row: &Result<FkSolutions, Error>) {
+        let mut undecided = 0;
         let word = match row {
             Ok(found) => {
                 for root in &found.roots {
-                    self.push_root(root);
+                    undecided += u32::from(root.reality == Reality::Undecided);
+                    if !self.real_only || root.reality == Reality::Real {
+                        self.push_root(root);
+                    }
                 }
                 completeness(found)
             }
             Err(_) => -1,
         };
+        self.undecided.push(undecided);
         self.ends.push(self.reality.len() as i64);
         self.completeness.push(word);
         let place = self.place_of_reason(row);
@@ -228,7 +270,11 @@ impl SolutionColumns {
             matrix[4 * i + 3] = p[i];
         }
         matrix[15] = Complex64::ONE;
-        self.transforms.extend_from_slice(&matrix);
+        if self.real_only {
+            self.real_transforms.extend(matrix.map(|z| z.re));
+        } else {
+            self.transforms.extend_from_slice(&matrix);
+        }
         self.reality.push(reality(root));
         self.certified.push(root.certified());
         self.residual.push(root.residual);
@@ -236,18 +282,22 @@ impl SolutionColumns {
     }
 
     pub(super) fn into_arrays(self, py: Python<'_>) -> PyResult<SolutionArrays<'_>> {
-        let count = self.reality.len();
-        let transforms = Array3::from_shape_vec((count, 4, 4), self.transforms)
-            .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+        let shape = (self.reality.len(), 4, 4);
+        let transforms = if self.real_only {
+            shaped(shape, self.real_transforms)?.into_pyarray(py).into_any()
+        } else {
+            shaped(shape, self.transforms)?.into_pyarray(py).into_any()
+        };
         let offsets: Vec<i64> = std::iter::once(0).chain(self.ends).collect();
         Ok((
-            transforms.into_pyarray(py),
+            transforms,
             self.reality.into_pyarray(py),
             self.certified.into_pyarray(py),
             self.residual.into_pyarray(py),
             self.multiplicity.into_pyarray(py),
             offsets.into_pyarray(py),
             self.completeness.into_pyarray(py),
+            self.undecided.into_pyarray(py),
             self.reason.into_pyarray(py),
             self.reasons,
         ))

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use super::arrays::{as_it_stands, lengths_in, matrices};
 use super::failure::{interrupted, raised};
 use ask::Error;
-use fk::NearOutcome;
+use fk::{NearEvidence, NearOutcome};
 use machine::rotary::RotaryTracker;
 use platform::geom::Pose;
 use platform::manipulator::LegLengths;
@@ -92,48 +92,83 @@ impl NativeTracker {
         Ok(Some((status, pose, evidence.residual, evidence.frobenius_ratio, fraction, reason)))
     }
 
-    /// Continues through rows of lengths until one fails: the poses of the successful rows, and the outcome of the
-    /// next.
-    #[allow(clippy::type_complexity)]
+    /// Continues through rows of lengths: the poses of those that were reached with their rows, what became of the
+    /// last one, and the rows that were skipped. Without `skip` the first row that is not reached is the last.
     fn follow<'py>(
         &mut self,
         py: Python<'py>,
         lengths: PyReadonlyArray2<'py, f64>,
-    ) -> PyResult<(
-        Bound<'py, PyArray3<f64>>,
-        [Bound<'py, PyArray1<f64>>; 2],
-        &'static str,
-        f64,
-        Option<String>,
-    )> {
+        skip: bool,
+    ) -> PyResult<Followed<'py>> {
         let rows = lengths_in(py, &lengths.as_array())?;
-        rows.iter().try_for_each(|row| self.0.check(*row)).map_err(|e| raised(py, e))?;
+        if !skip {
+            rows.iter().try_for_each(|row| self.0.check(*row)).map_err(|e| raised(py, e))?;
+        }
         let tracker = &mut self.0;
-        let (poses, residuals, ratios, end) = py.detach(move || {
-            let (mut poses, mut residuals, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+        let (way, end) = py.detach(move || {
+            let mut way = Way::default();
             for (k, row) in rows.iter().enumerate() {
                 if k % SIGNALS == 0 && interrupted() {
-                    return (poses, residuals, ratios, Err(Error::Cancelled));
+                    return (way, Err(Error::Cancelled));
                 }
                 match tracker.continued(*row) {
-                    Ok(NearOutcome::Tracked { pose, evidence }) => {
-                        poses.push(pose);
-                        residuals.push(evidence.residual);
-                        ratios.push(evidence.frobenius_ratio);
-                    }
-                    Ok(other) => return (poses, residuals, ratios, Ok(said(&other))),
-                    Err(error) => return (poses, residuals, ratios, Err(error)),
+                    Ok(NearOutcome::Tracked { pose, evidence }) => way.push(k, pose, &evidence),
+                    Ok(other) if skip => way.skip(k, said(&other)),
+                    Err(error) if skip => way.skip(k, ("refused", 0.0, Some(error.to_string()))),
+                    Ok(other) => return (way, Ok(said(&other))),
+                    Err(error) => return (way, Err(error)),
                 }
             }
-            (poses, residuals, ratios, Ok(("tracked", 1.0, None)))
+            // the last row speaks for the way, reached or skipped
+            let last = way.skipped.last().filter(|skipped| skipped.0 + 1 == rows.len() as i64);
+            let end = last.map_or(("tracked", 1.0, None), |(_, status, fraction, reason)| {
+                (*status, *fraction, reason.clone())
+            });
+            (way, Ok(end))
         });
-        let (status, fraction, reason) = end.map_err(|e| raised(py, e))?;
+        let end = end.map_err(|e| raised(py, e))?;
         Ok((
-            matrices(&poses).into_pyarray(py),
-            [residuals, ratios].map(|column| ndarray::Array1::from(column).into_pyarray(py)),
-            status,
-            fraction,
-            reason,
+            matrices(&way.poses).into_pyarray(py),
+            [way.residuals, way.ratios].map(|column| ndarray::Array1::from(column).into_pyarray(py)),
+            way.rows.into_pyarray(py),
+            end,
+            way.skipped,
         ))
+    }
+}
+
+/// A row that was skipped: its number, status, fraction of the way and reason.
+type SkippedRow = (i64, &'static str, f64, Option<String>);
+
+/// Poses, residuals and Frobenius ratios, rows reached; status, fraction and reason of the last row; rows skipped.
+type Followed<'py> = (
+    Bound<'py, PyArray3<f64>>,
+    [Bound<'py, PyArray1<f64>>; 2],
+    Bound<'py, PyArray1<i64>>,
+    (&'static str, f64, Option<String>),
+    Vec<SkippedRow>,
+);
+
+/// What became of rows of lengths.
+#[derive(Default)]
+struct Way {
+    poses: Vec<Pose>,
+    residuals: Vec<f64>,
+    ratios: Vec<f64>,
+    /// Which rows the poses belong to.
+    rows: Vec<i64>,
+    skipped: Vec<SkippedRow>,
+}
+
+impl Way {
+    fn push(&mut self, row: usize, pose: Pose, evidence: &NearEvidence) {
+        self.poses.push(pose);
+        self.residuals.push(evidence.residual);
+        self.ratios.push(evidence.frobenius_ratio);
+        self.rows.push(row as i64);
+    }
+
+    fn skip(&mut self, row: usize, (status, fraction, reason): (&'static str, f64, Option<String>)) {
+        self.skipped.push((row as i64, status, fraction, reason));
     }
 }

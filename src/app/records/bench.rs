@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::Number;
 use ask::bench::{
-    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, RawReport, ReferenceTimes, TimeSplit,
-    WrongAnswer, problem,
+    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, OpenAnswer, Plan, RawReport,
+    ReferenceTimes, TimeSplit, WrongAnswer,
 };
 
 /// The answer of `bench`.
@@ -143,7 +143,10 @@ pub struct BenchClassRecord {
     pub threads: usize,
     /// The source of the leg lengths: a random pose or random numbers.
     pub lengths_from: LengthsFrom,
-    /// Number of poses that the class has in general.
+    /// Digits behind the point that joints are rounded to, with `--digits`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub digits: Option<u32>,
+    /// Poses of the class, without rounding.
     pub expected_count: usize,
     /// Number of problems by their number of correct finite roots.
     pub finite_counts: Histogram,
@@ -155,6 +158,8 @@ pub struct BenchClassRecord {
     pub certified_roots: u64,
     /// Number of problems with a proof of completeness.
     pub proved: u64,
+    /// Problems with a proof for all poses up to a distance, so for all real ones.
+    pub proved_bounded: u64,
     /// Number of problems for which the solver itself warns that roots may be missing.
     pub doubted: u64,
     /// Number of problems that look complete to the solver but lack roots.
@@ -174,6 +179,8 @@ pub struct BenchClassRecord {
     pub raw: Option<RawReport>,
     /// Problems with a wrong answer.
     pub failures: Vec<BenchFailureRecord>,
+    /// Problems without a proof of completeness.
+    pub open: Vec<BenchOpenRecord>,
 }
 
 impl BenchClassRecord {
@@ -189,12 +196,14 @@ impl BenchClassRecord {
             first: r.plan.first,
             threads: r.plan.threads,
             lengths_from: r.plan.lengths,
+            digits: r.plan.digits,
             expected_count: r.expected,
             finite_counts: Histogram(r.finite_counts.clone()),
             real_counts: Histogram(r.real_counts.clone()),
             roots: r.roots,
             certified_roots: r.certified_roots,
             proved: r.proved,
+            proved_bounded: r.proved_bounded,
             doubted: r.doubted,
             silent_failures: r.silent_failures,
             rechecked: r.rechecked,
@@ -204,6 +213,7 @@ impl BenchClassRecord {
             epsilon: r.epsilon,
             raw: r.raw.clone(),
             failures: r.failures.iter().map(|f| BenchFailureRecord::new(&r.plan, f)).collect(),
+            open: r.open.iter().map(BenchOpenRecord::new).collect(),
         }
     }
 }
@@ -257,7 +267,7 @@ pub struct BenchFailureRecord {
 
 impl BenchFailureRecord {
     fn new(plan: &Plan, f: &WrongAnswer) -> Self {
-        let drawn = problem(plan.class, plan.lengths, plan.seed, f.k).ok();
+        let drawn = plan.problem(f.k).ok();
         let point = |p: nalgebra::Point3<f64>| [p.x, p.y, p.z].map(Number);
         Self {
             problem: f.k,
@@ -270,6 +280,21 @@ impl BenchFailureRecord {
             platform: drawn.as_ref().map(|d| d.manipulator.legs().map(|l| point(l.platform))),
             squared_lengths: drawn.map(|d| d.squares.get().map(Number)),
         }
+    }
+}
+
+/// A problem without a proof that its poses are all.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct BenchOpenRecord {
+    /// Index of the problem.
+    pub problem: u64,
+    /// Statement of the solver about its own answer.
+    pub solver: String,
+}
+
+impl BenchOpenRecord {
+    fn new(open: &OpenAnswer) -> Self {
+        Self { problem: open.k, solver: open.solver.clone() }
     }
 }
 

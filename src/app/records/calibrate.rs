@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Number, PoseQuaternionRecord};
+use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 use ask::Design;
 use ask::calibrating::{carried, unknown_names};
 use machine::calibration::{
@@ -22,6 +22,8 @@ pub struct CalibrateAnswer {
     pub name: String,
     /// The unit of lengths.
     pub units: String,
+    /// The convention in which measured poses were read, and of `in_frames`.
+    pub frames: PoseConventionRecord,
     /// The outcome of the calibration.
     pub outcome: CalibrateOutcome,
     /// The reason of the outcome, one sentence.
@@ -393,6 +395,8 @@ pub struct NextPoseRecord {
     pub pose: PoseQuaternionRecord,
     /// Roll, pitch and yaw of the pose, degrees.
     pub rpy_deg: [Number; 3],
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// The factor by which this measurement shrinks the error ellipsoid: the geometric mean of the deviations along its
     /// axes.
     pub shrinks: Number,

@@ -1,7 +1,7 @@
 //! Answers on whether a design is architecturally singular, with reasons and the distance to a singular design.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::fk::PoseCountRecord;
 use super::pose::leg_numbers;
@@ -19,10 +19,16 @@ use synthesis::singularity::{
 };
 
 /// The answer of `check`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CheckAnswer {
     /// The name of the design.
     pub name: String,
+    /// The verdict in a sentence, with the name.
+    pub headline: String,
+    /// The unit of lengths.
+    pub units: String,
+    /// The size of the design, in its units: what distances are compared with.
+    pub size: Number,
     /// The exactness of the design's joints.
     pub joints: JointsRecord,
     /// Whether every pose is singular. Null: undecided, since a singular design lies within rounding or the digits
@@ -80,7 +86,7 @@ pub struct CheckAnswer {
 }
 
 /// A line that joints of a body lie nearly on, body frame, design units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BestLineRecord {
     /// The body.
     pub body: Body,
@@ -111,6 +117,9 @@ impl From<&CheckReport> for CheckAnswer {
         let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
         Self {
             name: c.design.name.clone(),
+            headline: headline(c),
+            units: c.design.units.clone(),
+            size: Number(c.design.manipulator().size()),
             joints: (&c.design.exactness()).into(),
             architecturally_singular: c.is_singular(),
             level: c.verdict.level(),
@@ -147,7 +156,7 @@ impl From<&CheckReport> for CheckAnswer {
 }
 
 /// A proved bound on the number of isolated finite poses, counted with multiplicity.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseBoundRecord {
     /// The bound.
     pub poses: usize,
@@ -168,6 +177,17 @@ fn proof(a: &Architecture) -> ProofWord {
         _ if a.is_singular() == Some(false) => ProofWord::RegularPose,
         RankBound::LegVectors | RankBound::Legs => ProofWord::LegVectors,
         RankBound::Lattice { .. } => ProofWord::PoseLattice,
+    }
+}
+
+/// The verdict; a singular design that may have been meant is named here, with its distance.
+fn headline(c: &CheckReport) -> String {
+    let name = &c.design.name;
+    match (&c.verdict.meant, c.is_singular()) {
+        (Some(n), _) => format!("{name}: {}", n.words(&c.design.units)),
+        (None, Some(true)) => format!("{name}: architecturally singular, no pose holds the platform"),
+        (None, Some(false)) => format!("{name}: regular, the legs hold the platform at almost every pose"),
+        (None, None) => format!("{name}: not decided"),
     }
 }
 
@@ -219,7 +239,7 @@ fn proof_explanation(a: &Architecture) -> String {
 }
 
 /// The exactness of all joints of a design together.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointsRecord {
     /// The exactness of the least exact joint.
     pub exactness: ExactnessWord,
@@ -252,7 +272,7 @@ impl From<&DesignExactness> for JointsRecord {
 }
 
 /// The exactness of joint coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExactnessWord {
     /// All joints are three plain numbers, read as the nearest doubles.
@@ -266,7 +286,7 @@ pub enum ExactnessWord {
 }
 
 /// The proof that a design is regular or singular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ProofWord {
     /// A pose with six independent leg lines.
@@ -280,7 +300,7 @@ pub enum ProofWord {
 }
 
 /// A pose with rational coordinates.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WitnessRecord {
     /// The pose.
     #[serde(flatten)]
@@ -296,7 +316,7 @@ impl From<&RationalPose> for WitnessRecord {
 }
 
 /// A linear dependency of leg vectors: `sum c_i v_i = 0`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DependencyRecord {
     /// The legs with nonzero coefficients, from 1.
     pub legs: Vec<usize>,
@@ -326,7 +346,7 @@ impl DependencyRecord {
 }
 
 /// A known kind of singular design.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CaseRecord {
     /// The name of the case.
     pub case: String,
@@ -350,7 +370,7 @@ impl From<&Finding> for CaseRecord {
 }
 
 /// Joints on the sides of two triangles.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GriffisDuffyRecord {
     /// The legs in order around the hexagon, from 1.
     pub order: Vec<usize>,
@@ -395,7 +415,7 @@ impl GriffisDuffyRecord {
 }
 
 /// The nearest singular design found.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestSingularRecord {
     /// Norm of the change of all joints, design units.
     pub distance: Number,

@@ -316,7 +316,7 @@ impl CompareAnswer {
                 Some(FigureCell::Number(found.margin.0, found.violates()))
             };
             FigureColumn {
-                title: format!("margin {}", kind.code()),
+                title: format!("margin of {}", kind.label()),
                 unit: all().find(|m| m.name == kind).map(|m| m.unit.clone()).unwrap_or_default(),
                 cells: self.designs.iter().map(margin).collect(),
             }

@@ -5,8 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, VerifyAnswer};
 use ask::equivalents::Original;
+use ask::{ComparedDesigns, Design, SAMPLES};
+use fk::FkOptions;
 use num::algebraic::Algebraic;
-use synthesis::{Derivation, LegSlide};
+use synthesis::{Derivation, LegSlide, Pattern};
+use verify::VerifyError;
 
 /// The derivation of A, c and det A for one platform of the class from coplanar joints, with the forward kinematics as
 /// a check.
@@ -84,6 +87,22 @@ pub struct ExactNumberRecord {
 }
 
 impl DerivationRecord {
+    /// The steps to an equivalent platform, and forward kinematics of both platforms at sample poses; `None` where an
+    /// edge of the original has no length.
+    ///
+    /// # Errors
+    /// The comparison gives these ([`ComparedDesigns::of`]).
+    pub fn compared(
+        original: &Original,
+        pattern: &Pattern,
+        built: &Design,
+        options: &FkOptions,
+    ) -> Result<Option<Self>, VerifyError> {
+        let Some(steps) = original.derivation(pattern, built) else { return Ok(None) };
+        let compared = ComparedDesigns::of([&original.design, built], SAMPLES, options)?;
+        Ok(Some(Self::new(&steps, original, VerifyAnswer::from(&compared))))
+    }
+
     /// The steps, with the names that joints have in the class, and the verification of the platform they make.
     #[must_use]
     pub fn new(steps: &Derivation, original: &Original, verification: VerifyAnswer) -> Self {

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::nearest::short;
 use super::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
     OptimalityWord, OptimizeAnswer, RidingRecord, SolvedRecord, SymmetryRecord,
@@ -212,8 +213,8 @@ impl PriceRecord {
     /// The record of figures in this unit of length.
     #[must_use]
     pub fn new(s: &Separation, unit: &str) -> Self {
-        let pair = |[a, b]: [f64; 2]| format!("{} -> {}", digits(a), digits(b));
-        let times = |[a, b]: [f64; 2]| digits(b / a);
+        let pair = |[a, b]: [f64; 2]| format!("{} -> {}", short(a), short(b));
+        let times = |[a, b]: [f64; 2]| short(b / a);
         let [base, platform] = s.radius;
         let message = format!(
             "price of separate joints: worst conditioning {}; joint spacing {} {unit} on the base, {} {unit} on the platform; radius {} {unit} of the base ({} times), {} {unit} of the platform ({} times)",
@@ -234,12 +235,6 @@ impl PriceRecord {
             message,
         }
     }
-}
-
-/// A number with three significant digits.
-fn digits(x: f64) -> String {
-    let rounded = format!("{x:.2e}").parse::<f64>().unwrap_or(x);
-    rounded.to_string()
 }
 
 /// The result for a default safety margin that the design does not state itself.

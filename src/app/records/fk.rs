@@ -12,15 +12,18 @@ pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
 pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{
-    ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number, RotationPolynomialRecord,
+    ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number, PoseConventionRecord,
+    PoseInFrames, RotationPolynomialRecord,
 };
+use ask::PoseFrames;
 use fk::solve::pose_count::{CountedLengths, PoseSet};
 use fk::{
     BoundedProof, Completeness, CompletenessWord, FkRoot, FkSolutions, LibraryCalls, Method, PathReport,
     Reality, Rejected, SolutionSet,
 };
+use machine::reach::Reach;
 use machine::rotary::RotaryPlatform;
-use platform::geom::{ComplexPose, Pose};
+use platform::geom::ComplexPose;
 use platform::manipulator::{Manipulator, height_above_base};
 
 /// The answer of `fk`.
@@ -33,9 +36,24 @@ pub enum FkAnswer {
     One(Box<FkOneAnswer>),
 }
 
+impl FkAnswer {
+    /// With the convention of its poses.
+    #[must_use]
+    pub fn with_frames(mut self, frames: &PoseFrames) -> Self {
+        let record = PoseConventionRecord::from(&frames.convention);
+        match &mut self {
+            Self::Rows(answer) => answer.frames = record,
+            Self::One(one) => one.frames = Some(record),
+        }
+        self
+    }
+}
+
 /// The poses with the lengths of each row of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowsAnswer {
+    /// The convention of `in_frames`.
+    pub frames: PoseConventionRecord,
     /// The rows in the order of the file.
     pub rows: Vec<FkRowRecord>,
 }
@@ -78,6 +96,9 @@ pub struct RowFailure {
 /// The poses with one set of lengths, and further results on request.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkOneAnswer {
+    /// The convention of `in_frames`; of a row of a table that of the whole answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<PoseConventionRecord>,
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
@@ -111,9 +132,28 @@ pub struct FkOneAnswer {
     pub polynomial: Option<RotationPolynomialRecord>,
 }
 
+impl FkAnswer {
+    /// With what the requirements say of each real pose.
+    #[must_use]
+    pub fn with_limits(mut self, reach: &Reach<'_>) -> Self {
+        match &mut self {
+            Self::One(one) => one.solved.judge(reach),
+            Self::Rows(answer) => {
+                for row in &mut answer.rows {
+                    if let FkRowOutcome::Solved(one) = &mut row.outcome {
+                        one.solved.judge(reach);
+                    }
+                }
+            }
+        }
+        self
+    }
+}
+
 impl From<SolvedRecord> for FkOneAnswer {
     fn from(solved: SolvedRecord) -> Self {
         Self {
+            frames: None,
             solved,
             angles_deg: None,
             within_limits: None,
@@ -190,8 +230,8 @@ impl From<&FkSolutions> for SolvedRecord {
             method: s.method,
             completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
-            bounded: match s.completeness {
-                Completeness::ProvedBounded { proof } => Some(proof),
+            bounded: match &s.completeness {
+                Completeness::ProvedBounded { proof } => Some(proof.clone()),
                 _ => None,
             },
             all_paths_accounted: s.all_accounted(),
@@ -219,7 +259,8 @@ impl From<&FkSolutions> for SolvedRecord {
 impl SolvedRecord {
     /// Adds to the real poses their representation in real numbers and their relation to home.
     #[must_use]
-    pub fn with_real_poses(mut self, m: &Manipulator, home: &Pose) -> Self {
+    pub fn with_real_poses(mut self, m: &Manipulator, frames: &PoseFrames) -> Self {
+        let home = &frames.home;
         let of_home = height_above_base(m, home);
         let place = ComplexPose::from(*home);
         for solution in self.solutions.iter_mut().filter(|s| s.real == Some(true)) {
@@ -233,9 +274,11 @@ impl SolvedRecord {
                 rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| pose.rotation.matrix()[(i, j)])),
                 rpy_deg: pose.angles().degrees(),
                 quat_wxyz: pose.quaternion(),
+                in_frames: (&frames.write(&pose)).into(),
                 mode: if level { None } else { Some(side) },
                 distance_from_home: ComplexPose::from(pose).distance(&place, m.size()),
                 nearest_home: false,
+                allowed: None,
                 elbow_kept: None,
             });
         }
@@ -244,6 +287,16 @@ impl SolvedRecord {
             nearest.nearest_home = true;
         }
         self
+    }
+
+    /// Adds to the real poses whether they are allowed.
+    fn judge(&mut self, reach: &Reach<'_>) {
+        for solution in &mut self.solutions {
+            let pose = ComplexPose::from(&solution.pose).real_part();
+            if let Some(real) = &mut solution.real_pose {
+                real.allowed = Some(reach.allows(&pose));
+            }
+        }
     }
 
     /// Adds to the real poses the side of each crank.
@@ -363,6 +416,8 @@ pub struct RealPoseRecord {
     pub rpy_deg: [f64; 3],
     /// Unit quaternion, scalar part first.
     pub quat_wxyz: [f64; 4],
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// The side of the base on which the platform is; null: its centre is in the plane of the base, here or at home.
     pub mode: Option<SideWord>,
     /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position divided by
@@ -370,6 +425,9 @@ pub struct RealPoseRecord {
     pub distance_from_home: f64,
     /// Whether this is the real pose nearest to home.
     pub nearest_home: bool,
+    /// Whether the pose meets every requirement and det J has the sign that it has at home, with `--limits`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allowed: Option<bool>,
     /// Whether each crank is on the side (elbow) that the design names; null: no cranks. A crank changes its side only
     /// through a singular pose, with crank, rod and axis in one plane.
     #[serde(skip_serializing_if = "Option::is_none")]

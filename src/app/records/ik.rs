@@ -4,13 +4,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    DriveLengthsRecord, Number, PoseRecord, PoseUncertaintyRecord, RotaryIkRecord, RotaryIkRowsAnswer,
+    DriveLengthsRecord, Number, PoseConventionRecord, PoseInFrames, PoseRecord, PoseUncertaintyRecord,
+    RotaryIkRecord, RotaryIkRowsAnswer,
 };
-use ask::Design;
+use ask::{Design, PoseFrames};
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
 use machine::requirements::{JointAngles, TermKind, Terms};
-use platform::geom::Pose;
+use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{inverse_condition, jacobian};
 
 /// The answer of `ik`.
@@ -27,9 +28,26 @@ pub enum IkAnswer {
     Cranks(Box<RotaryIkRecord>),
 }
 
+impl IkAnswer {
+    /// With the convention of its poses.
+    #[must_use]
+    pub fn with_frames(mut self, convention: &PoseConvention) -> Self {
+        let record = PoseConventionRecord::from(convention);
+        match &mut self {
+            Self::Rows(answer) => answer.frames = record,
+            Self::One(one) => one.frames = Some(record),
+            Self::CrankRows(answer) => answer.frames = record,
+            Self::Cranks(one) => one.frames = Some(record),
+        }
+        self
+    }
+}
+
 /// The lengths at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IkRowsAnswer {
+    /// The convention in which the poses were read, and of `in_frames`.
+    pub frames: PoseConventionRecord,
     /// The poses in the order given.
     pub rows: Vec<IkRecord>,
 }
@@ -42,8 +60,13 @@ pub struct IkRecord {
     /// The time of the row, if the table has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
+    /// The convention in which the pose was read, and of `in_frames`; of several poses that of the whole answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<PoseConventionRecord>,
     /// The pose.
     pub pose: PoseRecord,
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// The lengths that the legs show, in leg order, design units: joint distances plus the offsets of a calibration.
     /// For joints that are not ideal, the joint distances alone.
     pub lengths: [f64; 6],
@@ -132,7 +155,12 @@ impl JointAnglesRecord {
 impl IkRecord {
     /// The record of a pose with these joint distances; `terms` are the requirements of the design.
     #[must_use]
-    pub fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, distances: [f64; 6]) -> Self {
+    pub fn new(
+        design: &Design,
+        terms: &Terms<'_>,
+        (pose, frames): (&Pose, &PoseFrames),
+        distances: [f64; 6],
+    ) -> Self {
         let m = design.manipulator();
         let limits = design.hardware.leg_length.map(|limits| limits.range());
         let outside: Vec<usize> = match limits {
@@ -147,7 +175,9 @@ impl IkRecord {
         Self {
             line: None,
             time: None,
+            frames: None,
             pose: pose.into(),
+            in_frames: (&frames.write(pose)).into(),
             lengths: std::array::from_fn(|i| distances[i] + offsets[i]),
             drives: None,
             within_limits: limits.map(|_| outside.is_empty()),

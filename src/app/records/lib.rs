@@ -12,6 +12,7 @@
 //! (`angle_deg`) if it differs from the units of the design. Legs are counted from 1.
 
 #[cfg(feature = "lab")]
+mod at_pose;
 mod bench;
 mod calibrate;
 mod check;
@@ -61,6 +62,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "lab")]
+pub use self::at_pose::*;
 pub use self::bench::*;
 pub use self::calibrate::*;
 pub use self::check::*;

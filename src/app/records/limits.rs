@@ -3,18 +3,21 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseQuaternionRecord};
-use ask::Design;
-use ask::{FreeSize, FreeTurn, WorkspaceSize};
-use machine::reach::{FreeRange, NearestPose, PoseAxis, Reach, StraightWay, Travel};
+use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
+use ask::{Design, FreeSize, FreeTurn, PoseFrames, WorkspaceSize};
+use machine::reach::{NearestPose, Reach, StraightWay, Travel};
 use machine::requirements::{Limit, TermKind};
-use platform::geom::Pose;
+use platform::geom::{Pose, RotationOrder};
 
 /// The answer of `limits`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LimitsAnswer {
+    /// The convention in which poses were read, of `in_frames` and of `axes`.
+    pub frames: PoseConventionRecord,
     /// The pose of `--at`.
     pub pose: PoseQuaternionRecord,
+    /// The same in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// Whether every requirement is met at the pose, and det J has the sign that it has at home.
     pub allowed: bool,
     /// The requirements violated at the pose, the worst first.
@@ -29,6 +32,8 @@ pub struct LimitsAnswer {
     pub nearest_allowed: Option<NearestAllowedRecord>,
     /// The size of the workspace around home; null: `--workspace` was not given, or home is not allowed.
     pub workspace: Option<WorkspaceSizeRecord>,
+    /// The surface that was written; null: none was asked for, or the pose of `--at` is not allowed.
+    pub surface: Option<String>,
     /// The unit of lengths.
     pub length_unit: String,
 }
@@ -188,9 +193,9 @@ pub struct LimitRecord {
 /// The free travel of one of the six numbers of a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeRangeRecord {
-    /// The coordinate, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
-    pub axis: PoseAxis,
-    /// The unit: `deg`, or the unit of length.
+    /// Which number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    pub axis: String,
+    /// `deg` or `rad`, or the unit of length.
     pub unit: String,
     /// The value at the pose.
     pub value: f64,
@@ -233,6 +238,8 @@ pub struct NearestAllowedRecord {
     pub position: [f64; 3],
     /// Roll, pitch and yaw, degrees.
     pub rpy_deg: [f64; 3],
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// Distance from the requested pose, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     pub distance: f64,
     /// The `L` of the distance, design units per radian.
@@ -273,37 +280,42 @@ impl LimitRecord {
 
     /// The code of the requirement, or `singularity`.
     #[must_use]
-    pub fn code(&self) -> &'static str {
-        self.name.map_or("singularity", TermKind::code)
+    pub fn label(&self) -> &'static str {
+        self.name.map_or("singular pose", TermKind::label)
     }
 }
 
 impl FreeRangeRecord {
     /// The record of the free travel along an axis from a pose.
     #[must_use]
-    pub fn new(design: &Design, reach: &Reach<'_>, pose: &Pose, found: &FreeRange) -> Self {
-        let angles = pose.angles().degrees();
-        let p = &pose.position;
-        let value = match found.axis {
-            PoseAxis::X => p.x,
-            PoseAxis::Y => p.y,
-            PoseAxis::Z => p.z,
-            PoseAxis::Roll => angles[0],
-            PoseAxis::Pitch => angles[1],
-            PoseAxis::Yaw => angles[2],
+    pub fn all(design: &Design, reach: &Reach<'_>, pose: &Pose, frames: &PoseFrames) -> Vec<Self> {
+        let convention = &frames.convention;
+        let unit = convention.angle_unit();
+        let written = frames.write(pose);
+        let is_vector = convention.order() == RotationOrder::Vector;
+        let words = convention.angle_words();
+        let range = |(k, way): (usize, StraightWay)| {
+            let (axis, value, unit, of_way): (_, _, _, &dyn Fn(f64) -> f64) = match k.checked_sub(3) {
+                None => (["x", "y", "z"][k].to_owned(), written.position[k], design.units.clone(), &|x| x),
+                // a turn counts from the pose, whose rotation vector does not grow along it
+                Some(k) if is_vector => {
+                    (format!("about {}", ["x", "y", "z"][k]), 0.0, unit.name().to_owned(), &|x| {
+                        unit.of_radians(x)
+                    })
+                }
+                Some(k) => {
+                    (words[k].to_owned(), written.angles[k], unit.name().to_owned(), &|x| unit.of_radians(x))
+                }
+            };
+            let travel = |t: &Travel, sign: f64| {
+                let free = of_way(t.amount);
+                let binds = t.binding.map(|limit| LimitRecord::at(design, reach, limit, &t.pose));
+                TravelRecord { free, value: value + sign * free, binds }
+            };
+            let [back, forth] = reach.both_ways(&way);
+            Self { axis, unit, value, back: travel(&back, -1.0), forth: travel(&forth, 1.0) }
         };
-        let travel = |t: &Travel, sign: f64| {
-            let free = if found.axis.is_turn() { t.amount.to_degrees() } else { t.amount };
-            let binds = t.binding.map(|limit| LimitRecord::at(design, reach, limit, &t.pose));
-            TravelRecord { free, value: value + sign * free, binds }
-        };
-        Self {
-            axis: found.axis,
-            unit: if found.axis.is_turn() { "deg".into() } else { design.units.clone() },
-            value,
-            back: travel(&found.back, -1.0),
-            forth: travel(&found.forth, 1.0),
-        }
+        frames.ways(pose).into_iter().enumerate().map(range).collect()
     }
 }
 
@@ -324,12 +336,13 @@ impl StraightWayRecord {
 impl NearestAllowedRecord {
     /// The record of the nearest allowed pose.
     #[must_use]
-    pub fn new(design: &Design, reach: &Reach<'_>, found: &NearestPose) -> Self {
+    pub fn new(design: &Design, reach: &Reach<'_>, frames: &PoseFrames, found: &NearestPose) -> Self {
         let limit = |l: &Limit| LimitRecord::at(design, reach, *l, &found.pose);
         Self {
             pose: (&found.pose).into(),
             position: found.pose.position.into(),
             rpy_deg: found.pose.angles().degrees(),
+            in_frames: (&frames.write(&found.pose)).into(),
             distance: found.distance,
             characteristic_length: design.characteristic_length(),
             binds: found.binding.iter().map(limit).collect(),

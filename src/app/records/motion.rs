@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{MarginRecord, Number, PoseQuaternionRecord};
+use super::{MarginRecord, Number, PoseConventionRecord, PoseQuaternionRecord};
 use ask::Design;
 use ask::{MotionReport, StiffnessReport, TimedMargin};
 use machine::dynamics::{DriveExtremes, Extreme, LeastStiffness, LegExtremes, Vibration};
@@ -14,6 +14,9 @@ use synthesis::singularity::SingularEvidence;
 pub struct MotionAnswer {
     /// The name of the design.
     pub name: String,
+    /// The convention in which poses of options were read, and of the table of instants; a table of poses may say more
+    /// in the names of its columns.
+    pub frames: PoseConventionRecord,
     /// Whether every requirement is met at the sampled instants, and every pose of the motions is regular.
     pub met: bool,
     /// The unit of lengths; speeds are in this unit per second, accelerations per second squared.

@@ -5,13 +5,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{AssessAnswer, DesignRecord, DesignRoleWord, LegEndsRecord, MapRecord, Number, leg_number};
-use ask::{Design, MoveSearchReport, MovedPlatform, SearchWord};
+use ask::{Design, MoveSearchReport, MovedAtOnce, MovedPlatform, MovesReport, SearchWord};
 use platform::manipulator::Body;
 use synthesis::Relation;
-use synthesis::relocate::SingularParameters;
 use synthesis::relocate::search::{
     self, Hole, HoleAnswer, HoleWord, Placement, SearchVerdict, WishMargin, Wishes,
 };
+use synthesis::relocate::{MovedLeg, SingularParameters};
 
 /// The answer of `equivalents move`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -49,6 +49,26 @@ pub struct MovesAnswer {
     pub output: Option<String>,
 }
 
+impl MovesAnswer {
+    /// The answer about a design; no file is written yet.
+    #[must_use]
+    pub fn new(design: &Design, found: &MovesReport) -> Self {
+        let mut moved = found.steps.iter().flat_map(|step| &step.relocation.moved);
+        Self {
+            name: design.name.clone(),
+            outcome: found.outcome(),
+            mode: if found.together { MoveMode::Together } else { MoveMode::Sequence },
+            steps: found.steps.iter().map(MoveStepRecord::from).collect(),
+            moves_left_out: found.left_out,
+            exact: moved.all(|m| m.exact),
+            map: (&found.chain.direct).into(),
+            composition_difference: Number(found.chain.disagreement),
+            design: found.design.as_ref().map(DesignRecord::from),
+            output: None,
+        }
+    }
+}
+
 /// The order of moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -68,6 +88,35 @@ pub struct MoveStepRecord {
     pub det: Number,
     /// The moves.
     pub moves: Vec<LegMoveRecord>,
+}
+
+impl From<&MovedAtOnce> for MoveStepRecord {
+    fn from(step: &MovedAtOnce) -> Self {
+        let r = &step.relocation;
+        let one = |(k, m): (usize, &MovedLeg)| {
+            let (type_name, name) = &step.families[k];
+            LegMoveRecord {
+                leg: leg_number(m.request.leg),
+                component: m.request.family + 1,
+                type_name: type_name.clone(),
+                along: name.clone(),
+                parameters_written: step.written[k].clone(),
+                parameters: m.request.parameters.iter().copied().map(Number).collect(),
+                from: (&m.from).into(),
+                to: (&m.to).into(),
+                coefficients: m.coefficients.map(Number),
+                coefficient: Number(m.coefficients[m.request.leg.get()]),
+                residual: Number(m.residual),
+                exact: m.exact,
+                singular_parameters: (&m.singular).into(),
+            }
+        };
+        Self {
+            outcome: r.map.relation.decided(),
+            det: Number(r.map.determinant),
+            moves: r.moved.iter().enumerate().map(one).collect(),
+        }
+    }
 }
 
 /// One leg moved along a family.

@@ -143,6 +143,5 @@ const SAME: f64 = 1e-9;
 
 /// A number with six digits.
 pub(super) fn short(x: f64) -> String {
-    let digits = format!("{x:.5e}").parse::<f64>().unwrap_or(x);
-    digits.to_string()
+    num::shown::rounded(x, 3)
 }

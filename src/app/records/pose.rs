@@ -4,10 +4,10 @@ use std::borrow::Cow;
 
 use nalgebra::Point3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Number;
-pub use platform::geom::{PoseQuaternionRecord, PoseRecord};
+pub use platform::geom::{PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
 use platform::manipulator::LegIndex;
 
 /// The source of a home pose or a workspace.
@@ -52,6 +52,15 @@ impl NamedPoints {
 impl Serialize for NamedPoints {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().map(|(name, point)| (name, point)))
+    }
+}
+
+impl<'de> Deserialize<'de> for NamedPoints {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        // a map of JSON keeps the order of its keys
+        let points = serde_json::Map::deserialize(from)?;
+        let point = |(name, place)| serde_json::from_value(place).map(|place| (name, place));
+        points.into_iter().map(point).collect::<Result<_, _>>().map(Self).map_err(serde::de::Error::custom)
     }
 }
 

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Number, PoseMarginRecord, PoseRecord};
-use ask::Design;
+use super::{Number, PoseConventionRecord, PoseInFrames, PoseMarginRecord, PoseRecord};
+use ask::{Design, PoseFrames};
 use machine::requirements::Terms;
 use machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
 use platform::geom::Pose;
@@ -13,6 +13,8 @@ use platform::manipulator::{inverse_condition, jacobian};
 /// The angles of cranks at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
+    /// The convention in which the poses were read, and of `in_frames`.
+    pub frames: PoseConventionRecord,
     /// The poses in the order given.
     pub rows: Vec<RotaryIkRecord>,
 }
@@ -25,8 +27,13 @@ pub struct RotaryIkRecord {
     /// The time of the row, if the table has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
+    /// The convention in which the pose was read, and of `in_frames`; of several poses that of the whole answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<PoseConventionRecord>,
     /// The pose.
     pub pose: PoseRecord,
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// The six crank angles in leg order, degrees, each on the side (elbow) that the design keeps; null: a rod does not
     /// reach.
     pub angles_deg: Option<[f64; 6]>,
@@ -95,13 +102,15 @@ pub struct CrankTorquesRecord {
 impl RotaryIkRecord {
     /// The record of a pose of a design with these cranks.
     #[must_use]
-    pub fn new(design: &Design, platform: &RotaryPlatform, pose: &Pose) -> Self {
+    pub fn new(design: &Design, platform: &RotaryPlatform, pose: &Pose, frames: &PoseFrames) -> Self {
         let required = design.requirements();
         let terms = Terms::new(design.manipulator(), &required, &design.home_or_default());
         let mut out = Self {
             line: None,
             time: None,
+            frames: None,
             pose: pose.into(),
+            in_frames: (&frames.write(pose)).into(),
             angles_deg: None,
             out_of_reach: None,
             within_limits: None,

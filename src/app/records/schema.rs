@@ -5,12 +5,12 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
 use super::{
-    AssessAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
-    ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer,
-    HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer,
-    NearestAnswer, NewAnswer, OptimizeAnswer, PentapodAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
-    RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularLocusAnswer, SingularitiesAnswer, TolerancesAnswer,
-    TopologiesAnswer, VerifyAnswer, ViewAnswer,
+    AssessAnswer, AtPoseAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer,
+    ComponentsAnswer, ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer,
+    FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer,
+    MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PentapodAnswer, PlotAnswer,
+    PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularLocusAnswer,
+    SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers, each with the function that writes its schema. Commands have their own names, or the form
@@ -19,6 +19,7 @@ type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Sche
 
 const ANSWERS: Table = &[
     ("assess", Document::<AssessAnswer>::json_schema),
+    ("at", Document::<AtPoseAnswer>::json_schema),
     #[cfg(feature = "lab")]
     ("bench", Document::<super::BenchAnswer>::json_schema),
     ("build-drives", Document::<DrivesAnswer>::json_schema),

@@ -2,13 +2,17 @@
 
 use maud::{Markup, html};
 
-use super::{Block, Cell, Sheet, Table, Tone};
+use super::{Block, Cell, DIGITS, Sheet, Table, Tone};
 use files::plot::visible;
 
 impl Sheet {
     /// The sheet as HTML: paragraphs, lists of indented lines, tables, and details that can be unfolded.
     #[must_use]
     pub fn html(&self) -> Markup {
+        self.rounded(DIGITS.into()).markup()
+    }
+
+    fn markup(&self) -> Markup {
         let indented = |block: &Block| matches!(block, Block::Line(line) if line.starts_with("  "));
         html! {
             @for run in self.0.chunk_by(|a, b| indented(a) && indented(b)) {
@@ -19,7 +23,7 @@ impl Sheet {
                         Block::Space => {},
                         Block::Line(line) => p { (line) },
                         Block::Table(table) => (rows(table)),
-                        Block::Part { title, open, sheet } => details open[*open] { summary { (title) } (sheet.html()) },
+                        Block::Part { title, open, sheet } => details open[*open] { summary { (title) } (sheet.markup()) },
                     }
                 }
             }

@@ -9,15 +9,17 @@ macro_rules! say {
 }
 
 pub mod answers;
+mod figure;
 mod html;
 mod markdown;
 mod text;
 
 use std::fmt::Display;
 
+pub use figure::DIGITS;
+
 pub use html::{badge, shown};
 pub use markdown::escaped as markdown_escaped;
-use num::shown::fixed;
 
 /// The content of an answer from top to bottom.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -75,17 +77,36 @@ impl Sheet {
     }
 }
 
+impl Sheet {
+    /// The same with its numbers rounded to so many significant digits.
+    fn rounded(&self, digits: usize) -> Self {
+        let text = |text: &str| figure::rounded_in(text, digits).into_owned();
+        let cell = |cell: &Cell| Cell { text: text(&cell.text), tone: cell.tone };
+        let block = |block: &Block| match block {
+            Block::Line(line) => Block::Line(text(line)),
+            Block::Space => Block::Space,
+            Block::Table(table) => Block::Table(Table {
+                columns: table
+                    .columns
+                    .iter()
+                    .map(|c| Column { title: text(&c.title), ..c.clone() })
+                    .collect(),
+                rows: table.rows.iter().map(|row| row.iter().map(cell).collect()).collect(),
+            }),
+            Block::Part { title, open, sheet } => {
+                Block::Part { title: text(title), open: *open, sheet: sheet.rounded(digits) }
+            }
+        };
+        Self(self.0.iter().map(block).collect())
+    }
+}
+
 impl From<Table> for Sheet {
     fn from(table: Table) -> Self {
         let mut sheet = Self::new();
         sheet.table(table);
         sheet
     }
-}
-
-/// Numbers with this number of decimals, in brackets; a number that rounds to zero has no sign.
-fn listed(numbers: impl IntoIterator<Item = f64>, decimals: usize) -> String {
-    format!("[{}]", numbers.into_iter().map(|x| fixed(x, decimals)).collect::<Vec<_>>().join(", "))
 }
 
 /// A table: rows of cells.

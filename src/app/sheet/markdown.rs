@@ -1,6 +1,6 @@
 //! Markdown, for the README of a folder of results.
 
-use super::{Block, Sheet, Table};
+use super::{Block, DIGITS, Sheet, Table};
 
 impl Sheet {
     /// The sheet as Markdown: paragraphs, lists of indented lines, and tables.
@@ -8,7 +8,7 @@ impl Sheet {
     pub fn markdown(&self) -> String {
         let mut parts: Vec<String> = Vec::new();
         let mut listed = false;
-        for block in &self.0 {
+        for block in &self.rounded(DIGITS.into()).0 {
             let part = match block {
                 Block::Space => continue,
                 Block::Line(line) => match line.strip_prefix("  ") {

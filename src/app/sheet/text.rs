@@ -2,12 +2,12 @@
 
 use std::fmt::{self, Display, Write as _};
 
-use super::{Block, Column, Sheet, Table, Tone};
+use super::{Block, Column, DIGITS, Sheet, Table, Tone};
 
 /// The sheet as text: lines as they are, tables in columns of their widths.
 impl Display for Sheet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for block in &self.0 {
+        for block in &self.rounded(f.precision().unwrap_or(DIGITS.into())).0 {
             match block {
                 Block::Line(line) => writeln!(f, "{line}")?,
                 Block::Space => writeln!(f)?,
@@ -20,7 +20,7 @@ impl Display for Sheet {
 }
 
 /// The greatest width of a column, characters; longer cells push their row aside.
-const WIDEST: usize = 40;
+const WIDEST: usize = 52;
 
 fn rows(table: &Table) -> String {
     let mut out = String::new();

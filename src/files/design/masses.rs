@@ -134,14 +134,11 @@ impl DesignModel {
             let assumed = "The weight of the legs is taken between joint centres: it leaves out `offset` and `screw_lead`.";
             out.push(assumed.to_owned());
         }
-        if weight.is_none() {
-            return out;
-        }
-        if self.mass_units.is_none() {
-            out.push("The design names no unit of mass: masses are taken in kilograms.".into());
-        }
         if self.force_units.is_none() {
             out.push("The design names no unit of force: forces are taken in newtons.".into());
+        }
+        if weight.is_some() && self.mass_units.is_none() {
+            out.push("The design names no unit of mass: masses are taken in kilograms.".into());
         }
         out
     }

@@ -30,7 +30,7 @@ mod workspace;
 
 use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
-pub use construction::{InvalidShare, Origin, Share};
+pub use construction::{InvalidShare, Origin, Share, length_in};
 pub use edit::{JointError, Written};
 pub use five_legs::{FiveLegs, FiveLegsOrViolations, parse_five_legs};
 pub use keys::SCHEMA;
@@ -46,6 +46,7 @@ pub use snap::{FoundRelation, JointRelation, SnappedDesign};
 pub use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidPointTable, InvalidRigSheet, InvalidSeries,
     InvalidSheet, PointTable, RigSheet, SeriesKind, SeriesRow, SheetDialect, SheetLegs, TimeSeries,
+    read_poses, read_poses_with_lengths,
 };
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};

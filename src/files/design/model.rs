@@ -13,7 +13,7 @@ use machine::requirements::{
 use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 use machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
 use num::surd::Surd;
-use platform::geom::Pose;
+use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::Body;
 use platform::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 
@@ -34,6 +34,8 @@ pub struct DesignModel {
     pub lengths: Option<LegLengths>,
     /// The pose for which the platform is designed.
     pub home: Option<Pose>,
+    /// The machine's own convention for poses.
+    pub frames: PoseConvention,
     /// The poses the platform has to reach.
     pub workspace: Workspace,
     /// Limits for the optimisation of joint offsets.
@@ -259,6 +261,7 @@ impl DesignModel {
             revision: None,
             lengths: None,
             home: None,
+            frames: PoseConvention::default(),
             workspace: Workspace::default(),
             optimize: OptimizeTable::default(),
             search: SearchTable::default(),
@@ -497,6 +500,12 @@ impl DesignModel {
         Some((three(values.get(..3)?)?, values.get(3..).and_then(three)))
     }
 
+    /// The convention of the table of the workspace: the machine's own, but for what poses are measured from, which
+    /// `[workspace]` itself says.
+    pub fn trajectory_frames(&self) -> PoseConvention {
+        PoseConvention { relative_to: None, ..self.frames }
+    }
+
     /// Sets resolved constructions. Home and the coordinates of the manipulator take their values, unless the doubles
     /// agree already.
     pub(super) fn set_constructions(&mut self, constructions: Constructions) {
@@ -660,7 +669,7 @@ impl DesignModel {
         match quantity {
             Quantity::Length => self.units.clone(),
             Quantity::Angle => "deg".to_string(),
-            Quantity::Force => self.force_units.map_or("force", ForceUnit::label).to_string(),
+            Quantity::Force => self.force_unit().label().to_owned(),
             Quantity::Speed => format!("{}/s", self.units),
             Quantity::LinearStiffness => format!("{}/{}", self.unit_of(Quantity::Force), self.units),
             Quantity::AngularStiffness => format!("{} {}/rad", self.unit_of(Quantity::Force), self.units),

@@ -3,11 +3,12 @@
 use serde_json::{Map, Value as Json, json};
 use thiserror::Error;
 
+use super::construction::expression::UnitsBehind;
 use super::keys::{FILE, KeyForm, KeyKind, KeyShape};
 use super::{DesignModel, Format, WrittenNumber, parse_with_cranks};
 
 /// Units by label with their lengths in micrometres, which are whole numbers; the inch is 25.4 mm exactly.
-const UNITS: [(&str, u64); 6] =
+pub(super) const UNITS: [(&str, u64); 6] =
     [("um", 1), ("mm", 1000), ("cm", 10_000), ("m", 1_000_000), ("in", 25_400), ("ft", 304_800)];
 
 /// Micrometres per unit of a label.
@@ -86,6 +87,10 @@ impl LengthRatio {
             Json::String(text) => text.clone(),
             number => format!("{:?}", number.as_f64().unwrap_or_default()),
         };
+        // a length with its own unit is the same in every design
+        if WrittenNumber::with_units(&text, UnitsBehind::Length(Some(1))).is_ok_and(|read| read.1) {
+            return Ok(number.clone());
+        }
         let is_zero = text.parse::<f64>().is_ok_and(|x| x == 0.0);
         if is_zero {
             return Ok(number.clone());
@@ -202,6 +207,26 @@ mod tests {
         // the file states the same design, which converts back to equal bits
         let back = design(&inches.to_toml()).in_units("mm").unwrap();
         assert_eq!(back.exact_joints(Body::Base), mm.exact_joints(Body::Base));
+    }
+
+    #[test]
+    fn joints_with_their_own_unit_are_the_same_in_every_design() {
+        let text = |units: &str| {
+            format!(
+                "name = \"own\"\nunits = \"{units}\"\nlegs = [[\"A\", \"a\"], [\"B\", \"a\"], [\"B\", \"b\"], [\"C\", \"b\"], [\"C\", \"c\"], [\"A\", \"c\"]]\n[parameters]\nr = 3\n[base]\nA = [\"-6 in\", 0, 0]\nB = {{ radius = \"r ft\", angle_deg = 30 }}\nC = {{ on = [\"A\", \"B\"], offset = \"12/5 in\" }}\n[platform]\na = [0, 0, 0]\nb = [1, 0, 0]\nc = [0, 1, \"5 ft + 3 in\"]\n"
+            )
+        };
+        let inches = design(&text("in"));
+        assert_eq!(inches.manipulator().base_joints()[0].x, -6.0);
+        assert_eq!(inches.manipulator().platform_joints()[2].z, 63.0);
+        let mm = inches.in_units("mm").unwrap();
+        assert_eq!(mm.manipulator().base_joints()[0].x, -152.4);
+        assert_eq!(mm.exact_joints(Body::Base), design(&text("mm")).exact_joints(Body::Base));
+        assert!(mm.to_toml().contains("-6 in") && mm.to_toml().contains("r ft"));
+        let refused = |text: &str| parse(text, Format::Toml).unwrap_err()[0].message.clone();
+        assert!(refused(&text("1")).contains("the unit of the design is no known length"));
+        let angle = text("mm").replace("angle_deg = 30", "angle_deg = \"30 mm\"");
+        assert!(refused(&angle).contains("this number is no length"));
     }
 
     #[test]

@@ -262,6 +262,8 @@ pub struct Findings<'t> {
     violations: Vec<Violation>,
     warnings: Vec<Warning>,
     unlisted: usize,
+    /// Micrometres of the unit of the design, where its label names a known length.
+    pub(crate) length_unit: Option<u64>,
 }
 
 impl<'t> Findings<'t> {
@@ -269,7 +271,14 @@ impl<'t> Findings<'t> {
     pub fn new(text: &'t str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(starts).collect();
-        Self { text, line_starts, violations: Vec::new(), warnings: Vec::new(), unlisted: 0 }
+        Self {
+            text,
+            line_starts,
+            violations: Vec::new(),
+            warnings: Vec::new(),
+            unlisted: 0,
+            length_unit: None,
+        }
     }
 
     /// Line of a byte offset, 1-based.

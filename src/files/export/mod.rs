@@ -27,6 +27,7 @@ mod round_trip;
 mod sizes;
 mod step;
 mod stl;
+mod surface;
 mod telescope;
 #[cfg(test)]
 mod tests;
@@ -45,6 +46,7 @@ pub use model::{Export, ExportBody, ExportCalibration, ExportCranks, ExportLeg, 
 pub use parts::{PART_COLUMNS, PartLine};
 pub use plate::{Plate, PlateHole};
 pub use sizes::{ExportOptions, NoExport, SizeChoice};
+pub use surface::{SurfaceFormat, TriangleSurface};
 pub use text::csv_field;
 pub use units::{LengthUnit, UnknownUnit};
 

@@ -7,14 +7,13 @@
 use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
-use crate::bounded::conclude_far;
-use crate::evidence::attach;
+use crate::bounded::{KnownSurroundings, Surroundings};
+use crate::evidence::{Bounds, attach};
 use crate::harvest::harvest;
 use crate::judge::{RealityJudgement, judge};
-use crate::solve::certify::far::FarPoint;
 use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
 use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
-use crate::solve::{ScaledFrames, far_points, mirror};
+use crate::solve::{ScaledFrames, mirror};
 use crate::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign,
     SolutionSet, Theorem,
@@ -35,8 +34,8 @@ pub(super) struct PreparedHomotopy {
     theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
-    /// Points at infinity near the other poses, where the start poses are all up to a distance.
-    far: Vec<FarPoint>,
+    /// What proves that the others are far out, where the start poses are all up to a distance.
+    far: Option<KnownSurroundings>,
 }
 
 impl PreparedHomotopy {
@@ -50,8 +49,12 @@ impl PreparedHomotopy {
             return None;
         }
         let (theorem, count, far) = match found.completeness {
-            Completeness::Proved { theorem } => (theorem, None, Vec::new()),
-            Completeness::ProvedBounded { .. } => (Theorem::SixLegs, None, far_points(m, o.seed)),
+            Completeness::Proved { theorem } => (theorem, None, None),
+            Completeness::ProvedBounded { .. } => {
+                let mut surroundings = Surroundings::new(m, o.seed);
+                surroundings.conclude(&mut found.clone(), &from).ok()?;
+                (Theorem::SixLegs, None, Some(surroundings.known()))
+            }
             _ if o.pose_count == PoseCounting::Never => return None,
             _ => {
                 let options = CountOptions { seed: o.seed, ..CountOptions::default() };
@@ -59,7 +62,7 @@ impl PreparedHomotopy {
                 if judge(&mut found.clone(), &generic).ok()? != RealityJudgement::Complete {
                     return None;
                 }
-                (Theorem::SixLegs, Some(generic), Vec::new())
+                (Theorem::SixLegs, Some(generic), None)
             }
         };
         let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
@@ -88,11 +91,13 @@ impl PreparedHomotopy {
         let problem = SectionProblem { frame, sections, kind, fine: false };
         let found = harvest(m, s, &o.tolerances, &ends_of(&problem, &paths), &[]);
         let (mut found, certificates) = assemble(o, &problem, &paths, self.start.paths(), found);
-        attach(&mut found, m, s, self.theorem, certificates)?;
+        attach(&mut found, m, s, Bounds::Only(self.theorem), certificates)?;
         if found.completeness.is_proved() {
             return Ok(Some(found));
         }
-        if !self.far.is_empty() && conclude_far(&mut found, m, s, &self.far)? {
+        if let Some(far) = &self.far
+            && far.conclude(&mut found, m, s)?
+        {
             return Ok(Some(found));
         }
         // what has no certificate may be a sign of a motion: the general treatment looks at it

@@ -32,7 +32,7 @@ use platform::pentapod::{LINE_NUMBERS, LinearPentapod, RationalPoint, cross};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
 #[non_exhaustive]

@@ -5,7 +5,7 @@
 //! by least squares from random starts. They depend on the joints alone. Nothing is proved here: the points are starts
 //! for `certify::far`.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Quaternion, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
 use super::certify::far::{C, D, FarPoint, PATCH};
@@ -14,11 +14,13 @@ use platform::manipulator::Manipulator;
 
 /// Random starts, and how many in turn may find nothing new.
 const STARTS: usize = 1500;
-const VAIN: usize = 200;
-/// Six legs have at most so many isolated common points.
-const MOST: usize = 40;
+const VAIN: usize = 100;
+/// So many points, one of each conjugate pair, are looked for: six legs have at most forty isolated ones.
+const MOST: usize = 20;
 /// Steps of one search.
 const STEPS: usize = 40;
+/// Square of the last step, relative: the point is only a start.
+const SETTLED: f64 = 1e-18;
 /// Largest residual of what may be a common point: joints are rounded.
 const NEARLY: f64 = 1e-2;
 /// Points closer than this are one.
@@ -37,12 +39,30 @@ fn dot(a: &[f64; 3], u: &[Complex64; 3]) -> Complex64 {
     u[0] * a[0] + u[1] * a[1] + u[2] * a[2]
 }
 
+/// The ends of the legs in frames that are turned.
 struct Search {
     a: [[f64; 3]; 6],
     b: [[f64; 3]; 6],
+    turned: [Rotation3<f64>; 2],
 }
 
 impl Search {
+    /// Turned at random: otherwise directions for which a parameter is large are hardly found.
+    fn turned(ends: &[[Vector3<f64>; 6]; 2], rng: &mut Rng) -> Self {
+        let turned = [(); 2].map(|()| {
+            let quaternion = Quaternion::new(rng.normal(), rng.normal(), rng.normal(), rng.normal());
+            UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix()
+        });
+        let [a, b] = [0, 1].map(|k| ends[k].map(|end| (turned[k] * end).into()));
+        Self { a, b, turned }
+    }
+
+    /// An isotropic vector in the frame of the design.
+    fn isotropic(&self, body: usize, s: Complex64) -> [Complex64; 3] {
+        let ([u, _], back) = (isotropic(s), self.turned[body].inverse());
+        std::array::from_fn(|i| (0..3).fold(Complex64::ZERO, |sum, k| sum + u[k] * back[(i, k)]))
+    }
+
     /// Unknowns `s`, `t` of `u` and `v`, `r`, `eta`, `xi`.
     fn equations(&self, x: &Unknowns) -> (SVector<Complex64, 6>, Gradient) {
         let ([u, du], [v, dv]) = (isotropic(x[0]), isotropic(x[1]));
@@ -73,7 +93,7 @@ impl Search {
             let next = x - step;
             let (g, k) = self.equations(&next);
             if g.norm_squared() < f.norm_squared() {
-                let settled = step.norm_squared() < 1e-22 * (1.0 + x.norm_squared());
+                let settled = step.norm_squared() < SETTLED * (1.0 + x.norm_squared());
                 (x, f, j) = (next, g, k);
                 damping *= 0.1;
                 if settled {
@@ -90,8 +110,8 @@ impl Search {
     }
 
     /// The point in the coordinates of `certify::far`.
-    fn point(x: &Unknowns) -> Option<FarPoint> {
-        let ([u, _], [v, _]) = (isotropic(x[0]), isotropic(x[1]));
+    fn point(&self, x: &Unknowns) -> Option<FarPoint> {
+        let (u, v) = (self.isotropic(0, x[0]), self.isotropic(1, x[1]));
         let m = |i: usize, j: usize| u[i] * v[j];
         let trace = m(0, 0) + m(1, 1) + m(2, 2);
         let product = |i: usize, j: usize| match (i.min(j), i.max(j)) {
@@ -115,41 +135,66 @@ impl Search {
     }
 }
 
-/// Points at infinity that the legs nearly have in common; none where there are more than isolated ones can be.
-pub(crate) fn far_points(m: &Manipulator, seed: u64) -> Vec<FarPoint> {
-    // the unit of length of `certify::far`
-    let inverse = 2f64.powi(m.size().log2().floor() as i32).recip();
-    let legs = m.legs();
-    let search = Search {
-        a: std::array::from_fn(|i| (legs[i].base.coords * inverse).into()),
-        b: std::array::from_fn(|i| (legs[i].platform.coords * inverse).into()),
-    };
-    let mut rng = Purpose::FAR_POINTS.rng(seed);
-    let mut found: Vec<FarPoint> = Vec::new();
-    let mut vain = 0;
-    let draw = |rng: &mut Rng| Complex64::new(rng.normal(), rng.normal());
-    for _ in 0..STARTS {
-        if vain > VAIN {
-            break;
-        }
-        vain += 1;
-        let start = Unknowns::from_fn(|_, _| draw(&mut rng));
-        let Some(x) = search.from(start) else { continue };
-        let Some(point) = Search::point(&x) else { continue };
-        for point in [point, point.map(|z| z.conj())] {
-            let same = |other: &FarPoint| {
-                let size = 1.0 + point.iter().map(|z| z.norm()).fold(0.0, f64::max);
-                other.iter().zip(&point).all(|(x, y)| (x - y).norm() < SAME * size)
-            };
-            if !found.iter().any(same) {
-                found.push(point);
-                vain = 0;
+/// The search for the points at infinity that the legs of a design nearly have in common.
+pub(crate) struct FarSearch {
+    ends: [[Vector3<f64>; 6]; 2],
+    rng: Rng,
+    found: Vec<FarPoint>,
+    starts: usize,
+    vain: usize,
+}
+
+impl FarSearch {
+    pub(crate) fn new(m: &Manipulator, seed: u64) -> Self {
+        // the unit of length of `certify::far`
+        let inverse = 2f64.powi(m.size().log2().floor() as i32).recip();
+        let legs = m.legs();
+        let ends = [
+            std::array::from_fn(|i| legs[i].base.coords * inverse),
+            std::array::from_fn(|i| legs[i].platform.coords * inverse),
+        ];
+        Self { ends, rng: Purpose::FAR_POINTS.rng(seed), found: Vec::new(), starts: 0, vain: 0 }
+    }
+
+    /// The points, one of each conjugate pair: first those that are known, then new ones as they are found.
+    ///
+    /// Legs that have a curve of common points at infinity have no end of them: then [`MOST`] are looked for.
+    pub(crate) fn points(&mut self) -> impl Iterator<Item = FarPoint> {
+        let mut k = 0;
+        std::iter::from_fn(move || {
+            if k == self.found.len() {
+                let point = self.another()?;
+                self.found.push(point);
+            }
+            k += 1;
+            Some(self.found[k - 1])
+        })
+    }
+
+    /// Those found so far.
+    pub(crate) fn known(&self) -> &[FarPoint] {
+        &self.found
+    }
+
+    /// One that is not known yet.
+    fn another(&mut self) -> Option<FarPoint> {
+        let is_same = |x: &FarPoint, y: &FarPoint| {
+            let size = 1.0 + x.iter().map(|z| z.norm()).fold(0.0, f64::max);
+            x.iter().zip(y).all(|(x, y)| (x - y).norm() < SAME * size)
+        };
+        while self.starts < STARTS && self.vain < VAIN && self.found.len() < MOST {
+            self.starts += 1;
+            self.vain += 1;
+            let start = Unknowns::from_fn(|_, _| Complex64::new(self.rng.normal(), self.rng.normal()));
+            let problem = Search::turned(&self.ends, &mut self.rng);
+            let found = problem.from(start);
+            let Some(point) = found.as_ref().and_then(|x| problem.point(x)) else { continue };
+            let conjugate = point.map(|z| z.conj());
+            if !self.found.iter().any(|x| is_same(&point, x) || is_same(&conjugate, x)) {
+                self.vain = 0;
+                return Some(point);
             }
         }
-        // legs with a curve of common points at infinity: no number of them is all
-        if found.len() > MOST {
-            return Vec::new();
-        }
+        None
     }
-    found
 }

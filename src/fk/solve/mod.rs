@@ -18,6 +18,6 @@ pub mod sylvester;
 pub mod template;
 
 pub use dependence::{LegDependence, dependence};
-pub(crate) use far_points::far_points;
+pub(crate) use far_points::FarSearch;
 pub use planar::mirror;
 pub use sections::{ScaledFrames, Sections, quaternion_product, split};

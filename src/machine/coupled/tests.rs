@@ -17,8 +17,8 @@ struct SimulatedLeg {
     base: Vector3<f64>,
     frame: Rotation3<f64>,
     offsets: [f64; 2],
-    /// Angles about the first and the second axis of the base, length, angle about the leg, angles about the second and
-    /// the first axis of the platform.
+    /// Angles about the first and second axis of the base, length, angle about the leg, angles about the second and
+    /// first axis of the platform.
     at: [f64; 6],
 }
 

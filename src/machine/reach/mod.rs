@@ -8,6 +8,7 @@ mod nearest;
 mod projection;
 mod rays;
 mod step;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod way;
@@ -18,6 +19,7 @@ use platform::manipulator::{Leg, Manipulator};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
 pub use rays::{FreeRay, largest_box_within, volume_of_rays};
+pub use surface::ReachedSurface;
 pub use way::{PoseAxis, StraightWay};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
@@ -200,11 +202,17 @@ impl<'a> Reach<'a> {
     pub fn free_ranges(&self, pose: &Pose) -> Option<[FreeRange; 6]> {
         self.allows(pose).then(|| {
             PoseAxis::ALL.map(|axis| {
-                let way = StraightWay::axis(pose, axis);
-                let most = if axis.is_turn() { std::f64::consts::PI } else { FARTHEST * self.size };
-                FreeRange { axis, back: self.along(&way.reversed(), most), forth: self.along(&way, most) }
+                let [back, forth] = self.both_ways(&StraightWay::axis(pose, axis));
+                FreeRange { axis, back, forth }
             })
         })
+    }
+
+    /// How far a way is free backwards and forwards: over half a turn where the platform turns, else over ten sizes.
+    #[must_use]
+    pub fn both_ways(&self, way: &StraightWay) -> [Travel; 2] {
+        let most = if way.turn.norm() > 0.0 { std::f64::consts::PI } else { FARTHEST * self.size };
+        [self.along(&way.reversed(), most), self.along(way, most)]
     }
 
     /// Distance of two poses: `sqrt(|p - p'|^2 + (L angle)^2)` with the length `L` of [`Reach::new`].

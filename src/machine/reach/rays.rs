@@ -52,7 +52,7 @@ impl Reach<'_> {
         let (velocity, turn) =
             if is_turn { (Vector3::zeros(), *direction) } else { (*direction, Vector3::zeros()) };
         let most = if is_turn { std::f64::consts::PI } else { FARTHEST * self.size };
-        let found = self.along(&StraightWay { start: *from, velocity, turn }, most);
+        let found = self.along(&StraightWay { start: *from, velocity, turn, pivot: Vector3::zeros() }, most);
         FreeRay { direction: *direction, free: found.amount, binding: found.binding }
     }
 }

@@ -1,6 +1,7 @@
 //! Steps of a way over which no margin can reach zero.
 //!
-//! With `v` and `w` the velocities of the way, `c = R b` and `q = p - a` of a leg with the line `d = c + q`:
+//! With `v` and `w` the velocities of the way, `c = R (b - o)` and `q = R o + p - a` of a leg with the line `d = c + q`,
+//! where `o` is the pivot:
 //!
 //! ```text
 //! |d'| <= V = |v| + |w x c|,   |d''| <= A = |w| |w x c|,
@@ -39,7 +40,10 @@ struct LineMotion {
 
 /// A leg at a place of the way.
 struct LegPlace {
+    /// `R b`.
     arm: Vector3<f64>,
+    /// `|w x R b|`.
+    arm_speed: f64,
     /// Unit vector along the leg.
     u: Vector3<f64>,
     length: f64,
@@ -50,8 +54,10 @@ struct LegPlace {
 impl LegPlace {
     fn of(leg: &Leg, way: &StraightWay, pose: &Pose) -> Self {
         let (v, w) = (&way.velocity, &way.turn);
-        let arm = pose.rotation * leg.platform.coords;
-        let q = pose.position - leg.base.coords;
+        let origin_arm = pose.rotation * leg.platform.coords;
+        let pivot = pose.rotation * way.pivot;
+        let arm = origin_arm - pivot;
+        let q = pose.position + pivot - leg.base.coords;
         let line = arm + q;
         let length = line.norm();
         let cap = |speed: f64| if speed > 0.0 { (1.0 - KEPT) * length / speed } else { f64::INFINITY };
@@ -75,7 +81,14 @@ impl LegPlace {
             acceleration: w.norm() * (turned.norm() + grown) + 2.0 * both,
             cap: cap(speed).min(first),
         };
-        Self { arm, u: line / length, length, in_base, in_platform }
+        Self {
+            arm: origin_arm,
+            arm_speed: w.cross(&origin_arm).norm(),
+            u: line / length,
+            length,
+            in_base,
+            in_platform,
+        }
     }
 
     /// The step that the angle between leg and an axis (base frame) allows, up to a limit.
@@ -127,7 +140,8 @@ fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 
 
 /// The greatest speed of a platform joint on a way.
 pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
-    let turned = |leg: &Leg| way.turn.cross(&(way.start.rotation * leg.platform.coords)).norm();
+    let arm = |leg: &Leg| way.start.rotation * (leg.platform.coords - way.pivot);
+    let turned = |leg: &Leg| way.turn.cross(&arm(leg)).norm();
     way.velocity.norm() + legs.iter().map(turned).fold(0.0, f64::max)
 }
 
@@ -200,7 +214,7 @@ impl Reach<'_> {
             TermKind::LegSpeed => {
                 // |(c x u)'| <= |c'| + |c| |u'|
                 let arm = leg.arm.norm();
-                let rate = base.speed * (1.0 + arm / (KEPT * leg.length));
+                let rate = leg.arm_speed + base.speed * arm / (KEPT * leg.length);
                 let degrees = self.required.platform_speed.map_or(0.0, |s| s.angular_deg);
                 lasts(margin, rate * degrees.to_radians()).min(base.cap)
             }

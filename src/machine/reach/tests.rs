@@ -64,7 +64,7 @@ fn drawn(home: &Pose, rng: &mut Rng) -> StraightWay {
     let mut vector = |x: f64| Vector3::from_fn(|_, _| rng.uniform(-x, x));
     let start =
         Pose { rotation: Rotation3::new(vector(0.1)) * home.rotation, position: home.position + vector(0.1) };
-    StraightWay { start, velocity: vector(1.0), turn: vector(1.0) }
+    StraightWay { start, velocity: vector(1.0), turn: vector(1.0), pivot: vector(0.3) }
 }
 
 #[test]

@@ -50,16 +50,18 @@ impl PoseAxis {
     }
 }
 
-/// A way from a pose: `p(t) = p + t v` and `R(t) = exp(t [w]) R`, with the velocity `v` of the platform origin and the
-/// angular velocity `w`, base frame.
+/// A way from a pose: `R(t) = exp(t [w]) R`, while the pivot, a point `c` of the platform, moves on a line:
+/// `R(t) c + p(t) = R c + p + t v`, base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightWay {
     /// The start, at `t = 0`.
     pub start: Pose,
-    /// Velocity of the platform origin, design units.
+    /// Velocity of the pivot, design units.
     pub velocity: Vector3<f64>,
     /// Angular velocity, radians.
     pub turn: Vector3<f64>,
+    /// The pivot, platform frame: the origin of the platform, or the point about which it turns.
+    pub pivot: Vector3<f64>,
 }
 
 impl StraightWay {
@@ -83,7 +85,7 @@ impl StraightWay {
             PoseAxis::Z => Vector3::z(),
             _ => still,
         };
-        Self { start: *start, velocity, turn }
+        Self { start: *start, velocity, turn, pivot: still }
     }
 
     /// The straight way between two poses, which ends at `t = 1`. The origin moves on a line; the platform rotates
@@ -91,7 +93,8 @@ impl StraightWay {
     #[must_use]
     pub fn between(from: &Pose, to: &Pose) -> Self {
         let turn = turn_between(&from.rotation, &to.rotation);
-        Self { start: *from, velocity: to.position - from.position, turn }
+        let velocity = to.position - from.position;
+        Self { start: *from, velocity, turn, pivot: Vector3::zeros() }
     }
 
     /// The same way backwards from its start.
@@ -103,10 +106,9 @@ impl StraightWay {
     /// The pose of the platform at `t`.
     #[must_use]
     pub fn at(&self, t: f64) -> Pose {
-        Pose {
-            rotation: Rotation3::new(self.turn * t) * self.start.rotation,
-            position: self.start.position + self.velocity * t,
-        }
+        let rotation = Rotation3::new(self.turn * t) * self.start.rotation;
+        let arm = self.start.rotation * self.pivot - rotation * self.pivot;
+        Pose { rotation, position: self.start.position + arm + self.velocity * t }
     }
 }
 

@@ -10,8 +10,8 @@ use platform::geom::{Pose, any_across};
 ///
 /// Let `x` be a unit vector across `n` (the coordinate axis farthest from `n`, made normal to it) and `y = n x x`. The
 /// leg has the direction of `n` rotated by `universal_deg[1]` about `y`, then by `universal_deg[0]` about `x`:
-/// `u = Rx(first) Ry(second) n`. The first axis belongs to the body, the second to the leg, as in the model from
-/// `export --to mjcf` for joints that follow the legs at home.
+/// `u = Rx(first) Ry(second) n`. The first axis belongs to the body, the second to the leg. The model from
+/// `export --to mjcf` has the same axes for joints that follow the legs at home.
 ///
 /// A universal joint of the design has `x` along its first axis. The part of its axis across `x` then replaces `n`.
 #[derive(Debug, Clone, Copy, PartialEq)]

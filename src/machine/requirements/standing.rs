@@ -60,8 +60,8 @@ impl Terms<'_> {
         (0..6).map(of).fold(1.0, f64::max)
     }
 
-    /// The sum of lengths in the computation of a length. For a plate it grows by the extent of the plate, and by its
-    /// ratio to the shortest edge of the hull, whose direction is less accurate.
+    /// The sum of lengths in the computation of a length. For a plate it grows by the extent of the plate. It also
+    /// grows with the ratio of this extent to the shortest edge of the hull, whose direction is less accurate.
     fn plate_reach(&self, kind: TermKind, reach: f64) -> f64 {
         let of = |body: Body| {
             self.plate(body).map_or(0.0, |solid| {
@@ -79,15 +79,26 @@ impl Terms<'_> {
 
     /// Bound of the rounding of a margin, in its unit.
     ///
-    /// For holes and plates `r` also includes the extent `e` of the plate, and `e` times `e` over the shortest edge of
-    /// its hull. Lengths: `64 eps` (1.4e-14) times `r`. `r` is the sum of the greatest distances of a joint from the
-    /// origin of its body and of the distance of the platform from the base origin. Angles: the same over the shortest
-    /// leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis.
-    /// Speeds: `64 eps` times the greatest speed times `r` over the shortest leg. Forces: `64 eps` times the greatest
-    /// force over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and
-    /// over the sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles
-    /// and of forces together, times twice the required least value. The bound is at most `1e-9` radians, or `1e-9` of
-    /// the greatest speed or force, or of twice the least stiffness or frequency.
+    /// Let `r` be the sum of these lengths:
+    ///
+    /// * the greatest distance of a joint from the origin of its body, for both bodies,
+    /// * the distance of the platform from the base origin,
+    /// * the offsets of the universal joints.
+    ///
+    /// The bounds by quantity:
+    ///
+    /// * Lengths: `64 eps` (1.4e-14) times `r`. For holes and plates `r` also includes the extent `e` of the plate, and
+    ///   `e` times `e` over the shortest edge of its hull.
+    /// * Angles: the bound of lengths over the shortest leg. For first angles of universal joints it is multiplied by
+    ///   `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis.
+    /// * Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
+    /// * Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian.
+    /// * Cranks: angles over the shorter of crank and rod and over the sine of the transmission angle; speeds and
+    ///   torques accordingly.
+    /// * Stiffness and frequency: the bounds of angles and of forces together, times twice the required least value.
+    ///
+    /// The bound is at most `1e-9` radians, or `1e-9` of the greatest speed or force, or of twice the least stiffness
+    /// or frequency.
     #[must_use]
     pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let m = self.manipulator;

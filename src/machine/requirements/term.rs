@@ -192,6 +192,46 @@ impl TermKind {
         }
     }
 
+    /// The name for people: the quantity, and the side on which it is limited.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::LegTooShort => "leg length, minimum",
+            Self::LegTooLong => "leg length, maximum",
+            Self::BaseSwing => "joint angle at base, maximum",
+            Self::PlatformSwing => "joint angle at platform, maximum",
+            Self::BaseFirstAngle => "first joint angle at base, maximum",
+            Self::BaseSecondAngle => "second joint angle at base, maximum",
+            Self::PlatformFirstAngle => "first joint angle at platform, maximum",
+            Self::PlatformSecondAngle => "second joint angle at platform, maximum",
+            Self::LegClearance => "clearance between legs",
+            Self::KeepOut => "clearance to keep-out",
+            Self::LegForce => "leg force, maximum",
+            Self::LegSpeed => "leg speed, maximum",
+            Self::BaseSpacing => "spacing of base joints",
+            Self::PlatformSpacing => "spacing of platform joints",
+            Self::BaseEnvelope => "envelope of base",
+            Self::PlatformEnvelope => "envelope of platform",
+            Self::MachineEnvelope => "envelope of machine",
+            Self::BaseHoleEdge => "holes to edge of base plate",
+            Self::PlatformHoleEdge => "holes to edge of platform plate",
+            Self::BaseHoleGap => "gap of holes in base plate",
+            Self::PlatformHoleGap => "gap of holes in platform plate",
+            Self::PlateClearance => "clearance of legs to plate",
+            Self::PayloadClearance => "clearance of legs to payload",
+            Self::LinearStiffness => "stiffness against force, minimum",
+            Self::AngularStiffness => "stiffness against torque, minimum",
+            Self::NaturalFrequency => "natural frequency, minimum",
+            Self::RodTooShort => "rod length to near side, minimum",
+            Self::RodTooLong => "rod length to far side, maximum",
+            Self::CrankTransmission => "transmission angle, minimum",
+            Self::CrankAngle => "crank angle, range",
+            Self::TipSwing => "joint angle at crank tip, maximum",
+            Self::CrankTorque => "crank torque, maximum",
+            Self::CrankSpeed => "crank speed, maximum",
+        }
+    }
+
     /// The quantity of its margin.
     #[must_use]
     pub fn quantity(self) -> Quantity {

@@ -369,9 +369,9 @@ impl RotaryPlatform {
         })
     }
 
-    /// The greatest speed of each crank, radians per second, over all motions up to the given speeds of the platform
-    /// (angular speed in radians per second). It is `v |row_v| + w |row_w|` of the [Jacobian](Self::crank_jacobian).
-    /// `None` where a crank is singular.
+    /// The greatest speed of each crank, radians per second, over all motions up to the given speeds of the platform.
+    /// The angular speed is in radians per second. The result is `v |row_v| + w |row_w|` of the
+    /// [Jacobian](Self::crank_jacobian). `None` where a crank is singular.
     #[must_use]
     pub fn greatest_speeds(
         &self,

@@ -2,6 +2,7 @@
 
 mod across;
 mod chart;
+mod convention;
 mod draw;
 pub mod enclosed;
 mod hull;
@@ -19,6 +20,10 @@ mod turn;
 
 pub use across::any_across;
 pub use chart::{Bisection, Chart, ChartCell, Covered, combination};
+pub use convention::{
+    AngleUnit, FrameAxis, PoseConvention, QuaternionOrder, RotationOrder, TurnAxes, UnknownOrder, UpAxis,
+    WrittenAngles, WrittenPose,
+};
 pub use draw::{CentredPoses, any_pose};
 pub use draw::{SamplePlan, random_rotation};
 pub use hull::convex_hull;
@@ -29,7 +34,7 @@ pub use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
 pub use pose_set::{ListedFrom, PoseSpace, Region};
 #[cfg(feature = "serde")]
-pub use pose_written::{ByQuaternion, PoseQuaternionRecord, PoseRecord};
+pub use pose_written::{ByQuaternion, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
 pub use quaternion::rotation_from_quaternion;
 pub use rotation_vector::{rotation_vector, turn_between};
 pub use segment::{LinePair, segment_box_nearest, segment_distance};

@@ -6,8 +6,9 @@ use std::str::FromStr;
 use nalgebra::{Isometry3, Matrix3, Matrix4, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
-use super::Pose;
+use super::convention::angles_of_product;
 use super::pose::{ROUNDED, nearest_rotation};
+use super::{Pose, PoseConvention};
 
 /// Greatest accepted difference between `R^T R` of a matrix and the identity: matrices written with seven digits pass.
 const ORTHOGONAL: f64 = 1e-6;
@@ -81,13 +82,7 @@ impl Angles {
     /// zero for zero entries, and the roll matches it.
     #[must_use]
     pub fn of(rotation: &Rotation3<f64>) -> Self {
-        let r = rotation.matrix();
-        let pitch = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));
-        // + 0.0: the angle of (-0, -0) must not be a half turn
-        let yaw = (r[(1, 0)] + 0.0).atan2(r[(0, 0)] + 0.0);
-        let (sin, cos) = yaw.sin_cos();
-        // the middle row of Rz(-yaw) R is (0, cos roll, -sin roll) at every pitch
-        let roll = (sin * r[(0, 2)] - cos * r[(1, 2)]).atan2(cos * r[(1, 1)] - sin * r[(0, 1)]);
+        let [yaw, pitch, roll] = angles_of_product(rotation.matrix(), [2, 1, 0]).angles;
         Self { roll, pitch, yaw }
     }
 }
@@ -199,21 +194,8 @@ impl FromStr for Pose {
     type Err = InvalidPose;
 
     fn from_str(text: &str) -> Result<Self, InvalidPose> {
-        let mut values = Vec::with_capacity(7);
-        for (i, field) in text.split(',').map(str::trim).enumerate() {
-            match field.parse::<f64>() {
-                Ok(x) if x.is_finite() => values.push(x),
-                _ => {
-                    let message = format!("value {}, `{field}`, is not a finite number", i + 1);
-                    return Err(InvalidPose::Text(message));
-                }
-            }
-        }
-        match values[..] {
-            [x, y, z, roll, pitch, yaw] => Ok(Self::new([x, y, z], Angles::from_degrees([roll, pitch, yaw]))),
-            [x, y, z, qw, qx, qy, qz] => Self::from_quaternion([x, y, z], [qw, qx, qy, qz]),
-            _ => Err(InvalidPose::Text(format!("{} values instead of six or seven", values.len()))),
-        }
+        let nowhere = Self { rotation: Rotation3::identity(), position: Vector3::zeros() };
+        PoseConvention::default().read_text(text, &nowhere)
     }
 }
 

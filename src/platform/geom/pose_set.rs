@@ -70,7 +70,7 @@ impl ListedFrom {
     }
 
     /// The inverse of [`in_base_frame`](Self::in_base_frame).
-    fn as_listed(self, pose: &Pose, home: &Pose) -> Pose {
+    pub(super) fn as_listed(self, pose: &Pose, home: &Pose) -> Pose {
         match self {
             Self::Base => *pose,
             Self::Home => Pose {

@@ -4,11 +4,10 @@ use std::borrow::Cow;
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use num::Number;
-use num::shown::fixed;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Pose, nearest_rotation};
+use super::{Pose, PoseConvention, WrittenPose, nearest_rotation};
 
 /// A pose: a platform point x is at R x + p in the base frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,6 +37,78 @@ impl From<&PoseRecord> for Pose {
         let rows = Matrix3::from_fn(|i, j| record.rotation[i][j].0);
         let position = record.position.map(|x| x.0);
         Self { rotation: nearest_rotation(&rows), position: Vector3::from(position) }
+    }
+}
+
+/// A pose in the numbers of a convention.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseInFrames {
+    /// Position of the pivot, design units.
+    pub position: [Number; 3],
+    /// Angles in the unit of `frames`, in the order in which they are written.
+    pub angles: [Number; 3],
+    /// Whether the rotation has no other angles: false near the ends of the middle angle, where only a combination of
+    /// the others is determined to more than half of the digits of a double.
+    pub angles_unique: bool,
+    /// The unit quaternion in the order of `frames`.
+    pub quaternion: [Number; 4],
+}
+
+impl From<&WrittenPose> for PoseInFrames {
+    fn from(written: &WrittenPose) -> Self {
+        Self {
+            position: written.position.map(Number),
+            angles: written.angles.map(Number),
+            angles_unique: written.angles_are_unique,
+            quaternion: written.quaternion.map(Number),
+        }
+    }
+}
+
+/// A convention for poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseConventionRecord {
+    /// Order of the turns: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried along, or
+    /// `vector` for rotation vectors.
+    pub rotation_order: String,
+    /// The same as a product of matrices for angles a, b, c in the order in which they are written.
+    pub formula: String,
+    /// Unit of angles: `deg` or `rad`.
+    pub angles: String,
+    /// Order of quaternions: `wxyz` or `xyzw`.
+    pub quaternion: String,
+    /// The point of the platform whose position is given, platform frame, design units.
+    pub pivot: [Number; 3],
+    /// What poses are measured from: `base` or `home`.
+    pub relative_to: String,
+    /// The axis that points up: `z` or `y`.
+    pub up: String,
+    /// The convention in words.
+    pub sentence: String,
+}
+
+impl From<&PoseConvention> for PoseConventionRecord {
+    fn from(convention: &PoseConvention) -> Self {
+        let order = convention.order();
+        let pivot = convention.pivot.unwrap_or_else(Vector3::zeros);
+        Self {
+            rotation_order: order.to_string(),
+            formula: order.formula(),
+            angles: convention.angle_unit().name().into(),
+            quaternion: convention.quaternion_order().name().into(),
+            pivot: [pivot.x, pivot.y, pivot.z].map(Number),
+            relative_to: convention.measured_from().name().into(),
+            up: convention.up_axis().name().into(),
+            sentence: convention.sentences(),
+        }
+    }
+}
+
+impl PoseConventionRecord {
+    /// Whether poses are written as this program does.
+    #[must_use]
+    pub fn is_usual(&self) -> bool {
+        *self == Self::from(&PoseConvention::default())
     }
 }
 
@@ -77,15 +148,6 @@ pub struct PoseQuaternionRecord {
     /// Unit quaternion, scalar part first.
     #[serde(rename = "q")]
     pub quaternion: [Number; 4],
-}
-
-impl PoseQuaternionRecord {
-    /// `x,y,z,qw,qx,qy,qz` with four decimals, for people.
-    #[must_use]
-    pub fn short(&self) -> String {
-        let values = self.position.iter().chain(&self.quaternion);
-        values.map(|x| fixed(x.0, 4)).collect::<Vec<_>>().join(",")
-    }
 }
 
 impl From<&PoseQuaternionRecord> for Pose {

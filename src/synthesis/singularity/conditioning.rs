@@ -9,7 +9,7 @@ use platform::manipulator::{Manipulator, inverse_condition, jacobian};
 /// The inverse condition number of the Jacobian at random poses.
 // `sigma_min / sigma_max` with unit lines and moments over the characteristic length
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ConditioningRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "ConditioningRecord", transform = num::nullable))]
 pub struct Conditioning {
     /// Singular values of the six normalised leg vectors, largest first.
     #[cfg_attr(feature = "serde", serde(skip))]

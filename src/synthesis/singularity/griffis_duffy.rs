@@ -174,7 +174,7 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
 
 /// Whether a singular platform can be assembled.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), serde(tag = "verdict", rename_all = "snake_case"), schemars(rename = "AssemblyRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), serde(tag = "verdict", rename_all = "snake_case"), schemars(rename = "AssemblyRecord", transform = num::nullable))]
 pub enum Assembly {
     /// The lengths violate the condition.
     // by more than rounding: there is no pose, real or complex
@@ -206,7 +206,7 @@ pub enum Assembly {
 
 /// Squared lengths origin + x direction with x in the interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CornerLengthsRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "CornerLengthsRecord", transform = num::nullable))]
 pub struct CornerLengths {
     // of the octahedral platforms, in the order of the hexagon
     /// The origin at x = 0.

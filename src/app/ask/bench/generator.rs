@@ -36,6 +36,30 @@ pub struct Problem {
     pub pose: Option<Pose>,
 }
 
+impl Problem {
+    /// The problem with joints that are rounded to so many digits behind the point, and lengths of the same pose.
+    ///
+    /// # Errors
+    /// [`NotDrawn`] where rounding leaves no manipulator.
+    pub(super) fn rounded(self, digits: u32) -> Result<Self, NotDrawn> {
+        let scale = 10f64.powi(i32::try_from(digits).unwrap_or(i32::MAX));
+        let round = |x: f64| {
+            let scaled = (x * scale).round();
+            // doubles of order one have 16 digits
+            if scaled.abs() < 1.0 / f64::EPSILON { scaled / scale } else { x }
+        };
+        let legs = self
+            .manipulator
+            .legs()
+            .map(|leg| Leg { base: leg.base.map(round), platform: leg.platform.map(round) });
+        let manipulator = Manipulator::from_legs(legs)?;
+        match self.pose {
+            Some(pose) => at_pose(manipulator, pose),
+            None => Ok(Self { manipulator, ..self }),
+        }
+    }
+}
+
 /// The reason why a problem could not be drawn.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]

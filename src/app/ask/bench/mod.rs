@@ -29,6 +29,6 @@ pub use generator::{LengthsFrom, NotDrawn, Problem, problem};
 pub use noise::{NOISE_LEVELS, NoiseLevel, NoisePlan, Spread, noise};
 pub use raw::{Elimination, EliminationMatrix, ErrorBin, GapStatistics, RawReport, StepTime};
 pub use reference_time::{ReferenceTimes, reference_times};
-pub use run::{Plan, RunError, WrongAnswer, run};
+pub use run::{OpenAnswer, Plan, RunError, WrongAnswer, run};
 pub use statistics::{BenchReport, ErrorStatistics, TimeSplit};
 pub use validator::{Claim, Validation, validate};

@@ -14,7 +14,7 @@ use super::raw::{Elimination, RawOutcome};
 use super::statistics::{BenchReport, summarise};
 use super::validator::{Claim, Validation, validate};
 use fk::solve::certify::Certifier;
-use fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
+use fk::{Completeness, FkOptions, FkRoot, FkSolutions, ForwardKinematics, PoseCounting, Reality};
 use platform::geom::ComplexPose;
 
 /// The plan of a run.
@@ -24,6 +24,8 @@ pub struct Plan {
     pub class: Class,
     /// The source of the leg lengths.
     pub lengths: LengthsFrom,
+    /// Digits behind the point that coordinates of joints are rounded to, as people type them; `None` for those drawn.
+    pub digits: Option<u32>,
     /// Number of problems.
     pub count: u64,
     /// Index of the first problem, to repeat a failed one.
@@ -36,6 +38,26 @@ pub struct Plan {
     pub count_poses: bool,
     /// The reference solver solves every n-th problem again from two other starts; 0: never.
     pub recheck_every: u64,
+}
+
+impl Plan {
+    /// Problem `k` of the plan.
+    ///
+    /// # Errors
+    /// As [`problem`].
+    pub fn problem(&self, k: u64) -> Result<Problem, NotDrawn> {
+        let drawn = problem(self.class, self.lengths, self.seed, k)?;
+        self.digits.map_or(Ok(drawn.clone()), |digits| drawn.rounded(digits))
+    }
+}
+
+/// An answer without a proof of completeness.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpenAnswer {
+    /// Index of the problem: with class and seed it names the problem.
+    pub k: u64,
+    /// What the solver said of its own answer.
+    pub solver: String,
 }
 
 /// The reason why a run failed.
@@ -80,6 +102,7 @@ pub(super) struct ProblemOutcome {
     pub(super) claimed: usize,
     pub(super) certified_roots: usize,
     pub(super) proved: bool,
+    pub(super) proved_bounded: bool,
     pub(super) accounted: bool,
     pub(super) rechecked: bool,
     pub(super) metric: f64,
@@ -120,7 +143,7 @@ fn one(
     solver: &dyn ForwardKinematics,
     reference: &dyn ForwardKinematics,
 ) -> Result<ProblemOutcome, NotDrawn> {
-    let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
+    let problem = plan.problem(k)?;
     let counting = if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never };
     let options = FkOptions::new().seed(plan.seed).pose_count(counting);
     let elimination = Elimination::of(solver.method());
@@ -136,6 +159,14 @@ fn one(
     };
     let (claims, certify_us) = found.as_ref().map_or((Vec::new(), 0.0), |f| claims_of(&problem, f));
     let mut others: Vec<ComplexPose> = problem.pose.map(ComplexPose::from).into_iter().collect();
+    // a proof up to a distance says nothing of poses farther out, or of poses that are not real
+    let is_within = |root: &FkRoot| match found.as_ref().map(|f| &f.completeness) {
+        Some(Completeness::ProvedBounded { proof }) => proof.rotation.map_or_else(
+            || root.reality == Reality::Real,
+            |reach| root.pose.rotation.iter().all(|z| z.norm() < reach),
+        ),
+        _ => true,
+    };
     let start = Instant::now();
     let mut verdict = validate(&problem, &claims, &others);
     let validate_us = start.elapsed().as_secs_f64() * 1e6;
@@ -144,13 +175,15 @@ fn one(
     if rechecked {
         for options in starts(plan.seed) {
             if let Ok(again) = reference.solve(&problem.manipulator, &problem.squares, &options) {
-                others.extend(again.roots.iter().map(|r| r.pose));
+                others.extend(again.roots.iter().filter(|r| is_within(r)).map(|r| r.pose));
             }
         }
         verdict = validate(&problem, &claims, &others);
     }
     verdict.missed = verdict.missed.max(expected.saturating_sub(verdict.counted));
     let proved = found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. }));
+    let proved_bounded =
+        found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::ProvedBounded { .. }));
     // a proof of completeness is a certificate too
     let claimed_complete = found.as_ref().is_some_and(|f| {
         matches!(
@@ -167,6 +200,7 @@ fn one(
         claimed: claims.len(),
         certified_roots: claims.iter().filter(|c| c.certified).count(),
         proved,
+        proved_bounded,
         accounted: found.as_ref().is_some_and(FkSolutions::all_accounted),
         rechecked,
         metric: error_metric(&problem.manipulator, &problem.squares, &poses),
@@ -188,7 +222,7 @@ pub fn run(
     reference: &dyn ForwardKinematics,
 ) -> Result<BenchReport, RunError> {
     let undrawn = |k: u64| move |why: NotDrawn| RunError::NotDrawn { k, why };
-    problem(plan.class, plan.lengths, plan.seed, plan.first).map_err(undrawn(plan.first))?;
+    plan.problem(plan.first).map_err(undrawn(plan.first))?;
     let expected = expected_count(plan.class, plan.lengths, plan.seed, reference)
         .ok_or(RunError::NoExpectation(plan.class))?;
     let (next, end) = (AtomicU64::new(plan.first), plan.first.saturating_add(plan.count));

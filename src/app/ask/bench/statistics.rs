@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::raw::{Elimination, RawReport};
-use super::run::{Plan, ProblemOutcome, WrongAnswer};
+use super::run::{OpenAnswer, Plan, ProblemOutcome, WrongAnswer};
 
 /// The error measure of Martyushev over the problems.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,8 @@ pub struct BenchReport {
     pub certified: u64,
     /// Number of problems with a proof of completeness.
     pub proved: u64,
+    /// Problems with a proof for all poses up to a distance, so for all real ones.
+    pub proved_bounded: u64,
     /// Number of problems for which the solver itself warns that roots may be missing.
     pub doubted: u64,
     /// Number of problems that look complete to the solver but lack roots: the worst kind.
@@ -85,6 +87,8 @@ pub struct BenchReport {
     pub raw: Option<RawReport>,
     /// Problems with a wrong answer.
     pub failures: Vec<WrongAnswer>,
+    /// Problems without a proof.
+    pub open: Vec<OpenAnswer>,
 }
 
 impl BenchReport {
@@ -147,6 +151,8 @@ pub(super) fn summarise(
         found: o.verdict.distinct,
         solver: o.solver.clone(),
     });
+    let open = outcomes.iter().filter(|o| !o.proved && !o.proved_bounded);
+    let open = open.map(|o| OpenAnswer { k: o.k, solver: o.solver.clone() });
     // without roots or with zero residuals there is no logarithm
     let errors: Vec<f64> = outcomes.iter().map(|o| o.metric).filter(|e| e.is_finite()).collect();
     let raw: Vec<_> = outcomes.iter().filter_map(|o| o.raw.clone()).collect();
@@ -156,6 +162,7 @@ pub(super) fn summarise(
         complete: count(&|o| o.verdict.missed + o.verdict.spurious == 0),
         certified: count(&|o| o.claimed > 0 && o.certified_roots == o.claimed),
         proved: count(&|o| o.proved),
+        proved_bounded: count(&|o| o.proved_bounded),
         doubted: count(&|o| !o.accounted),
         silent_failures: count(&|o| o.accounted && is_wrong(o)),
         rechecked: count(&|o| o.rechecked),
@@ -179,5 +186,6 @@ pub(super) fn summarise(
         epsilon: error_statistics(&errors),
         raw: elimination.map(|e| e.report(&raw)),
         failures: failures.collect(),
+        open: open.collect(),
     }
 }

@@ -2,14 +2,14 @@
 
 use std::sync::OnceLock;
 
-use crate::Design;
-use files::design::{DesignModel, Origin, Share};
+use crate::{Design, Error};
+use files::design::{DesignModel, InvalidShare, Origin, Share};
 use platform::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use synthesis::singularity::GriffisDuffy;
 use synthesis::{
     AffineLegMap, Derivation, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, LegMapOutcome,
     LegMapTolerances, NearestOctahedral, NearestOptions, Offset, Pattern, Relation, corner, edge, leg_map,
-    nearest_octahedral,
+    nearest_octahedral, sliding_body,
 };
 
 /// An octahedral platform with the names of its corners and of the joints on its edges.
@@ -199,6 +199,28 @@ impl Original {
         Ok((built.into(), map))
     }
 
+    /// Offsets of a pattern as they are written: shares of the sides, or lengths with a unit from their first joints.
+    ///
+    /// # Errors
+    /// A text that is neither; a unit where the design has none.
+    pub fn shares(&self, pattern: &Pattern, texts: &[String]) -> Result<Vec<Share>, InvalidShare> {
+        let order = pattern.offsets();
+        let share = |(k, text): (usize, &String)| match order.get(k) {
+            Some(offset) => {
+                let ends = edge(offset.side).map(|i| self.corner_joint(i));
+                self.design.share_of(sliding_body(offset.side), ends, text)
+            }
+            None => text.parse(),
+        };
+        texts.iter().enumerate().map(share).collect()
+    }
+
+    /// The joint of the design at a corner of the triangles.
+    fn corner_joint(&self, i: usize) -> usize {
+        let o = &self.octahedral;
+        if i < 3 { o.base_indices()[i] } else { o.platform_indices()[i - 3] }
+    }
+
     /// The derivation of the leg map to an equivalent platform of this pattern from coplanar joints. `None` for an edge
     /// of length zero, which no octahedral platform has.
     #[must_use]
@@ -208,8 +230,7 @@ impl Original {
 
     /// The origins of the joints of a pattern: corners, and points between two corners.
     fn origins(&self, pattern: &Pattern, offsets: &[Share]) -> [Vec<Origin>; 2] {
-        let o = &self.octahedral;
-        let corner = |i: usize| if i < 3 { o.base_indices()[i] } else { o.platform_indices()[i - 3] };
+        let corner = |i: usize| self.corner_joint(i);
         let order = pattern.offsets();
         pattern.joints().map(|list| {
             let origin = |joint: &JointLabel| match *joint {
@@ -280,6 +301,14 @@ impl Equivalents {
         offsets: &[f64],
     ) -> Result<(Design, AffineLegMap), InstantiateError> {
         self.original.equivalent(pattern, offsets)
+    }
+
+    /// The same at offsets as they are written: shares, or lengths along the sides with a unit.
+    ///
+    /// # Errors
+    /// Texts that are no offsets; offsets that are too few or too many, or make no platform.
+    pub fn build_at(&self, pattern: &Pattern, offsets: &[String]) -> Result<(Design, AffineLegMap), Error> {
+        Ok(self.original.equivalent_at(pattern, &self.original.shares(pattern, offsets)?)?)
     }
 
     /// The platform without shared joints at these offsets, one for each side of the hexagon of legs, and the leg map

@@ -7,8 +7,7 @@ use super::Error;
 use super::whole::WholeFile;
 use crate::Design;
 use crate::design::{DesignOrViolations, parse};
-use files::design::{Format, SeriesKind, Warning};
-use platform::geom::InvalidPose;
+use files::design::{Format, Warning, read_poses};
 
 impl Design {
     /// Reads a design file: JSON if the name ends in `.json`, else TOML. The table of its trajectory is read too, if it
@@ -40,14 +39,13 @@ impl Design {
     fn load_by(path: &Path, parsed: fn(&str, Format) -> DesignOrViolations) -> Result<Self, Error> {
         let (mut design, _) = parsed(&read(path)?, Format::of_path(path))
             .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
-        let home = design.home_or_default();
+        let (home, frames) = (design.home_or_default(), design.trajectory_frames());
         if let Some(trajectory) = &mut design.workspace.trajectory {
             let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
             let bytes = std::fs::read(&file).map_err(|source| Error::File { path: file.clone(), source })?;
-            let read =
-                SeriesKind::Poses.read(&bytes, |row| row.parse().map_err(|e: InvalidPose| e.to_string()));
-            let table = read.map_err(|why| Error::Trajectory { file, bad: why.sentences() })?;
-            trajectory.poses = table.with_home(&home).rows.into_iter().map(|row| row.value).collect();
+            let table = read_poses(&bytes, &frames, &home)
+                .map_err(|why| Error::Trajectory { file, bad: why.sentences() })?;
+            trajectory.poses = table.rows.into_iter().map(|row| row.value).collect();
         }
         Ok(design)
     }

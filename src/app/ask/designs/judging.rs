@@ -201,14 +201,14 @@ impl AssessReport {
     /// The kinds of requirements with this answer.
     fn kinds(&self, of: impl Fn(&MarginBound) -> Option<bool>, wanted: Option<bool>) -> Vec<&'static str> {
         let these = self.proof.bounds.iter().filter(|b| of(b) == wanted);
-        these.map(|b| b.found.term.kind.code()).collect()
+        these.map(|b| b.found.term.kind.label()).collect()
     }
 
     /// The requirements with this answer, singularity among them.
     pub(super) fn names(&self, wanted: Option<bool>) -> String {
         let mut names = self.kinds(|b| b.verdict.is_met(), wanted);
-        names.extend((self.regularity.is_regular() == wanted).then_some("singularity"));
-        names.join(", ")
+        names.extend((self.regularity.is_regular() == wanted).then_some("no singular pose"));
+        names.join("; ")
     }
 
     /// The result on singular poses, as a sentence without its full stop.
@@ -240,7 +240,7 @@ impl std::fmt::Display for AssessReport {
             f.write_str("; no workspace stated, judged at home")?;
         }
         if self.proof.bounds.iter().any(|b| b.reserve.is_some()) {
-            let short = |wanted| self.kinds(MarginBound::keeps_reserve, wanted).join(", ");
+            let short = |wanted| self.kinds(MarginBound::keeps_reserve, wanted).join("; ");
             match self.proof.all_reserved() {
                 Some(true) => f.write_str("; every reserve is kept")?,
                 Some(false) => write!(f, "; the reserve is not kept: {}", short(Some(false)))?,

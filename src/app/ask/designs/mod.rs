@@ -1,5 +1,6 @@
 //! The questions that are put to a design with names, units and requirements.
 
+mod at_pose;
 pub mod calibrating;
 mod comparing;
 pub mod design;
@@ -10,9 +11,11 @@ pub mod equivalents;
 pub mod exploring;
 pub mod exporting;
 mod file_io;
+mod frames;
 mod holding;
 mod judging;
 mod locus;
+mod moved_legs;
 mod moving;
 #[cfg(feature = "optimize")]
 pub mod optimizing;
@@ -30,6 +33,7 @@ pub mod whole;
 
 use crate::Error;
 
+pub use at_pose::{AtPoseOptions, AtPoseReport, DrivesAt, HeldWrench, NoAtPose, StuckLeg};
 pub use comparing::{DesignFigures, FigureOptions, Separation};
 pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
@@ -38,9 +42,13 @@ pub use exploring::{
     ExploreJudgement, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
     ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
 };
+pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;
 pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
+pub use moved_legs::{
+    InvalidMove, LegMoveRequest, MoveOptions, MovedAtOnce, MovesReport, NamedFamily, NoMoves,
+};
 pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(feature = "optimize")]
 pub use optimizing::{

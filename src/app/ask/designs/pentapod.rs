@@ -37,6 +37,19 @@ pub struct PentapodReport {
     pub poses: Option<Result<LinePoses, NoLinePoses>>,
 }
 
+impl PentapodReport {
+    /// Why lengths have no list of poses; `None` where the legs hold a line.
+    #[must_use]
+    pub fn without_line(&self) -> Option<String> {
+        self.held.is_none().then(|| {
+            format!(
+                "{}: no body has all its joints on a line, so that the poses for five lengths are a curve",
+                self.design.name
+            )
+        })
+    }
+}
+
 /// The line that five legs hold and, for given lengths, all its poses.
 ///
 /// ```

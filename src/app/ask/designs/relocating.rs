@@ -338,10 +338,35 @@ impl Design {
                 let places = lines.iter().flat_map(|ends| shares.iter().map(move |t| (*ends, t)));
                 places.into_iter().find(|(ends, t)| (at(*ends, t.nearest()) - x).norm() <= limit)
             };
-            let origin = |(k, o): (usize, &JointOrigin)| match o {
-                JointOrigin::Kept(k) => Origin::Kept(*k),
-                JointOrigin::Displaced(_) | JointOrigin::Split(_) => between(&points[body.index()][k])
-                    .map_or(Origin::New, |(ends, t)| Origin::Between(ends, Box::new(t.clone()))),
+            // the two parameters of a leg in a plane stand beside one another
+            let in_plane = |x: &Point3<f64>| {
+                let ways = |[i, j, k]: [usize; 3]| (old[i], old[j] - old[i], old[k] - old[i]);
+                let triples = all.iter().flat_map(|i| within(&all).into_iter().map(move |[j, k]| [*i, j, k]));
+                let triples = triples.filter(|[i, j, k]| i != j && i != k);
+                let spanning = triples.filter(|t| {
+                    let (_, a, b) = ways(*t);
+                    a.cross(&b).norm() > ON_LINE * a.norm() * b.norm()
+                });
+                let places = spanning.flat_map(|t| shares.windows(2).map(move |pair| (t, pair)));
+                places.into_iter().find(|(t, pair)| {
+                    let (from, a, b) = ways(*t);
+                    (from + a * pair[0].nearest() + b * pair[1].nearest() - x).norm() <= limit
+                })
+            };
+            let origin = |(k, o): (usize, &JointOrigin)| {
+                let place = &points[body.index()][k];
+                match o {
+                    JointOrigin::Kept(k) => Origin::Kept(*k),
+                    JointOrigin::Displaced(_) | JointOrigin::Split(_) => {
+                        let on_line =
+                            || between(place).map(|(ends, t)| Origin::Between(ends, Box::new(t.clone())));
+                        let on_plane = || {
+                            let (corners, pair) = in_plane(place)?;
+                            Some(Origin::InPlane(corners, Box::new([pair[0].clone(), pair[1].clone()])))
+                        };
+                        on_line().or_else(on_plane).unwrap_or(Origin::New)
+                    }
+                }
             };
             of.iter().enumerate().map(origin).collect()
         };

@@ -7,7 +7,6 @@ use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::output::Answer;
-use ask::CheckReport;
 use ask::design::parse;
 use records::CheckAnswer;
 
@@ -16,15 +15,20 @@ use records::CheckAnswer;
 pub(crate) struct CheckArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
+    /// Print the algebra behind the answer too: ranks, dependencies, fields, counts
+    #[arg(long)]
+    details: bool,
 }
 
 /// Decides and explains.
 pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = match context.load_six_or_five(&args.design, parse)? {
         SixOrFive::Six(design) => design,
-        SixOrFive::Five(five) => return Ok(pentapod::check(&five, context)),
+        SixOrFive::Five(five) => {
+            context.no_effect("details", "the answer about five legs has none")?;
+            return Ok(pentapod::check(&five, context));
+        }
     };
-    let m = design.manipulator();
     let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
     let answer = CheckAnswer::from(&found);
     let exit = match answer.architecturally_singular {
@@ -32,17 +36,6 @@ pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Fai
         Some(_) => Exit::No,
         None => Exit::Inconclusive,
     };
-    let sheet = sheet::answers::check(&answer, &headline(&found), m.size(), &design.units);
+    let sheet = sheet::answers::check(&answer, args.details);
     Ok(Answer::new(exit, answer, sheet))
-}
-
-/// The verdict with its level; it names a singular design that may have been meant, with its distance.
-fn headline(found: &CheckReport) -> String {
-    let name = &found.design.name;
-    match (&found.verdict.meant, found.is_singular()) {
-        (Some(n), _) => format!("{name}: {}", n.words(&found.design.units)),
-        (None, Some(true)) => format!("{name}: architecturally singular"),
-        (None, Some(false)) => format!("{name}: regular"),
-        (None, None) => format!("{name}: not decided"),
-    }
 }

@@ -1,6 +1,5 @@
 //! `equipod export`: files for other programs.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
@@ -10,13 +9,14 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::number;
+use crate::app::cli::numbers::{Length, length};
 use crate::app::cli::output::Answer;
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
 use ask::exporting::octahedral_of_controllers;
 use num::shown::significant;
 use records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord};
+use sheet::{Sheet, answers::verdict};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
@@ -33,17 +33,17 @@ pub(crate) struct ExportArgs {
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    thickness: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    thickness: Option<Length>,
     /// Distance from the joints' hull to the outline of a plate, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    margin: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    margin: Option<Length>,
     /// Diameter of the holes under the joints, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    hole_diameter: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    hole_diameter: Option<Length>,
     /// Diameter of the balls, design units
-    #[arg(long, value_name = "LENGTH", value_parser = number)]
-    ball_diameter: Option<f64>,
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    ball_diameter: Option<Length>,
     /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees. Adds joint tolerances
     /// to hole plans and tables, as `build tolerances`
     #[arg(long, value_name = "LENGTH,DEG")]
@@ -68,8 +68,10 @@ fn model(args: &ExportArgs, design: &Design, hole_places: Option<f64>) -> Result
     let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
     let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
     let mut options = ExportOptions::new();
-    (options.unit, options.thickness, options.margin) = (unit, args.thickness, args.margin);
-    (options.hole, options.ball, options.mass) = (args.hole_diameter, args.ball_diameter, args.mass);
+    let of = |option: &Option<Length>| Length::of_option(option.as_ref(), &design.units);
+    (options.unit, options.thickness, options.margin) = (unit, of(&args.thickness)?, of(&args.margin)?);
+    (options.hole, options.ball, options.mass) =
+        (of(&args.hole_diameter)?, of(&args.ball_diameter)?, args.mass);
     (options.hole_places, options.gravity_compensation) = (hole_places, args.gravity_compensation);
     Export::of(design, &options).map_err(|why| refusal(&why))
 }
@@ -144,23 +146,23 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         export = export.with_octahedral(octahedral_of_controllers(&design));
     }
     files::make_folder(&args.output)?;
-    let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), String::new());
+    let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), Sheet::new());
     for format in wanted(args) {
         let (files, outcome) = match export.files(format) {
             Ok(made) => {
                 let paths = made.iter().map(|f| write(&args.output, f));
                 let paths = paths.collect::<Result<Vec<_>, _>>()?;
                 for path in &paths {
-                    let _ = writeln!(text, "wrote {path}");
+                    text.line(format_args!("wrote {path}"));
                 }
                 if !format.leaves_out().is_empty() {
-                    let _ = writeln!(text, "  {} leaves out {}", format.name(), format.leaves_out());
+                    text.line(format_args!("  {} leaves out {}", format.name(), format.leaves_out()));
                 }
                 (paths, FormatOutcome::Written { leaves_out: format.leaves_out().into() })
             }
             Err(why) => {
                 exit = Exit::No;
-                let _ = writeln!(text, "{} not written: {why}", format.name());
+                text.line(format_args!("{} not written: {why}", format.name()));
                 (Vec::new(), FormatOutcome::Refused { refused: why.to_string() })
             }
         };
@@ -170,25 +172,24 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
     // only legs that change their lengths are assessed
     let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
     let assessment = assessment.map(|found| if simulated { found.without_assumptions() } else { found });
-    let lead = if design.has_cranks() {
-        format!("{} has cranks: `equipod ik` says what remains of their limits at a pose\n", design.name)
+    let mut lead = if design.has_cranks() {
+        Sheet::new()
     } else {
-        sheet::answers::requirements(&design.name, assessment.as_ref()).to_string()
+        verdict(&design.name, assessment.as_ref(), &format!("equipod assess {}", args.design.display()))
     };
-    let mut text = format!("{lead}\n{text}");
+    if design.has_cranks() {
+        lead.line(format_args!(
+            "{} has cranks: `equipod ik` states the margins of their limits at a pose",
+            design.name
+        ));
+    }
+    lead.space();
+    lead.add(text);
     let assumptions = if simulated { simulator_assumptions(&design, &export) } else { Vec::new() };
     let record =
         ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats, assumptions);
-    text.push_str("sizes\n");
-    for c in &record.sizes {
-        let x = c.value;
-        let value = if x < 1e-3 { format!("{x:.4e}") } else { format!("{x:.6}") };
-        let _ = writeln!(text, "  {:<36} {value:>12} {:<13} {}", c.what, c.unit, c.from);
-    }
-    for line in &record.assumptions {
-        let _ = writeln!(text, "{line}");
-    }
-    Ok(Answer::new(exit, record, text))
+    lead.add(sheet::answers::export(&record));
+    Ok(Answer::new(exit, record, lead))
 }
 
 /// Tells the masses that the simulator's model assumes if the design states none.

@@ -1,14 +1,19 @@
 //! `equipod limits`: the free travel of the platform from a pose, and the allowed pose nearest to a given one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
+use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ask::RAYS;
-use machine::reach::NearestPoseOptions;
+use ::files::export::{SurfaceFormat, TriangleSurface};
+use ask::{Design, PoseFrames, RAYS};
+use machine::reach::{NearestPoseOptions, ReachedSurface};
+use machine::requirements::Limit;
+use platform::geom::Pose;
 use records::{
     FreeRangeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, StraightWayRecord, WorkspaceSizeRecord,
 };
@@ -34,6 +39,15 @@ pub(crate) struct LimitsArgs {
     /// Number of directions for the volume and the largest box of the workspace
     #[arg(long, value_name = "N", default_value_t = RAYS as u32, value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
     rays: u32,
+    /// Write the surface of the positions that straight ways from the pose reach at its orientation: a mesh (.stl, .ply)
+    /// or its corners with what ends the ways (.csv)
+    #[arg(long, value_name = "FILE")]
+    surface: Option<OutputPath>,
+    /// Fineness of that surface: 10 times 4 to this power, plus 2, ways are followed
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "surface", value_parser = clap::value_parser!(u32).range(0..=8))]
+    level: u32,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 const BAD_POSE: &str = "limits::bad_pose";
@@ -41,8 +55,10 @@ const BAD_POSE: &str = "limits::bad_pose";
 /// Exit 1 if the pose of `--at` or `--to` is not allowed.
 pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
-    let at = poses::parse(&args.at, &design, "--at", BAD_POSE)?;
-    let to = args.to.as_ref().map(|text| poses::parse(text, &design, "--to", BAD_POSE)).transpose()?;
+    let frames = args.frames.of(&design);
+    let at = poses::parse(&args.at, &frames, "--at", BAD_POSE)?;
+    let to = args.to.as_ref().map(|text| poses::parse(text, &frames, "--to", BAD_POSE)).transpose()?;
+    let surface = args.surface.as_ref().map(|path| surface_format(path)).transpose()?;
     if !args.workspace {
         context.no_effect("rays", "the size of the workspace is not asked for (--workspace)")?;
     }
@@ -67,25 +83,54 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
         ..NearestPoseOptions::default()
     };
     let nearest = if all { None } else { reach.nearest(&asked, &options) };
-    let ranges = reach.free_ranges(&at);
     let answer = LimitsAnswer {
+        frames: (&frames.convention).into(),
         pose: (&at).into(),
+        in_frames: (&frames.write(&at)).into(),
         allowed,
         violated: violated.iter().map(|(limit, margin)| LimitRecord::new(&design, *limit, *margin)).collect(),
-        axes: ranges
-            .iter()
-            .flatten()
-            .map(|range| FreeRangeRecord::new(&design, &reach, &at, range))
-            .collect(),
+        axes: if allowed { FreeRangeRecord::all(&design, &reach, &at, &frames) } else { Vec::new() },
         way: to.filter(|_| allowed).map(|to| StraightWayRecord::new(&design, &reach, &at, &to)),
-        nearest_allowed: nearest.as_ref().map(|found| NearestAllowedRecord::new(&design, &reach, found)),
+        nearest_allowed: nearest
+            .as_ref()
+            .map(|found| NearestAllowedRecord::new(&design, &reach, &frames, found)),
         workspace: args
             .workspace
             .then(|| design.workspace_size(args.rays as usize, context.seed()))
             .flatten()
             .map(|found| WorkspaceSizeRecord::new(&design, &found)),
+        surface: args.surface.as_ref().filter(|_| allowed).map(|path| path.display().to_string()),
         length_unit: design.units.clone(),
     };
+    if let (Some(path), Some(format), true) = (&args.surface, surface, allowed) {
+        let found = triangles((&design, &frames), &reach.surface(&at, args.level));
+        files::write_text(path, &found.text(format))?;
+    }
     let text = sheet::answers::limits(&design.name, &answer);
     Ok(Answer::new(if all { Exit::Yes } else { Exit::No }, answer, text))
+}
+
+fn surface_format(path: &Path) -> Result<SurfaceFormat, Failure> {
+    SurfaceFormat::of_path(path).map_err(|why| {
+        Failure::refused("limits::bad_surface", format!("--surface: {why}"))
+            .with_help("name the file .stl, .ply or .csv")
+    })
+}
+
+/// The positions in the convention, with the requirement that ends the way to each.
+fn triangles((design, frames): (&Design, &PoseFrames), found: &ReachedSurface) -> TriangleSurface {
+    let rotation = found.from.rotation;
+    let points = found.positions().map(|position| frames.write(&Pose { rotation, position }).position);
+    let words = found.rays.iter().map(|ray| match ray.binding {
+        Some(Limit::Term(term)) => term.kind.code(),
+        Some(Limit::Singular) => "singularity",
+        None => "nothing",
+    });
+    TriangleSurface {
+        title: format!("positions that {} reaches ({})", design.name, design.units),
+        units: design.units.clone(),
+        points: points.collect(),
+        words: words.map(str::to_owned).collect(),
+        triangles: found.triangles.clone(),
+    }
 }

@@ -14,6 +14,7 @@
 //! none as [`Failure`].
 
 mod assess;
+mod at;
 mod bench;
 mod build;
 mod calibrate;
@@ -60,6 +61,8 @@ pub(crate) enum Command {
     Fk(fk::FkArgs),
     /// Compute the leg lengths at given poses
     Ik(ik::IkArgs),
+    /// Compute forces, stiffness and resolution at a pose, what a stuck leg leaves, and the nearest singular pose
+    At(at::AtArgs),
     /// Compute the free travel of the platform from a pose, and the nearest allowed pose
     Limits(limits::LimitsArgs),
     /// Compute and change the platforms equivalent to a design
@@ -118,6 +121,7 @@ impl Command {
             Self::New(args) => new::run(args, context),
             Self::Fk(args) => fk::run(args, context),
             Self::Ik(args) => ik::run(args, context),
+            Self::At(args) => at::run(args, context),
             Self::Limits(args) => limits::run(args, context),
             Self::Equivalents(command) => command.run(context),
             Self::Verify(args) => verify::run(args, context),

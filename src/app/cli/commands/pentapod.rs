@@ -1,9 +1,9 @@
 //! Designs of five legs, for `equipod check` and `equipod fk`.
 
-use super::fk::lengths::separated;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
+use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
 use ::files::design::FiveLegs;
 use ask::{PentapodReport, about_five_legs};
@@ -33,7 +33,7 @@ pub(super) fn check(design: &FiveLegs, context: &Context) -> Answer {
 pub(super) fn fk(design: &FiveLegs, lengths: Option<&str>, context: &Context) -> Result<Answer, Failure> {
     let lengths = match lengths {
         None => design.lengths,
-        Some(text) => Some(separated(text, "five").map_err(|why| {
+        Some(text) => Some(numbers::lengths(text, "five", &design.units).map_err(|why| {
             Failure::refused("fk::bad_lengths", format!("--lengths: {why}"))
                 .with_help("give five lengths separated by commas")
         })?),
@@ -46,17 +46,10 @@ pub(super) fn fk(design: &FiveLegs, lengths: Option<&str>, context: &Context) ->
         .with_help("give --lengths l1,l2,l3,l4,l5"));
     };
     let report = about_five_legs(design, Some(lengths), context.seed());
-    let exit = match &report.poses {
-        Some(Ok(_)) => Exit::Yes,
-        Some(Err(_)) => Exit::Inconclusive,
-        None => {
-            let message = format!(
-                "{}: no body has all its joints on a line, so that the poses for five lengths are a curve",
-                design.name
-            );
-            return Err(Failure::refused("fk::five_legs", message)
-                .with_help("add a sixth leg; `equipod check` says which ones decouple the platform"));
-        }
-    };
+    if let Some(message) = report.without_line() {
+        return Err(Failure::refused("fk::five_legs", message)
+            .with_help("add a sixth leg; `equipod check` says which ones decouple the platform"));
+    }
+    let exit = if matches!(report.poses, Some(Ok(_))) { Exit::Yes } else { Exit::Inconclusive };
     Ok(answered(exit, &report))
 }

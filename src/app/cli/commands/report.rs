@@ -54,10 +54,11 @@ pub(crate) fn run(args: &ReportArgs, context: &mut Context) -> Result<Answer, Fa
     let assessment = first.as_ref().and_then(|d| AssessAnswer::of(d, context.seed()));
     // the path on standard output, for programs; before it the requirements, for people
     let shown = first.as_ref().filter(|_| output_is_terminal());
-    let lead = shown.map(|d| sheet::answers::requirements(&d.name, assessment.as_ref()));
+    let lead = shown.map(|d| sheet::answers::verdict(&d.name, assessment.as_ref(), "in the report"));
     files::write_text(&output, &page(found, args.title.clone()))?;
     let record = ReportAnswer { output: output.display().to_string(), files, assessment };
-    let text = format!("{}{}\n", lead.map_or_else(String::new, |lead| format!("{lead}\n")), record.output);
+    let mut text = lead.unwrap_or_default();
+    text.line(&record.output);
     Ok(Answer::new(Exit::Yes, record, text))
 }
 

@@ -67,11 +67,14 @@ pub(crate) fn run(args: &ViewArgs, context: &mut Context) -> Result<Answer, Fail
         assessment,
     };
     let how = if record.live { "" } else { ", with recorded data only" };
-    let wrote = format!("wrote {}{how}\n", record.output);
+    let wrote = format!("wrote {}{how}", record.output);
     // a page without a design has only an example
-    let lead =
-        args.design.as_ref().map(|_| sheet::answers::requirements(&shown.name, record.assessment.as_ref()));
-    let text = lead.map_or_else(|| wrote.clone(), |lead| format!("{lead}\n{wrote}"));
+    let lead = args
+        .design
+        .as_ref()
+        .map(|_| sheet::answers::verdict(&shown.name, record.assessment.as_ref(), "on the page"));
+    let mut text = lead.unwrap_or_default();
+    text.line(wrote);
     Ok(Answer::new(Exit::Yes, record, text))
 }
 

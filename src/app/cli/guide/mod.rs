@@ -71,6 +71,15 @@ const JOBS: [CommandGroup; 10] = [
                 &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
             ),
             entry(
+                "at",
+                &[
+                    "at designs/presets/bench-l16.toml --wrench 0,0,-20,0,0,0",
+                    "at designs/symmetric-hexapod.toml --forces 1,1,1,1,1,1 --point 0,0,50 --axes platform --json",
+                    "at designs/symmetric-hexapod.toml --pose 0,0,360,5,0,0 --leg 3 --nearest-singular",
+                ],
+                &["statics", "forces", "wrench", "load-cell", "stiffness", "resolution", "stuck", "torque"],
+            ),
+            entry(
                 "limits",
                 &[
                     "limits designs/presets/bench-l16.toml",

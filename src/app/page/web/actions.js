@@ -127,6 +127,20 @@ Object.assign(App.prototype, {
     $("motion-words").textContent = "";
   },
 
+  /** The steps to the leg map with the offsets shown, where they are wanted. */
+  derive() {
+    if (!this.pattern || !$("derivation-details").open) return;
+    const key = JSON.stringify(this.chosen);
+    if (this.derived === key) return;
+    this.derived = key;
+    $("derivation").replaceChildren();
+    this.tasks.derivation.ask(this.core, { op: "derivation", chosen: this.chosen }, (found) => {
+      $("derivation-words").textContent = found.error ? found.error.message : "";
+      // the core has escaped every text in it
+      $("derivation").innerHTML = found.html || "";
+    });
+  },
+
   /** What takes longer, when the sliders rest; said when somebody has changed an offset. */
   slow(said = false) {
     this.tasks.worst.ask(this.core, { op: "worst", chosen: this.chosen }, (worst) => {
@@ -135,6 +149,7 @@ Object.assign(App.prototype, {
       if (said) this.speak();
     });
     this.assess();
+    this.derive();
     if (this.pattern && this.pattern.offsets.length > 1) {
       const { low, high, points } = PLANE;
       const plane = this.core.ask({ op: "plane", chosen: this.chosen, axes: this.plane.axes, range: [low, high], points });

@@ -23,6 +23,7 @@ class App {
       limits: new Task(() => this.soon(), "judging"),
       feasible: new Task(() => this.soon(), "judging"),
       locus: new Task(say("locus-words", "Looking for the singular positions …")),
+      derivation: new Task(say("derivation-words", "Solving for both platforms …")),
     };
     this.listen();
     this.rebuild();
@@ -47,6 +48,7 @@ class App {
     this.surface = null;
     this.locus = null;
     this.located = null;
+    this.derived = null;
     this.whose = "first";
     this.pattern = open.patterns ? open.patterns.find((p) => p.id === open.start.pattern) : null;
     this.offsets = open.start ? [...open.start.offsets] : [];
@@ -76,6 +78,7 @@ class App {
       this.slow();
     });
     $("space-details").addEventListener("toggle", () => this.slow());
+    $("derivation-details").addEventListener("toggle", () => this.derive());
     $("locus").addEventListener("change", () => this.findLocus());
     $("find").addEventListener("click", () => this.findModes());
     $("by-lengths").addEventListener("submit", (e) => {
@@ -122,7 +125,7 @@ class App {
     $("figure-second").hidden = !pattern;
     document.querySelector(".views").classList.toggle("one", !pattern);
     document.querySelector("main").classList.toggle("plain", !pattern);
-    for (const id of ["offsets", "hexagon-card", "plane-card"]) $(id).hidden = !pattern;
+    for (const id of ["offsets", "hexagon-card", "plane-card", "derivation-card"]) $(id).hidden = !pattern;
     $("confirm").hidden = !pattern;
     const [skip] = document.getElementsByClassName("skip");
     skip.href = pattern ? "#offsets" : "#modes-card";

@@ -80,6 +80,7 @@ class Recorded {
       case "modes": return kept.modes;
       case "plane": return kept.plane;
       case "motion": return kept.motion;
+      case "derivation": return kept.derivation;
       case "design": return kept.designs[request.which];
       default: return { error: { code: "recorded", message: "not recorded" } };
     }

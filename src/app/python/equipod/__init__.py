@@ -22,6 +22,7 @@ from ._design import (
     Joints,
     LegMap,
     Margins,
+    SkippedRow,
     Track,
     Tracker,
     compare,
@@ -31,6 +32,8 @@ from ._design import (
 )
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
+from ._frames import Frames
+from ._pentapod import Pentapod
 from ._poses import PoseLike, pose, quaternion, rpy
 from ._record import Record, table
 from ._solutions import BatchSolutions, Solution, Solutions
@@ -45,12 +48,15 @@ __all__ = [
     "Equivalent",
     "Fault",
     "Figure",
+    "Frames",
     "Joints",
     "LegMap",
     "Margins",
     "Page",
+    "Pentapod",
     "PoseLike",
     "Record",
+    "SkippedRow",
     "Solution",
     "Solutions",
     "Track",

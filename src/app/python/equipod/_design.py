@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import html
+import json
 import operator
 import os
 import pathlib
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -16,15 +18,19 @@ import numpy.typing as npt
 from . import _core
 from ._display import Figure, Page
 from ._errors import DesignError
+from ._exact import Coordinate, PointsLike, as_texts, offset_texts, plain
+from ._frames import Frames
 from ._poses import Floats, PoseLike, as_matrices, given
 from ._program import Progress, Workshop, ask, pose_text, text_of
 from ._solutions import BatchSolutions, Solutions
+from ._words import Body, Drive, ExportFormat, FigureName, Method, TextFormat, TrackStatus
 
 if TYPE_CHECKING:
     import pyarrow  # type: ignore[import-untyped]
 
     from .records import (
         AssessAnswer,
+        AtAnswer,
         CalibrateAnswer,
         CheckAnswer,
         CompareAnswer,
@@ -63,6 +69,14 @@ def _whole(name: str, value: int, least: int = 0) -> int:
 
 def _threads(threads: int | None) -> int | None:
     return None if threads is None else _whole("threads", threads, 1)
+
+
+def _row(name: str, values: npt.ArrayLike, count: int) -> str:
+    """So many numbers as an option takes them, to the last digit."""
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != (count,):
+        raise DesignError(f"{name} has {count} numbers, not the shape {array.shape}", code="shape")
+    return ",".join(map(repr, array.tolist()))
 
 
 def _lengths(lengths: npt.ArrayLike) -> Floats:
@@ -248,13 +262,34 @@ class CrankAngles:
     limit_margin: Floats
 
 
+class SkippedRow(NamedTuple):
+    """A row of lengths at which a tracker did not move.
+
+    Attributes
+    ----------
+    row : int
+        Its number, from 0.
+    status : str
+        ``near_singularity``, ``lost``, or ``refused`` where the row is no set of lengths.
+    fraction : float
+        How far the pose came on the straight line of squared lengths, or of angles, from the row reached before.
+    reason : str or None
+        Why the pose was lost, or the row was refused.
+    """
+
+    row: int
+    status: TrackStatus
+    fraction: float
+    reason: str | None
+
+
 class Track(NamedTuple):
     """What became of following poses through lengths, or through angles of cranks.
 
     Attributes
     ----------
     status : str
-        ``tracked``, ``near_singularity`` or ``lost``.
+        ``tracked``, ``near_singularity`` or ``lost``; of rows that were skipped also ``refused``.
     T : ndarray, float64, shape (4, 4) or (n, 4, 4)
         The pose reached; of several lengths the poses of those that were reached.
     residual : float or ndarray, shape (n,)
@@ -265,14 +300,25 @@ class Track(NamedTuple):
         How far on the straight line of squared lengths, or of angles, to the last ones, 1 where they were reached.
     reason : str or None
         Why the pose was lost.
+    rows : ndarray, int64, shape (n,), or None
+        The row of lengths of each pose; None for one set of lengths.
+    skipped : tuple of SkippedRow
+        Rows at which the tracker stayed where it was, with ``skip=True``.
     """
 
-    status: str
+    status: TrackStatus
     T: Floats
     residual: float | Floats
     frobenius_ratio: float | Floats
     fraction: float
     reason: str | None
+    rows: npt.NDArray[np.int64] | None = None
+    skipped: tuple[SkippedRow, ...] = ()
+
+    @property
+    def transforms(self) -> Floats:
+        """The poses reached, the same as ``T``."""
+        return self.T
 
 
 def _tracking(design: Design, at: Floats) -> Tracker:
@@ -304,6 +350,11 @@ class Tracker:
         """Where the platform is, shape (4, 4)."""
         return self._native.transform()
 
+    @property
+    def transform(self) -> Floats:
+        """Where the platform is, shape (4, 4); the same as ``T``."""
+        return self.T
+
     def step(self, lengths: npt.ArrayLike) -> Track:
         """Continues to six lengths.
 
@@ -323,20 +374,32 @@ class Tracker:
             found = given(self._native.step(array))
         return Track._make(found)
 
-    def follow(self, lengths: npt.ArrayLike) -> Track:
-        """Continues through rows of lengths until one is not reached.
+    def follow(self, lengths: npt.ArrayLike, *, skip: bool = False) -> Track:
+        """Continues through rows of lengths, until one is not reached or, with `skip`, through all of them.
 
         Parameters
         ----------
-        lengths : array_like, shape (n, 6)
+        lengths : array_like, shape (..., 6)
+            Rows of lengths in design units, or of angles in radians; leading axes are taken row by row.
+        skip : bool
+            At a row that is not reached, or that is no set of lengths (NaN, negative), the tracker stays where it was and
+            goes on to the next row. A log of a real machine has such rows.
 
         Returns
         -------
         Track
-            ``T`` has as many poses as rows were reached; `status` speaks of the row after these, or of the last.
+            ``T`` has a pose for each row reached, and ``rows`` says which row. Without `skip`, `status` speaks of the row
+            after these, or of the last. With it `status` speaks of the last row, and ``skipped`` lists the rows left out.
+
+        Raises
+        ------
+        DesignError
+            Without `skip`: a row that is no set of lengths, before the tracker moves.
         """
-        poses, (residual, ratio), status, fraction, reason = self._native.follow(_lengths(lengths).reshape(-1, 6))
-        return Track(status, poses, residual, ratio, fraction, reason)
+        found = self._native.follow(_lengths(lengths).reshape(-1, 6), skip)
+        poses, (residual, ratio), rows, (status, fraction, reason), skipped = found
+        left_out = tuple(SkippedRow._make(row) for row in skipped)
+        return Track(status, poses, residual, ratio, fraction, reason, rows, left_out)
 
     def __repr__(self) -> str:
         return f"Tracker(at {np.array2string(self.T[:3, 3], precision=6)})"
@@ -365,7 +428,7 @@ class Design:
         return cls(_core.Design.load(path))
 
     @classmethod
-    def loads(cls, text: str, format: str = "toml") -> Design:
+    def loads(cls, text: str, format: TextFormat = "toml") -> Design:
         """Reads the text of a design, ``"toml"`` or ``"json"``."""
         return cls(_core.Design.loads(text, _is_json(format)))
 
@@ -377,8 +440,8 @@ class Design:
     @classmethod
     def from_arrays(
         cls,
-        base: npt.ArrayLike,
-        platform: npt.ArrayLike,
+        base: PointsLike,
+        platform: PointsLike,
         legs: Iterable[tuple[int, int]] | None = None,
         *,
         home: PoseLike | None = None,
@@ -391,22 +454,40 @@ class Design:
         Parameters
         ----------
         base : array_like, shape (n, 3)
-            Base joints, base frame.
+            Base joints, base frame. Coordinates are numbers, ``fractions.Fraction``, ``decimal.Decimal``, or texts such as
+            ``"6*sqrt(3)"`` and ``"1/3"``. With a text, a fraction or a decimal in an array, its joints are exact: a float
+            beside it counts as the decimal with the fewest digits, as in a design file.
         platform : array_like, shape (m, 3)
-            Platform joints, platform frame.
+            Platform joints, platform frame, in the same forms.
         legs : six pairs of int, optional
             Rows of `base` and of `platform` that each leg joins; leg ``i`` joins row ``i`` of both when absent.
         home : array_like, shape (4, 4), optional
         name, units : str
+            The unit of all lengths.
         snap : bool
             Take the symmetry that the joints have but for rounding as meant (`snapped`).
+
+        Returns
+        -------
+        Design
+            The joints are named ``A1, A2, ..`` and ``B1, B2, ..``.
+
+        Raises
+        ------
+        DesignError
+            Arrays of another shape, a text that is no expression, legs that are not six.
         """
         pairs = list(_LEGS if legs is None else ((int(a), int(b)) for a, b in legs))
         if len(pairs) != 6:
             raise DesignError(f"a platform has six legs, not {len(pairs)}", code="legs")
-        points = [np.ascontiguousarray(np.atleast_2d(np.asarray(x, dtype=np.float64))) for x in (base, platform)]
-        made = _core.Design.from_arrays(points[0], points[1], pairs, name, units)
-        design = cls(made if home is None else made.with_home(as_matrices(home).reshape(1, 4, 4)))
+        texts = [as_texts(points) for points in (base, platform)]
+        if any(points is not None for points in texts):
+            both = [points if points is not None else _points(own).tolist() for points, own in zip(texts, (base, platform))]
+            design = _from_texts(both, pairs, name, units)
+        else:
+            design = cls(_core.Design.from_arrays(_points(base), _points(platform), pairs, name, units))
+        if home is not None:
+            design = design.with_home(home)
         return design.snapped() if snap else design
 
     @property
@@ -421,7 +502,7 @@ class Design:
         found = self._native.snapped()
         return self if found is None else Design(found[0])
 
-    def dumps(self, format: str = "toml") -> str:
+    def dumps(self, format: TextFormat = "toml") -> str:
         """The text of the design: with the comments of its file as ``"toml"``, or ``"json"``."""
         return self._native.dumps(_is_json(format))
 
@@ -442,7 +523,7 @@ class Design:
         return self._native.units
 
     @property
-    def drive(self) -> str:
+    def drive(self) -> Drive:
         """``"prismatic"``: legs change their lengths; ``"rotary"``: the legs are rods of constant length on cranks."""
         return self._native.drive
 
@@ -450,6 +531,188 @@ class Design:
     def home(self) -> Floats:
         """The home pose, shape (4, 4); above the base where the design names none."""
         return self._native.home()
+
+    @property
+    def lengths(self) -> Floats | None:
+        """The leg lengths of the design file, shape (6,), distances of joints; None where it has none."""
+        return self._native.lengths()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The keys of the design file, as ``dumps("json")`` has them; a change of the dictionary changes no design."""
+        document: dict[str, Any] = json.loads(self.dumps("json"))
+        return document
+
+    @property
+    def workspace(self) -> dict[str, Any]:
+        """The table ``[workspace]``: the poses to reach. Empty where the design has none."""
+        return _table(self.to_dict(), "workspace")
+
+    @property
+    def hardware(self) -> dict[str, Any]:
+        """The table ``[hardware]``: sizes and limits of joints, legs and drives. Empty where the design has none."""
+        return _table(self.to_dict(), "hardware")
+
+    @property
+    def requirements(self) -> dict[str, Any]:
+        """The tables of the design file that limit something, by their names: ``hardware``, ``limits``, ``speed``,
+        ``stiffness``, ``loads``, ``keep_out``, ``payload``, ``envelope``, ``plates``, ``cranks``; and
+        ``min_joint_distance`` of ``[optimize]``. `margins` says by how much they are met at poses, `assess` over the
+        workspace."""
+        document = self.to_dict()
+        found = {name: document[name] for name in _REQUIRING if name in document}
+        least = _table(document, "optimize").get("min_joint_distance")
+        return found if least is None else {**found, "min_joint_distance": least}
+
+    def replace(self, **keys: Any) -> Design:
+        """The design with other keys of its file, in place of the whole value each key had.
+
+        Parameters
+        ----------
+        **keys
+            Keys of the design file: ``name="new"``, ``lengths=array``, ``home=pose``,
+            ``hardware={**design.hardware, "leg_length": [9, 18]}``. Tables are dictionaries, lists may be arrays, and None
+            removes a key. Fractions and texts stay exact where the file takes expressions.
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        DesignError
+            What the reader of design files refuses: an unknown key, a value of another kind.
+
+        Examples
+        --------
+        >>> import equipod
+        >>> design = equipod.Design.preset("bench-l16")
+        >>> design.replace(name="mine", description=None).name
+        'mine'
+        """
+        document = self.to_dict()
+        for key, value in keys.items():
+            if value is None:
+                document.pop(key, None)
+            elif key == "home" and not isinstance(value, Mapping):
+                document[key] = json.loads(self.with_home(value).dumps("json"))["home"]
+            else:
+                document[key] = plain(value)
+        return _read(document)
+
+    def with_home(self, home: PoseLike) -> Design:
+        """The design with another home pose.
+
+        Parameters
+        ----------
+        home : pose_like, shape (4, 4)
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        DesignError
+            A matrix that is no pose; several poses.
+        """
+        pose = as_matrices(home)
+        if pose.shape != (4, 4):
+            raise DesignError(f"home is one pose of shape (4, 4), not {pose.shape}", code="shape")
+        return Design(self._native.with_home(np.ascontiguousarray(pose).reshape(1, 4, 4)))
+
+    def with_joint(self, joint: str, place: Sequence[Any] | npt.NDArray[np.float64] | Mapping[str, Any]) -> Design:
+        """The design with one joint at another place. All else stays; joints that are constructed from it follow.
+
+        Parameters
+        ----------
+        joint : str
+            Its name, with the body before it where both have one of this name: ``"base.A1"``.
+        place : array_like, shape (3,), or dict
+            Coordinates in the frame of the body, as in `from_arrays`; or a construction of design files, such as
+            ``{"on": ["A1", "A2"], "t": "1/5"}``.
+
+        Returns
+        -------
+        Design
+            With three numbers the comments of its text stay.
+
+        Raises
+        ------
+        DesignError
+            No joint, or two, of this name; a place that is none.
+        """
+        texts = None if isinstance(place, Mapping) else as_texts([place])
+        if not isinstance(place, Mapping) and texts is None:
+            x, y, z = _points([place])[0].tolist()
+            return Design(self._native.with_joint(joint, (x, y, z)))
+        document = self.to_dict()
+        body, name = self._joint(joint)
+        document[body][name] = plain(place) if texts is None else texts[0]
+        return _read(document)
+
+    def _joint(self, joint: str) -> tuple[Body, str]:
+        """Body and name of a joint."""
+        joints = self.joints
+        names: dict[Body, tuple[str, ...]] = {"base": joints.base_names, "platform": joints.platform_names}
+        found: list[tuple[Body, str]] = [(body, joint) for body, own in names.items() if joint in own]
+        found = found or [(body, name) for body, own in names.items() for name in own if joint == f"{body}.{name}"]
+        if len(found) != 1:
+            known = ", ".join(f"{body}.{name}" for body, own in names.items() for name in own)
+            raise DesignError(f"{len(found)} joints are named `{joint}`; joints are {known}", code="joint")
+        return found[0]
+
+    @property
+    def frames(self) -> Frames:
+        """The machine's own convention for poses, ``[frames]`` of the file."""
+        order, angles, quaternion, pivot, relative_to, up = self._native.frames()
+        return Frames(
+            rotation_order=order,
+            angles=cast(Any, angles),
+            quaternion=cast(Any, quaternion),
+            pivot=None if pivot is None else (pivot[0], pivot[1], pivot[2]),
+            relative_to=cast(Any, relative_to),
+            up=cast(Any, up),
+        )
+
+    def poses(self, numbers: npt.ArrayLike, *, frames: Frames | None = None) -> Floats:
+        """Matrices of poses that are written in a convention, the design's own when absent.
+
+        Parameters
+        ----------
+        numbers : array_like, shape (..., 6) or (..., 7)
+            Position and angles, or position and quaternion.
+        frames : Frames, optional
+            The convention; poses that count from home count from that of the design.
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 4, 4)
+        """
+        return (self.frames if frames is None else frames).poses(numbers, home=self.home)
+
+    def pose_numbers(
+        self, poses: PoseLike, *, frames: Frames | None = None, form: Literal["angles", "quaternion"] = "angles"
+    ) -> Floats:
+        """Poses in a convention, the design's own when absent: position and three angles, or position and quaternion.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4)
+        frames : Frames, optional
+            The convention.
+        form : {"angles", "quaternion"}
+            What stands behind the position.
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 6) or (..., 7)
+        """
+        return (self.frames if frames is None else frames).numbers(poses, home=self.home, form=form)
+
+    def _rows(self, poses: PoseLike) -> Floats:
+        """Poses as a command reads them from a table of this design, shape (n, 7)."""
+        own = replace(self.frames, quaternion="wxyz")
+        return own.numbers(poses, home=self.home, form="quaternion").reshape(-1, 7)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -530,7 +793,9 @@ class Design:
         found = self._native.jacobian(poses, characteristic_length)
         return given(self._native.jacobian(as_matrices(poses), characteristic_length)) if found is None else found
 
-    def fk(self, lengths: npt.ArrayLike, *, seed: int = 1, method: str | None = None) -> Solutions:
+    def fk(
+        self, lengths: npt.ArrayLike, *, seed: int = 1, method: Method | None = None, pose_count: bool = True
+    ) -> Solutions:
         """Forward kinematics: all finite poses, real and complex, each with its certificate where there is one.
 
         Parameters
@@ -540,38 +805,69 @@ class Design:
         seed : int
             Of generic constants; the same input and seed give the same answer.
         method : str, optional
-            ``"octic"``, ``"homotopy"``, ``"trilateration"``; the one that fits when absent.
+            ``"octic"``, ``"homotopy"``, ``"trilateration"``, ``"sylvester"`` or ``"template"``; the one that fits when absent.
+        pose_count : bool
+            Count the poses modulo random primes where no theorem says that the list is complete, which takes some
+            milliseconds.
 
         Returns
         -------
         Solutions
+
+        Raises
+        ------
+        DesignError
+            Values that are no lengths; a method that does not apply.
         """
         array = _lengths(lengths)
         if array.shape != (6,):
             raise DesignError(f"fk takes six lengths, not {array.shape}: use fk_batch for many", code="shape")
         six: list[float] = array.tolist()
         seed = _whole("seed", seed)
-        return Solutions(self._native.fk(six, seed, method), (self, six, seed, method))
+        return Solutions(self._native.fk(six, seed, method, bool(pose_count)), (self, six, seed, method, bool(pose_count)))
 
-    def fk_batch(self, lengths: npt.ArrayLike, *, threads: int | None = None) -> BatchSolutions:
+    def fk_batch(
+        self,
+        lengths: npt.ArrayLike,
+        *,
+        threads: int | None = None,
+        seed: int = 1,
+        method: Method | None = None,
+        pose_count: bool = True,
+        real_only: bool = False,
+    ) -> BatchSolutions:
         """Forward kinematics of many sets of lengths; the design is prepared once.
 
         Parameters
         ----------
-        lengths : array_like, shape (n, 6)
+        lengths : array_like, shape (..., 6)
             Of a design whose drive is rotary the angles of the cranks in radians; nothing can be prepared for these.
         threads : int, optional
             One for each processor when absent; the answer does not depend on it.
+        seed, method, pose_count
+            As for `fk`.
+        real_only : bool
+            Keep the real poses alone, as float64: a fraction of the memory. All poses are looked for all the same, so that
+            `completeness` says what it says of the whole; ``undecided`` counts the poses that may be real or not.
 
         Returns
         -------
         BatchSolutions
-            Ragged: rows have as many poses as they have.
+            Ragged: rows have as many poses as they have; leading axes are row by row, and ``batch[i, j]`` names a row by
+            them.
+
+        Raises
+        ------
+        DesignError
+            An array of another shape, a method that does not exist; a row that fails carries its reason in the answer.
         """
         array = _lengths(lengths)
-        if array.ndim != 2:
+        rows = np.ascontiguousarray(array.reshape(-1, 6))
+        if array.ndim < 2:
             raise DesignError(f"fk_batch takes rows of six lengths, not {array.shape}", code="shape")
-        return BatchSolutions(self._native.fk_batch(array, _threads(threads)))
+        seed = _whole("seed", seed)
+        found = self._native.fk_batch(rows, _threads(threads), seed, method, bool(pose_count), bool(real_only))
+        return BatchSolutions(found, array.shape[:-1])
 
     def tracker(self, start: PoseLike | None = None) -> Tracker:
         """Follows one real pose from lengths to lengths, from `start` (home when absent); where the drive is rotary from angles to angles."""
@@ -639,6 +935,53 @@ class Design:
             words += [f"--{name}={pose_text(pose)}" for name, pose in (("at", at), ("to", to)) if pose is not None]
             return LimitsAnswer(ask([*words, *options]))
 
+    def at(
+        self,
+        pose: PoseLike | None = None,
+        *,
+        point: npt.ArrayLike | None = None,
+        axes: Literal["base", "platform"] = "base",
+        wrench: npt.ArrayLike | None = None,
+        forces: npt.ArrayLike | None = None,
+        step: float = 1.0,
+        leg: int | None = None,
+        nearest_singular: bool = False,
+        options: Sequence[str] = (),
+    ) -> AtAnswer:
+        """Forces, stiffness and resolution at a pose, what a stuck leg leaves, and the nearest singular pose.
+
+        Parameters
+        ----------
+        pose : pose_like, shape (4, 4), optional
+            Home when absent.
+        point : array_like, shape (3,), optional
+            Point that wrenches, shifts and stiffness are about, platform frame; the pivot of `frames` when absent.
+        axes : {"base", "platform"}
+            The body whose axes vectors have.
+        wrench : array_like, shape (6,), optional
+            Force and torque on the platform about the point: what holds them is computed.
+        forces : array_like, shape (6,), optional
+            Forces of the legs, positive where they push, or torques of the cranks: the wrench that they hold is computed.
+        step : float
+            Step of the drives for which the motion of the platform is computed: the unit of length, degrees of cranks.
+        leg : int, optional
+            Leg that is stuck, or free while the others are locked, from 1.
+        nearest_singular : bool
+            Also the nearest singular pose.
+        options : sequence of str
+            Further options of ``equipod at``.
+        """
+        from .records import AtAnswer
+
+        with Workshop() as shop:
+            words = ["at", shop.file("design.toml", self._native), f"--axes={axes}", f"--step={float(step)!r}"]
+            words += [] if pose is None else [f"--pose={pose_text(pose)}"]
+            lists = (("point", point, 3), ("wrench", wrench, 6), ("forces", forces, 6))
+            words += [f"--{name}={_row(name, value, count)}" for name, value, count in lists if value is not None]
+            words += [] if leg is None else [f"--leg={leg}"]
+            words += ["--nearest-singular"] if nearest_singular else []
+            return AtAnswer(ask([*words, *options]))
+
     def singular_poses(self, pose: PoseLike | None = None, *, options: Sequence[str] = ()) -> SingularPosesAnswer:
         """Where the platform gives way: signs of det J, and a box of poses proved to have no singular one.
 
@@ -692,12 +1035,12 @@ class Design:
         with Workshop() as shop:
             return FamilyAnswer(ask(["equivalents", "family", shop.file("design.toml", self._native)]))
 
-    def derivation(self, offsets: Sequence[float | str], *, pattern: str = "S123456") -> FamilyAnswer:
+    def derivation(self, offsets: Sequence[Coordinate], *, pattern: str = "S123456") -> FamilyAnswer:
         """How A, c and det A of an equivalent platform follow from coplanar joints, with forward kinematics of both.
 
         Parameters
         ----------
-        offsets : sequence of float or str
+        offsets : sequence of float, Fraction or str
             Shares of the edges, as in `equivalent`; a text such as ``"1/5"`` is exact.
         pattern : str
             A pattern of ``equipod equivalents family``.
@@ -710,17 +1053,18 @@ class Design:
         from .records import FamilyAnswer
 
         with Workshop() as shop:
-            shares = ",".join(x if isinstance(x, str) else repr(float(x)) for x in offsets)
             words = ["equivalents", "family", shop.file("design.toml", self._native), "--explain"]
-            return FamilyAnswer(ask([*words, f"--pattern={pattern}", f"--offsets={shares}"]))
+            return FamilyAnswer(ask([*words, f"--pattern={pattern}", f"--offsets={','.join(offset_texts(offsets))}"]))
 
-    def equivalent(self, offsets: Sequence[float], *, pattern: str | None = None) -> Equivalent:
+    def equivalent(self, offsets: Sequence[Coordinate], *, pattern: str | None = None) -> Equivalent:
         """The equivalent platform of an octahedral design with these offsets.
 
         Parameters
         ----------
-        offsets : sequence of float
-            Shares of the edges: six for the platform without shared joints, as many as the pattern has otherwise.
+        offsets : sequence of float, Fraction or str
+            Shares of the edges: six for the platform without shared joints, as many as the pattern has otherwise. Fractions
+            and texts such as ``"1/5"`` stay exact; a text with a unit, ``"12/5 mm"``, is a length from the first corner of
+            the edge.
         pattern : str, optional
             A pattern of ``equipod equivalents family``; without it the one with no shared joint.
 
@@ -728,7 +1072,7 @@ class Design:
         -------
         Equivalent
         """
-        design, a, c = self._native.equivalent(pattern, [float(x) for x in offsets])
+        design, a, c = self._native.equivalent(pattern, offset_texts(offsets))
         return Equivalent(Design(design), a, c)
 
     def optimize(
@@ -902,7 +1246,7 @@ class Design:
             if times is not None or poses is not None:
                 if times is None or poses is None:
                     raise DesignError("a trajectory has times and poses", code="shape")
-                words.append(shop.poses("trajectory.csv", times, poses))
+                words.append(shop.poses("trajectory.csv", times, self._rows(poses)))
             words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
             return MotionAnswer(ask([*words, *options], progress))
 
@@ -979,17 +1323,17 @@ class Design:
         with Workshop() as shop:
             out = shop.path / "calibrated.toml"
             words = ["calibrate", shop.file("design.toml", self._native)]
-            words += [shop.measurements("measurements.csv", poses, _lengths(lengths)), "-o", str(out)]
+            words += [shop.measurements("measurements.csv", self._rows(poses), _lengths(lengths)), "-o", str(out)]
             sigmas = {"length": sigma_length, "position": sigma_position, "rotation-deg": sigma_rotation_deg}
             words += [f"--sigma-{name}={float(x)!r}" for name, x in sigmas.items() if x is not None]
             record = CalibrateAnswer(ask([*words, *options], progress))
             return Calibrated(Design.load(out) if out.exists() else None, record)
 
-    def export(self, format: str) -> dict[str, str]:
-        """The files of ``csv``, ``drawing``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step`` or ``stl``: texts by names."""
+    def export(self, format: ExportFormat) -> dict[str, str]:
+        """The files of ``c``, ``csv``, ``drawing``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step`` or ``stl``: texts by names."""
         return dict(self._native.export(format))
 
-    def plot(self, figure: str = "modes", *options: str) -> Figure:
+    def plot(self, figure: FigureName = "modes", *options: str) -> Figure:
         """A picture of ``equipod plot``: ``modes``, ``workspace``, ``singular-poses``, ``det`` and others, with its options."""
         with Workshop() as shop:
             file = shop.file("design.toml", self._native)
@@ -1027,14 +1371,69 @@ class Design:
         return f"Design({self.name!r}, {len(joints.base)} base joints, {len(joints.platform)} platform joints, {self.units})"
 
     def _repr_html_(self) -> str:
-        return self.view()._repr_html_()
+        """Legs with their joints and lengths at home; the live page is :meth:`view`."""
+        joints, rotary = self.joints, self.drive == "rotary"
+        shown = np.degrees(self.ik(self.home)) if rotary else self.ik(self.home)
+        heads = ("leg", "base joint", "x", "y", "z", "platform joint", "x", "y", "z")
+        last = "angle at home [deg]" if rotary else f"length at home [{html.escape(self.units)}]"
+        head = "".join(f"<th>{title}</th>" for title in (*heads, last))
+        rows = "".join(
+            f"<tr><td>{leg + 1}</td><td>{html.escape(joints.base_names[a])}</td>"
+            + "".join(f"<td>{x:.6g}</td>" for x in joints.base[a])
+            + f"<td>{html.escape(joints.platform_names[b])}</td>"
+            + "".join(f"<td>{x:.6g}</td>" for x in joints.platform[b])
+            + f"<td>{shown[leg]:.6g}</td></tr>"
+            for leg, (a, b) in enumerate(joints.legs.tolist())
+        )
+        title = f"{html.escape(self.name)}, {self.drive} drive, {html.escape(self.units)}; <code>.view()</code> shows the live page"
+        return f"<table><caption>{title}</caption><tr>{head}</tr>{rows}</table>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Design.loads, (self.dumps("json"), "json"))
 
 
-def _is_json(format: str) -> bool:
-    if format not in ("toml", "json"):
+#: Tables of a design file that limit something.
+_REQUIRING = ("hardware", "limits", "speed", "stiffness", "loads", "keep_out", "payload", "envelope", "plates", "cranks")
+
+
+def _table(document: dict[str, Any], key: str) -> dict[str, Any]:
+    found: dict[str, Any] = document.get(key, {})
+    return found
+
+
+def _points(points: PointsLike) -> Floats:
+    """Points as an array of float64 with shape (n, 3)."""
+    try:
+        array = np.ascontiguousarray(np.atleast_2d(np.asarray(points, dtype=np.float64)))
+    except (TypeError, ValueError) as fault:
+        raise DesignError(f"joints are rows of three numbers: {fault}", code="shape") from None
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise DesignError(f"joints have the shape (n, 3), not {array.shape}", code="shape")
+    return array
+
+
+def _from_texts(points: list[list[list[Any]]], pairs: list[tuple[int, int]], name: str, units: str) -> Design:
+    """A design whose joints are written, so that they are exact."""
+    names = [[f"{letter}{k + 1}" for k in range(len(rows))] for letter, rows in zip("AB", points)]
+    for k, rows in enumerate(names):
+        if not all(0 <= pair[k] < len(rows) for pair in pairs):
+            raise DesignError(f"legs name rows from 0 to {len(rows) - 1} of the {get_args(Body)[k]}", code="legs")
+    base, platform = (dict(zip(own, rows)) for own, rows in zip(names, points))
+    legs = [[names[0][a], names[1][b]] for a, b in pairs]
+    return _read({"name": name, "units": units, "legs": legs, "base": base, "platform": platform})
+
+
+def _read(document: dict[str, Any]) -> Design:
+    """The design of a document that no file has: what is wrong is said without places in its text."""
+    try:
+        return Design.loads(json.dumps(document), "json")
+    except DesignError as fault:
+        said = "; ".join(f.message for f in fault.faults) or str(fault)
+        raise DesignError(said, code=fault.code, help=fault.help) from None
+
+
+def _is_json(format: TextFormat) -> bool:
+    if format not in get_args(TextFormat):
         raise DesignError(f"a design is written as 'toml' or 'json', not {format!r}", code="format")
     return format == "json"
 

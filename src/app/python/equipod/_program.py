@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import CommandError, DesignError
-from ._poses import PoseLike, as_matrices, quaternion
+from ._poses import Floats, PoseLike, as_matrices, quaternion
 
 #: What progress is reported to: a line of text at a time.
 Progress = Callable[[str], None]
@@ -46,36 +46,33 @@ class Workshop:
         path.write_text(design.dumps(False), encoding="utf-8")
         return str(path)
 
-    def poses(self, name: str, times: npt.ArrayLike, poses: PoseLike) -> str:
-        """Times and poses as a table, to the last digit."""
-        array = as_matrices(poses).reshape(-1, 4, 4)
+    def poses(self, name: str, times: npt.ArrayLike, poses: Floats) -> str:
+        """Times and poses, shape (n, 7) in the convention of the design with the scalar first, as a table to the last digit."""
         seconds = np.asarray(times, dtype=np.float64).reshape(-1)
-        if len(seconds) != len(array):
-            raise DesignError(f"{len(seconds)} times and {len(array)} poses", code="shape")
-        rows = np.column_stack([seconds, array[:, :3, 3], quaternion(array)])
-        lines = ["time,x,y,z,qw,qx,qy,qz", *(",".join(map(repr, row.tolist())) for row in rows)]
-        path = self.path / name
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        return str(path)
+        if len(seconds) != len(poses):
+            raise DesignError(f"{len(seconds)} times and {len(poses)} poses", code="shape")
+        return self._table(name, "time,x,y,z,qw,qx,qy,qz", np.column_stack([seconds, poses]))
 
-    def measurements(self, name: str, poses: PoseLike, lengths: npt.NDArray[np.float64]) -> str:
-        """Poses with lengths as a table, to the last digit."""
-        array, rows = as_matrices(poses).reshape(-1, 4, 4), lengths.reshape(-1, 6)
-        if len(rows) != len(array):
-            raise DesignError(f"{len(array)} poses and {len(rows)} rows of lengths", code="shape")
-        table = np.column_stack([array[:, :3, 3], quaternion(array), rows])
-        lines = ["x,y,z,qw,qx,qy,qz,l1,l2,l3,l4,l5,l6", *(",".join(map(repr, row.tolist())) for row in table)]
+    def measurements(self, name: str, poses: Floats, lengths: npt.NDArray[np.float64]) -> str:
+        """Poses, as in `poses`, with lengths as a table to the last digit."""
+        rows = lengths.reshape(-1, 6)
+        if len(rows) != len(poses):
+            raise DesignError(f"{len(poses)} poses and {len(rows)} rows of lengths", code="shape")
+        return self._table(name, "x,y,z,qw,qx,qy,qz,l1,l2,l3,l4,l5,l6", np.column_stack([poses, rows]))
+
+    def _table(self, name: str, header: str, rows: Floats) -> str:
+        lines = [header, *(",".join(map(repr, row.tolist())) for row in rows)]
         path = self.path / name
         path.write_text("\n".join(lines) + "\n", encoding="utf-8")
         return str(path)
 
 
 def pose_text(pose: PoseLike) -> str:
-    """One pose as options take it, to the last digit: ``x,y,z,qw,qx,qy,qz``."""
+    """One pose as options take it, to the last digit: ``base:x,y,z,qw,qx,qy,qz``, whatever convention a design has."""
     array = as_matrices(pose)
     if array.shape != (4, 4):
         raise DesignError(f"one pose is a matrix of shape (4, 4), not {array.shape}", code="shape")
-    return ",".join(map(repr, [*array[:3, 3].tolist(), *quaternion(array).tolist()]))
+    return "base:" + ",".join(map(repr, [*array[:3, 3].tolist(), *quaternion(array).tolist()]))
 
 
 def ask(arguments: Sequence[str], progress: Progress | bool | None = None) -> dict[str, Any]:

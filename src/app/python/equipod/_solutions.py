@@ -13,12 +13,13 @@ import numpy.typing as npt
 from . import _core
 from ._errors import DesignError
 from ._poses import Floats, PoseLike, as_matrices
+from ._words import Completeness, Method
 
 if TYPE_CHECKING:
     import pyarrow  # type: ignore[import-untyped]
 
     from ._design import Design
-    from .records import CertificateRecord, FkAnswer
+    from .records import CertificateRecord, ClosureRecord, FkAnswer, RotationPolynomialRecord
 
 COMPLETENESS = {3: "proved_bounded", 2: "proved", 1: "modular", 0: "unproved", -1: "failed"}
 
@@ -61,8 +62,12 @@ class Solution:
         return f"Solution({kind}, {'certified' if self.certified else 'no certificate'}, p=({position}))"
 
 
-def _solved(design: Design, lengths: list[float], seed: int, method: str | None) -> Solutions:
-    return design.fk(lengths, seed=seed, method=method)
+#: Design, lengths, seed, method, and whether poses are counted.
+_Question = tuple["Design", list[float], int, "Method | None", bool]
+
+
+def _solved(design: Design, lengths: list[float], seed: int, method: Method | None, pose_count: bool) -> Solutions:
+    return design.fk(lengths, seed=seed, method=method, pose_count=pose_count)
 
 
 class Solutions(Sequence[Solution]):
@@ -86,19 +91,23 @@ class Solutions(Sequence[Solution]):
 
     # the arrays are made when they are first asked for: a control loop reads one or two of them
 
-    def __init__(self, native: _core.Solutions, question: tuple[Design, list[float], int, str | None]) -> None:
+    def __init__(self, native: _core.Solutions, question: _Question) -> None:
         self._native = native
         self._question = question
 
     def __reduce__(self) -> tuple[Any, ...]:
         # computed again where it is read: the same question has the same answer
-        design, lengths, seed, method = self._question
-        return (_solved, (design, lengths, seed, method))
+        return (_solved, self._question)
 
     @cached_property
     def T(self) -> npt.NDArray[np.complex128]:
         """The poses, complex128, shape (n, 4, 4)."""
         return self._native.transforms()
+
+    @property
+    def transforms(self) -> npt.NDArray[np.complex128]:
+        """The poses, complex128, shape (n, 4, 4); the same as ``T``."""
+        return self.T
 
     @cached_property
     def reality(self) -> npt.NDArray[np.int8]:
@@ -132,7 +141,7 @@ class Solutions(Sequence[Solution]):
         return self._native.is_complete()
 
     @property
-    def completeness(self) -> str:
+    def completeness(self) -> Completeness:
         """``proved``, ``proved_bounded`` (all real poses), ``modular`` (by a count with a bound on the probability of error) or ``unproved``."""
         return self._native.completeness()
 
@@ -186,6 +195,51 @@ class Solutions(Sequence[Solution]):
 
         return FkAnswer.from_json(self._native.json())
 
+    def rotation_polynomial(self) -> RotationPolynomialRecord:
+        """The polynomial in the Cayley parameter ``c3 = z / w`` of the quaternion ``(w, x, y, z)`` of the rotation, with a root for each pose.
+
+        Returns
+        -------
+        RotationPolynomialRecord
+            As ``equipod fk --polynomial`` has it: of degree 40 for a general platform, with enclosed coefficients; ``error`` says why there is none.
+
+        Raises
+        ------
+        DesignError
+            A design with cranks.
+        """
+        from .records import RotationPolynomialRecord
+
+        return RotationPolynomialRecord.from_json(self._native.rotation_polynomial())
+
+    def closure(self, base: str, platform: str) -> ClosureRecord:
+        """The closure polynomial in the squared distance of a base joint and a platform joint that no leg joins.
+
+        Parameters
+        ----------
+        base, platform : str
+            The names of the joints.
+
+        Returns
+        -------
+        ClosureRecord
+            As ``equipod fk --between`` has it: integer coefficients of the doubles, and the real roots counted by Sturm; ``error`` says why there is none.
+
+        Raises
+        ------
+        DesignError
+            No such joint; a design with cranks.
+        """
+        from .records import ClosureRecord
+
+        joints = self._question[0].joints
+        pair = []
+        for name, known, body in ((base, joints.base_names, "base"), (platform, joints.platform_names, "platform")):
+            if name not in known:
+                raise DesignError(f"{name!r} is no joint of the {body}, which has {', '.join(known)}", code="joint")
+            pair.append(known.index(name))
+        return ClosureRecord.from_json(self._native.closure((pair[0], pair[1])))
+
     @property
     def certificates(self) -> tuple[CertificateRecord | None, ...]:
         """The certificate of each pose, with all numbers of its proof."""
@@ -237,8 +291,10 @@ class BatchSolutions(Sequence["RowPoses"]):
 
     Attributes
     ----------
+    shape : tuple of int
+        The leading axes of the lengths; rows are in the order of its elements.
     T : ndarray, complex128, shape (n, 4, 4)
-        The poses of all rows.
+        The poses of all rows; float64 where real poses alone are kept.
     offsets : ndarray, int64, shape (rows + 1,)
         Where the poses of each row begin, and the end.
     reality : ndarray, int8, shape (n,)
@@ -248,9 +304,14 @@ class BatchSolutions(Sequence["RowPoses"]):
     multiplicity : ndarray, uint32, shape (n,)
     completeness : ndarray, int8, shape (rows,)
         3 all real poses proved, 2 proved, 1 modular, 0 unproved, -1 the row failed.
+    undecided : ndarray, uint32, shape (rows,)
+        Poses of which it is not decided whether they are real; they are not among those of ``real_only=True``.
     """
 
-    def __init__(self, arrays: _core._BatchArrays) -> None:
+    T: npt.NDArray[np.complex128] | Floats
+
+    def __init__(self, arrays: _core._BatchArrays, shape: tuple[int, ...]) -> None:
+        self.shape = shape
         (
             self.T,
             self.reality,
@@ -259,10 +320,16 @@ class BatchSolutions(Sequence["RowPoses"]):
             self.multiplicity,
             self.offsets,
             self.completeness,
+            self.undecided,
             self._reason,
             self._reasons,
         ) = arrays
         self.real: npt.NDArray[np.bool_] = self.reality == 1
+
+    @property
+    def transforms(self) -> npt.NDArray[np.complex128] | Floats:
+        """The poses of all rows, shape (n, 4, 4); the same as ``T``."""
+        return self.T
 
     @property
     def complete(self) -> npt.NDArray[np.bool_]:
@@ -290,12 +357,17 @@ class BatchSolutions(Sequence["RowPoses"]):
         return len(self.completeness)
 
     @overload
-    def __getitem__(self, index: int) -> RowPoses: ...
+    def __getitem__(self, index: int | tuple[int, ...]) -> RowPoses: ...
     @overload
     def __getitem__(self, index: slice) -> list[RowPoses]: ...
-    def __getitem__(self, index: int | slice) -> RowPoses | list[RowPoses]:
+    def __getitem__(self, index: int | tuple[int, ...] | slice) -> RowPoses | list[RowPoses]:
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
+        if isinstance(index, tuple):
+            if len(index) != len(self.shape):
+                raise IndexError(f"a row of a batch of shape {self.shape} has {len(self.shape)} indices, not {len(index)}")
+            places = tuple(range(n)[i] for i, n in zip(index, self.shape))
+            index = int(np.ravel_multi_index(places, self.shape))
         k = range(len(self))[index]
         part = slice(int(self.offsets[k]), int(self.offsets[k + 1]))
         return RowPoses(
@@ -323,7 +395,8 @@ class BatchSolutions(Sequence["RowPoses"]):
         """The poses as an Arrow table, one row a pose, which polars, pandas and duckdb read.
 
         Columns: ``row``, ``reality``, ``certified``, ``residual``, ``multiplicity``, and ``x y z`` with the nine entries ``r11..r33`` of the
-        rotation as real and imaginary parts (``x_re``, ``x_im``, ..). Needs pyarrow (``pip install equipod[tables]``).
+        rotation as real and imaginary parts (``x_re``, ``x_im``, ..), or as numbers (``x``, ..) where real poses alone are kept.
+        Needs pyarrow (``pip install equipod[tables]``).
         """
         import pyarrow as pa
 
@@ -334,12 +407,13 @@ class BatchSolutions(Sequence["RowPoses"]):
             "residual": self.residual,
             "multiplicity": self.multiplicity,
         }
-        for k, name in enumerate("xyz"):
-            columns[f"{name}_re"], columns[f"{name}_im"] = self.T[:, k, 3].real.copy(), self.T[:, k, 3].imag.copy()
-        for i in range(3):
-            for j in range(3):
-                entry = self.T[:, i, j]
-                columns[f"r{i + 1}{j + 1}_re"], columns[f"r{i + 1}{j + 1}_im"] = entry.real.copy(), entry.imag.copy()
+        entries = {name: self.T[:, k, 3] for k, name in enumerate("xyz")}
+        entries |= {f"r{i + 1}{j + 1}": self.T[:, i, j] for i in range(3) for j in range(3)}
+        for name, entry in entries.items():
+            if np.iscomplexobj(entry):
+                columns[f"{name}_re"], columns[f"{name}_im"] = entry.real.copy(), entry.imag.copy()
+            else:
+                columns[name] = entry.copy()
         return pa.table(columns)
 
 
@@ -350,6 +424,7 @@ class RowPoses:
     Attributes
     ----------
     T : ndarray, complex128, shape (n, 4, 4)
+        Float64 where real poses alone are kept.
     reality : ndarray, int8, shape (n,)
     certified : ndarray, bool, shape (n,)
     residual : ndarray, float64, shape (n,)
@@ -360,13 +435,18 @@ class RowPoses:
         What is known of completeness, or why the row failed.
     """
 
-    T: npt.NDArray[np.complex128]
+    T: npt.NDArray[np.complex128] | Floats
     reality: npt.NDArray[np.int8]
     certified: npt.NDArray[np.bool_]
     residual: npt.NDArray[np.float64]
     multiplicity: npt.NDArray[np.uint32]
     completeness: str
     reason: str
+
+    @property
+    def transforms(self) -> npt.NDArray[np.complex128] | Floats:
+        """The poses, shape (n, 4, 4); the same as ``T``."""
+        return self.T
 
     @property
     def complete(self) -> bool:

@@ -115,7 +115,6 @@ OptimizeWord = Literal[
     "violated",
 ]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
-PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
 PoseFamilyWord = Literal["line", "positions", "rotation"]
 ProofWord = Literal["leg_vectors", "none", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
@@ -368,6 +367,8 @@ class CalibrateAnswer(Record):
     name: str
     #: The unit of lengths.
     units: str
+    #: The convention in which measured poses were read, and of `in_frames`.
+    frames: PoseConventionRecord
     #: How it ended.
     outcome: CalibrateOutcome
     #: Why it ended so, in a sentence.
@@ -497,9 +498,9 @@ class CertificateRecord(Record):
     #: A power of two, design units.
     unit: Union[float, None]
     #: The centre.
-    centre: Union[ComplexRecord4, ComplexRecord3, None]
+    centre: Union[ComplexRecord5, ComplexRecord4, None]
     #: To be added to the centre.
-    centre_low: Union[ComplexRecord4, None]
+    centre_low: Union[ComplexRecord5, None]
     #: One root lies within this distance of the centre.
     radius: Union[float, None]
     #: No other root lies within this distance.
@@ -754,12 +755,21 @@ class ComplexRecord(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts.
+    im: tuple[Union[float, None], ...]
+
+
+class ComplexRecord2(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
     re: PoseRecord
     #: Imaginary parts.
     im: PoseRecord
 
 
-class ComplexRecord2(Record):
+class ComplexRecord3(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -768,7 +778,7 @@ class ComplexRecord2(Record):
     im: tuple[tuple[Union[float, None], ...], ...]
 
 
-class ComplexRecord3(Record):
+class ComplexRecord4(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -777,7 +787,7 @@ class ComplexRecord3(Record):
     im: tuple[Union[float, None], ...]
 
 
-class ComplexRecord4(Record):
+class ComplexRecord5(Record):
     """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
 
     #: Real parts.
@@ -871,7 +881,26 @@ class CounterexampleRecord(Record):
     #: The design whose lengths the pose has: A or B.
     solves: Literal["A", "B"]
     #: The pose.
-    pose: ComplexRecord
+    pose: ComplexRecord2
+    #: Whether a certificate proves the pose a solution of the one.
+    certified: bool
+    #: The leg of the other design that is missed most, from 1.
+    leg: int
+    #: By how much its squared length is missed, relative to the squared size.
+    miss: Union[float, None]
+    #: Rounding to expect in this number.
+    rounding: Union[float, None]
+
+
+class CounterexampleRecord2(Record):
+    """A pose that belongs to the lengths of one design and not to those of the other."""
+
+    #: Index into `samples`, from 0.
+    sample: int
+    #: The design whose lengths the pose has: A or B.
+    solves: Literal["A", "B"]
+    #: The pose.
+    pose: ComplexRecord2
     #: Whether a certificate proves the pose a solution of the one.
     certified: bool
     #: The leg of the other design that is missed most, from 1.
@@ -953,6 +982,16 @@ class CrankMotionRecord(Record):
     rms_torque: Union[float, None]
     #: Power of the greatest size, watts; negative where the drive brakes.
     power_w: Union[ExtremeRecord, None]
+
+
+class DecouplingLeg(Record):
+    """A sixth leg with which the platform is solved in steps, each a polynomial of low degree."""
+
+    case: Union[Literal["off_the_line", "to_the_line", "to_the_joint"], None]
+    #: The body.
+    body: Union[Body, None]
+    #: The four legs, counted from 1.
+    legs: Union[tuple[int, ...], None]
 
 
 class DefaultReserveRecord(Record):
@@ -1041,6 +1080,8 @@ class Design(Record):
     cranks: Union[dict[str, DesignCrank], None]
     #: the pose the platform is built for
     home: Union[DesignHomePose, None]
+    #: the machine's own convention for poses that commands take and answer
+    frames: Union[dict[str, Any], None]
     #: the poses to reach
     workspace: Union[dict[str, Any], None]
     #: what the optimiser chooses, and by what
@@ -1809,6 +1850,8 @@ class FkAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+    #: The convention of `in_frames`.
+    frames: Union[PoseConventionRecord, None]
     #: In the order of the file.
     rows: Union[tuple[FkRowRecord, ...], None]
     #: The method that found them.
@@ -1912,6 +1955,8 @@ class FkOneAnswer(Record):
     #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
+    #: The convention of `in_frames`; of a row of a table that of the whole answer.
+    frames: Union[PoseConventionRecord, None]
     #: The numbers of the proof that all poses up to a distance are listed, where it is one.
     bounded: Union[BoundedProof, None]
     #: What libraries of linear algebra computed for `--method template`.
@@ -1963,6 +2008,8 @@ class FkRowRecord(Record):
     time: Union[float, None]
     #: The angles of the cranks, where these were given.
     angles_deg: Union[tuple[float, ...], None]
+    #: The convention of `in_frames`; of a row of a table that of the whole answer.
+    frames: Union[PoseConventionRecord, None]
     #: The method that found them.
     method: Union[Method, None]
     #: Whether these are known to be all.
@@ -2034,6 +2081,8 @@ class FkRowRecord(Record):
 class FkRowsAnswer(Record):
     """The poses with the lengths of each row of a file."""
 
+    #: The convention of `in_frames`.
+    frames: PoseConventionRecord
     #: In the order of the file.
     rows: tuple[FkRowRecord, ...]
 
@@ -2059,9 +2108,9 @@ class FrameMotionsRecord(Record):
 class FreeRangeRecord(Record):
     """How far one of the six numbers of a pose may move."""
 
-    #: Which number, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
-    axis: PoseAxis
-    #: `deg`, or the unit of length.
+    #: Which number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    axis: str
+    #: `deg` or `rad`, or the unit of length.
     unit: str
     #: At the pose.
     value: float
@@ -2281,6 +2330,23 @@ class GriffisDuffyRecord(Record):
     lengths_defect: Union[float, None]
     #: Whether the platform can be assembled with the lengths of the design.
     assembly: Union[AssemblyRecord, None]
+
+
+class HeldLineRecord(Record):
+    """A line of a body that five legs hold."""
+
+    #: The body.
+    body: Body
+    #: Where the joint of each leg is on the line, from that of leg 1, in units of `length`.
+    marks: tuple[Union[float, None], ...]
+    #: From the joint of leg 1 to the one farthest from it, design units.
+    length: Union[float, None]
+    #: By which equation the line is found; null where the legs are dependent.
+    class_: Union[LineClass, None]
+    #: Poses of the line, real and complex, for generic lengths; null where they were not counted.
+    generic_poses: Union[int, None]
+    #: The poses of the line that are singular.
+    singular_poses: LineLocusRecord
 
 
 class HeldPosesRecord(Record):
@@ -2549,14 +2615,18 @@ class LimitsAnswer(Record):
 
     #: Always 1: the version of these definitions.
     schema_version: int
+    #: The convention in which poses were read, of `in_frames` and of `axes`.
+    frames: PoseConventionRecord
     #: The pose of `--at`.
     pose: PoseQuaternionRecord
+    #: The same in the convention of `frames`.
+    in_frames: PoseInFrames
     #: Every requirement is met there, and det J has the sign that it has at home.
     allowed: bool
     #: What is violated there, the worst first.
     violated: tuple[LimitRecord, ...]
-    #: x, y, z, roll, pitch, yaw: how far each may move while the others stay; nothing where the pose is
-    #: not allowed.
+    #: x, y, z and the three angles of `frames`, or turns about x, y and z for rotation vectors: how far
+    #: each may move while the others stay; nothing where the pose is not allowed.
     axes: tuple[FreeRangeRecord, ...]
     #: The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not
     #: allowed.
@@ -2566,12 +2636,71 @@ class LimitsAnswer(Record):
     nearest_allowed: Union[NearestAllowedRecord, None]
     #: How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
     workspace: Union[WorkspaceSizeRecord, None]
+    #: The surface that was written; null: none was asked for, or the pose of `--at` is not allowed.
+    surface: Union[str, None]
     #: Of lengths.
     length_unit: str
     #: What the answer was made from.
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+
+
+class LineLocusRecord(Record):
+    """The polynomial `F(p, v)` whose zeros are the singular poses of the line."""
+
+    #: `architecturally singular`, `quadratic in all`, `linear in the position`, `linear in the direction`,
+    #: or `cubic`.
+    family: str
+    #: Its degree.
+    degree: int
+    #: Its degree in the position.
+    degree_in_position: int
+    #: Its degree in the direction.
+    degree_in_direction: int
+    #: Its terms. The position is that of the joint of leg 1 in the frame of the other body, and the
+    #: direction is a vector as long as `length`.
+    terms: tuple[LineTermRecord, ...]
+
+
+class LinePoseRecord(Record):
+    """A pose of a line in the frame of the other body."""
+
+    #: The joint of leg 1, design units.
+    position: ComplexRecord
+    #: The unit vector from the joint of leg 1 towards the one farthest from it.
+    direction: ComplexRecord
+    #: Whether it is real: decided exactly.
+    real: bool
+    #: How often it counts.
+    multiplicity: int
+    #: No coordinate of the position is farther from the true one.
+    position_error: Union[float, None]
+    #: No coordinate of the direction is farther from the true one.
+    direction_error: Union[float, None]
+
+
+class LinePosesRecord(Record):
+    """All poses of a line for given lengths."""
+
+    #: How many there are, real and complex, each as often as its multiplicity says: proved in exact
+    #: arithmetic.
+    counted: int
+    #: How many of them are real.
+    real: int
+    #: The coefficients of the polynomial that gives them, as decimal text, the constant one first.
+    coefficients: tuple[str, ...]
+    #: The poses, the real ones first.
+    poses: tuple[LinePoseRecord, ...]
+
+
+class LineTermRecord(Record):
+    """A term of a polynomial in the position and the direction of a line."""
+
+    #: Exponents of `p_x, p_y, p_z, v_x, v_y, v_z`.
+    exponents: tuple[int, ...]
+    #: The coefficient, an integer as decimal text.
+    coefficient: str
 
 
 class LocalOptimalityRecord(Record):
@@ -2765,6 +2894,9 @@ class MotionAnswer(Record):
     schema_version: int
     #: The name of the design.
     name: str
+    #: The convention in which poses of options were read, and of the table of instants; a table of poses
+    #: may say more in the names of its columns.
+    frames: PoseConventionRecord
     #: No requirement is violated at the instants looked at, and no pose of the motions is singular.
     met: bool
     #: Of lengths; speeds are in it per second, accelerations per second squared.
@@ -2891,6 +3023,8 @@ class NearestAllowedRecord(Record):
     position: tuple[float, ...]
     #: Its roll, pitch and yaw.
     rpy_deg: tuple[float, ...]
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
     #: Distance from the pose asked for, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     distance: float
     #: The `L` of the distance, design units a radian.
@@ -3021,6 +3155,8 @@ class NextPoseRecord(Record):
     pose: PoseQuaternionRecord
     #: Roll, pitch and yaw of it, degrees.
     rpy_deg: tuple[Union[float, None], ...]
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
     #: By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes
     #: smaller with it.
     shrinks: Union[float, None]
@@ -3366,6 +3502,36 @@ class PatternRecord(Record):
     det_zero: tuple[str, ...]
 
 
+class PentapodAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: How many legs it has: 5.
+    legs: int
+    #: A joint is no fraction; the answer is about its nearest doubles.
+    rounded_joints: bool
+    #: The line that the legs hold; null where no body has all its joints on a line. The other freedom of
+    #: the platform is the turn about this line.
+    line: Union[HeldLineRecord, None]
+    #: Whether the legs are dependent at every pose; null: not decided.
+    architecturally_singular: Union[bool, None]
+    #: The sixth legs with which the platform is solved in steps.
+    sixth_legs: tuple[DecouplingLeg, ...]
+    #: The lengths that poses were asked for; null: none.
+    lengths: Union[tuple[float, ...], None]
+    #: All poses of the line for them; null where none were asked for, or there is no answer.
+    poses: Union[LinePosesRecord, None]
+    #: Why there are no poses although lengths are given.
+    no_poses: Union[str, None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
 class PlacedFirst(Record):
     """A part of the platform that some of the legs place, before the others place the rest."""
 
@@ -3419,6 +3585,28 @@ class PoseBoundRecord(Record):
     theorem: str
 
 
+class PoseConventionRecord(Record):
+    """A convention for poses."""
+
+    #: Order of the turns: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried
+    #: along, or `vector` for rotation vectors.
+    rotation_order: str
+    #: The same as a product of matrices for angles a, b, c in the order in which they are written.
+    formula: str
+    #: Unit of angles: `deg` or `rad`.
+    angles: str
+    #: Order of quaternions: `wxyz` or `xyzw`.
+    quaternion: str
+    #: The point of the platform whose position is given, platform frame, design units.
+    pivot: tuple[Union[float, None], ...]
+    #: What poses are measured from: `base` or `home`.
+    relative_to: str
+    #: The axis that points up: `z` or `y`.
+    up: str
+    #: The convention in words.
+    sentence: str
+
+
 class PoseCountRecord(Record):
     """The finite poses of the design, counted without finding them."""
 
@@ -3460,6 +3648,20 @@ class PoseErrorsRecord(Record):
     position: QuantilesRecord
     #: Of the orientation.
     rotation_deg: QuantilesRecord
+
+
+class PoseInFrames(Record):
+    """A pose in the numbers of a convention."""
+
+    #: Position of the pivot, design units.
+    position: tuple[Union[float, None], ...]
+    #: Angles in the unit of `frames`, in the order in which they are written.
+    angles: tuple[Union[float, None], ...]
+    #: Whether the rotation has no other angles: false near the ends of the middle angle, where only a
+    #: combination of the others is determined to more than half of the digits of a double.
+    angles_unique: bool
+    #: The unit quaternion in the order of `frames`.
+    quaternion: tuple[Union[float, None], ...]
 
 
 class PoseQuaternionRecord(Record):
@@ -3585,6 +3787,8 @@ class RealPoseRecord(Record):
     rpy_deg: tuple[float, ...]
     #: Unit quaternion, scalar part first.
     quat_wxyz: tuple[float, ...]
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
     #: On which side of the base the platform is; null: its centre is in the plane of the base, there or at
     #: home.
     mode: Union[SideWord, None]
@@ -3593,6 +3797,9 @@ class RealPoseRecord(Record):
     distance_from_home: float
     #: Whether none of the other real poses listed is nearer to home.
     nearest_home: bool
+    #: Whether the pose meets every requirement and det J has the sign that it has at home, with
+    #: `--limits`.
+    allowed: Union[bool, None]
     #: Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks:
     #: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
     elbow_kept: Union[tuple[bool, ...], None]
@@ -4125,9 +4332,9 @@ class SolutionRecord(Record):
     """One pose with its evidence."""
 
     #: Rotation matrix, rows.
-    R: ComplexRecord2
+    R: ComplexRecord3
     #: Position, base frame, design units.
-    p: ComplexRecord3
+    p: ComplexRecord4
     #: Null: undecided.
     real: Union[bool, None]
     #: Whether there is a certificate.
@@ -4141,7 +4348,7 @@ class SolutionRecord(Record):
     #: Estimate of the condition number.
     condition: Union[float, None]
     #: (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
-    dual_quaternion: Union[ComplexRecord4, None]
+    dual_quaternion: Union[ComplexRecord5, None]
     #: The pose in real numbers, where it is real.
     real_pose: Union[RealPoseRecord, None]
 

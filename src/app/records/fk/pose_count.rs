@@ -1,13 +1,13 @@
 //! The number of poses, counted without finding them.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use fk::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
 use fk::{Completeness, FkSolutions};
 
 /// The finite poses of the design, counted without finding them.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseCountRecord {
     /// The number with multiplicity; null: not finite, or undecided.
     pub finite: Option<usize>,
@@ -31,7 +31,7 @@ pub struct PoseCountRecord {
 }
 
 /// The evidence for a count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EvidenceWord {
     /// A theorem and certificates.

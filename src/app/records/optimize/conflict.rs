@@ -90,10 +90,10 @@ impl GiveRecord {
         let (what, unit) = words(design, g.demand);
         let message = match g.alone {
             Some(x) if x > 0.0 => {
-                format!("{what} would have to give by {} {unit}", amount(x)).trim_end().to_string()
+                format!("{what}: would have to give by {} {unit}", amount(x)).trim_end().to_string()
             }
-            Some(_) => format!("{what} would have to give by no more than the spare of the search"),
-            None => format!("{what} cannot make room alone, whatever it gives"),
+            Some(_) => format!("{what}: would have to give by no more than the spare of the search"),
+            None => format!("{what}: alone it cannot resolve the conflict, however much it gives"),
         };
         Self {
             name: g.demand.into(),
@@ -103,59 +103,17 @@ impl GiveRecord {
             message,
         }
     }
-
-    /// The amount of relaxation together with the others, for people.
-    #[must_use]
-    pub fn amount(&self) -> String {
-        amount(self.together.0)
-    }
 }
 
-/// A positive amount with at least four significant digits.
+/// An amount in a sentence.
 pub(super) fn amount(x: f64) -> String {
-    if x < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") }
+    num::shown::rounded(x, 3)
 }
 
 /// A constraint in words, and the unit in which it gives.
 pub(super) fn words(design: &Design, d: Demand) -> (String, String) {
     match d {
-        Demand::Requirement(kind) => {
-            let sentence = match kind {
-                TermKind::LegTooShort => "the least leg length",
-                TermKind::LegTooLong => "the greatest leg length",
-                TermKind::BaseSwing => "the swing limit of the base joints",
-                TermKind::PlatformSwing => "the swing limit of the platform joints",
-                TermKind::BaseFirstAngle => "the limit about the first axes of the base joints",
-                TermKind::BaseSecondAngle => "the limit about the second axes of the base joints",
-                TermKind::PlatformFirstAngle => "the limit about the first axes of the platform joints",
-                TermKind::PlatformSecondAngle => "the limit about the second axes of the platform joints",
-                TermKind::LegClearance => "the clearance between legs",
-                TermKind::KeepOut => "the clearance from the keep-outs",
-                TermKind::LegForce => "the greatest leg force",
-                TermKind::LegSpeed => "the greatest leg speed",
-                TermKind::BaseSpacing => "the room between base joints",
-                TermKind::PlatformSpacing => "the room between platform joints",
-                TermKind::BaseEnvelope => "the envelope of the base",
-                TermKind::PlatformEnvelope => "the envelope of the platform",
-                TermKind::MachineEnvelope => "the envelope of the machine",
-                TermKind::BaseHoleEdge => "the edge distance of the holes in the base plate",
-                TermKind::PlatformHoleEdge => "the edge distance of the holes in the platform plate",
-                TermKind::BaseHoleGap => "the distance of the holes in the base plate",
-                TermKind::PlatformHoleGap => "the distance of the holes in the platform plate",
-                TermKind::PlateClearance => "the clearance from the plates",
-                TermKind::PayloadClearance => "the clearance from the payload",
-                TermKind::LinearStiffness => "the least stiffness against forces",
-                TermKind::AngularStiffness => "the least stiffness against torques",
-                TermKind::NaturalFrequency => "the least natural frequency",
-                TermKind::RodTooShort | TermKind::RodTooLong => "the reach of the rods",
-                TermKind::CrankTransmission => "the least transmission angle of the cranks",
-                TermKind::CrankAngle => "the limits of the angles of the cranks",
-                TermKind::TipSwing => "the swing limit of the joints at the tips",
-                TermKind::CrankTorque => "the greatest torque of the cranks",
-                TermKind::CrankSpeed => "the greatest speed of the cranks",
-            };
-            (sentence.to_string(), design.unit_of(kind.quantity()))
-        }
+        Demand::Requirement(kind) => (kind.label().to_owned(), design.unit_of(kind.quantity())),
         Demand::Determinant => {
             let default =
                 if design.optimize.min_abs_det.is_none() { ", a default of the search," } else { "" };
@@ -202,12 +160,12 @@ impl From<Demand> for DemandWord {
 impl DemandWord {
     /// The code of the demand.
     #[must_use]
-    pub fn code(self) -> &'static str {
+    pub fn label(self) -> String {
         match self {
-            Self::Requirement(kind) => kind.code(),
-            Self::Level(o) => o.code(),
-            Self::Special(SpecialDemand::AbsDet) => "abs_det",
-            Self::Special(SpecialDemand::Reach) => "reach",
+            Self::Requirement(kind) => kind.label().into(),
+            Self::Level(o) => o.code().replace('_', " "),
+            Self::Special(SpecialDemand::AbsDet) => "|det A|, minimum".into(),
+            Self::Special(SpecialDemand::Reach) => "reach of sliding joints".into(),
         }
     }
 }

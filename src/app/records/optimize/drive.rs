@@ -7,6 +7,7 @@ use super::{ConflictRecord, SymmetryRecord};
 use crate::{MarginRecord, Number};
 use ask::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, OptimizeStatus, SearchedDrive};
 use machine::requirements::TermKind;
+use num::shown::rounded;
 use optimize::dimensional::DimensionalOutcome;
 
 /// The search over the drives of a table.
@@ -128,7 +129,7 @@ fn reason(driven: &DrivenPlatform) -> Option<String> {
     }
     let of = |m: &MarginRecord| {
         let missed = (m.margin_with_reserve.0, m.unit.as_str());
-        format!("{} {:.6} {}", m.name.code(), missed.0, missed.1)
+        format!("{}: {} {}", m.name.label(), rounded(missed.0, 3), missed.1)
     };
     let missed: Vec<String> =
         margins(driven).iter().filter(|m| m.margin_with_reserve.0 < 0.0 && !m.at_limit).map(of).collect();

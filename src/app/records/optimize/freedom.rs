@@ -96,7 +96,7 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
             let less = |e: &EasedDemand| {
                 let (name, unit) = super::conflict::words(design, e.demand);
                 let [to, from] = [e.to, e.from].map(super::conflict::amount);
-                format!("{name} would have to give by {to} {unit} in place of {from} {unit}")
+                format!("{name}: would have to give by {to} {unit} in place of {from} {unit}")
             };
             let list: Vec<String> = opened.eased.iter().map(less).collect();
             format!(

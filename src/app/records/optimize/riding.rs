@@ -7,6 +7,8 @@ use crate::nearest::short;
 use crate::{MarginRecord, Number};
 use ask::Checked;
 use ask::Design;
+use machine::requirements::TermKind;
+use num::shown::rounded;
 use optimize::dimensional::ChosenVariable;
 use platform::manipulator::Body;
 
@@ -93,7 +95,7 @@ impl RidingRecord {
         let grown: Vec<String> = Body::BOTH
             .into_iter()
             .filter(|body| growth[body.index()] > GROWN)
-            .map(|body| format!("the {body} is {} times as wide", rounded(growth[body.index()])))
+            .map(|body| format!("the {body} is {} times as wide", rounded(growth[body.index()], 3)))
             .collect();
         if bounds.is_empty() && grown.is_empty() {
             return None;
@@ -117,10 +119,9 @@ fn at_end(v: &ChosenVariable) -> Option<RiddenBoundRecord> {
     })
 }
 
-/// A number with three digits.
-fn rounded(x: f64) -> String {
-    let digits = format!("{x:.2e}").parse::<f64>().unwrap_or(x);
-    digits.to_string()
+/// A requirement as people call it, anything else by its name.
+fn said(name: &str) -> &str {
+    TermKind::ALL.into_iter().find(|kind| kind.code() == name).map_or(name, |kind| kind.label())
 }
 
 fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
@@ -138,7 +139,7 @@ fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
     for b in bounds.iter().filter(|b| b.kind != RiddenWord::RangeEnd) {
         let what = if b.kind == RiddenWord::Reserve { "its reserve" } else { "no reserve" };
         let left = format!("{} {}", short(b.value.0), b.unit);
-        parts.push(format!("{} ({} left, {what})", b.name, left.trim_end()));
+        parts.push(format!("{} ({} left, {what})", said(&b.name), left.trim_end()));
     }
     let rides = if parts.is_empty() { None } else { Some(format!("rides on {}", parts.join(", "))) };
     let all: Vec<String> = rides.into_iter().chain(grown.iter().cloned()).collect();

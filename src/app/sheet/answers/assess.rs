@@ -1,43 +1,78 @@
 //! Margins of the requirements of a design; this table leads every answer that assesses a design.
 
+use super::poses::{POSE, place, pose};
+use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use machine::requirements::MarginVerdict;
-use records::{AssessAnswer, MarginRecord, PoseQuaternionRecord};
+use records::{AssessAnswer, MarginRecord};
 use synthesis::singularity::RegularityWord;
 
-/// The answer of `assess`.
+/// The answer of `assess`: the verdict, the numbers that decide, the table, and what is assumed.
 #[must_use]
 pub fn assess(found: &AssessAnswer) -> Sheet {
-    let mut sheet = requirements(&found.name, Some(found));
-    let at = place(found.regular.pose.as_ref());
-    let said = &found.regular_explanation;
+    let mut sheet = Sheet::new();
+    sheet.line(sentence(found));
+    key_numbers(&mut sheet, found);
     sheet.space();
+    sheet.table(table(found));
+    sheet.space();
+    sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
+    sheet.line("The proved margin holds at every pose judged; the least margin was found at the worst pose.");
+    if found.met.is_none() {
+        sheet
+            .line("Poses between those looked at may violate what is not proved; more --cells may prove it.");
+    }
+    sheet.add(assumptions(found));
+    sheet
+}
+
+/// The tightest requirement, singular poses, conditioning and the lightest drive, a line each.
+fn key_numbers(sheet: &mut Sheet, found: &AssessAnswer) {
+    if let Some(t) = &found.tightest {
+        let margin = found.requirements.iter().find(|m| m.name == t.name);
+        let margin = margin.map_or_else(String::new, |m| format!("{} {}, ", figure(m.margin.0), m.unit));
+        let share = figure(100.0 * t.share.0);
+        say!(sheet, "Tightest requirement: {} (margin {margin}{share} % of its limit).", t.name.label());
+    }
+    let said = &found.regular_explanation;
+    let at = place(found.regular.pose.as_ref());
     sheet.line(match found.regular.status {
         RegularityWord::Proved => format!("{said}."),
-        RegularityWord::ChangesSign => format!("{said}, {at}."),
-        RegularityWord::Undecided => format!("{said}; undecided near {at}."),
+        RegularityWord::ChangesSign => format!("{said}, {POSE} = {at}."),
+        RegularityWord::Undecided => format!("{said}; undecided near {POSE} = {at}."),
     });
-    if let Some(t) = &found.tightest {
-        say!(sheet, "Least room: {}, {:.1} % of its limit.", t.name.code(), 100.0 * t.share.0);
-    }
     if let Some(d) = &found.lightest_drive {
         say!(sheet, "{}.", d.message);
     }
-    sheet.line("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose judged falls below.");
-    if found.met.is_none() {
-        sheet.line(
-            "What is only searched may be violated between the poses looked at; more --cells may prove it.",
-        );
+}
+
+/// The verdict in a line, and the place with all margins: a command, or a page.
+#[must_use]
+pub fn verdict(name: &str, found: Option<&AssessAnswer>, place: &str) -> Sheet {
+    let mut sheet = Sheet::new();
+    match found {
+        Some(found) => {
+            sheet.line(sentence(found));
+            say!(sheet, "Margins and worst poses: {place}");
+        }
+        None => nothing_required(&mut sheet, name),
     }
     sheet
 }
 
-/// The verdict, the table and the assumptions about masses; for a design without requirements one line says so.
+fn nothing_required(sheet: &mut Sheet, name: &str) {
+    say!(
+        sheet,
+        "{name} requires nothing: it has no limits of lengths, joint angles, clearances, forces or speeds"
+    );
+}
+
+/// The sentence, the table and what is assumed; a design that requires nothing is told so in a line.
 #[must_use]
 pub fn requirements(name: &str, found: Option<&AssessAnswer>) -> Sheet {
     let Some(found) = found else {
         let mut sheet = Sheet::new();
-        say!(sheet, "{name} requires nothing: it has no limits of lengths, swing, room, forces or speeds");
+        nothing_required(&mut sheet, name);
         return sheet;
     };
     let mut sheet = requirements_without_assumptions(found);
@@ -55,11 +90,19 @@ pub fn requirements_without_assumptions(found: &AssessAnswer) -> Sheet {
     sheet
 }
 
-/// The assumptions about masses, a line for each sentence.
+/// The assumptions of the answer.
 #[must_use]
 pub fn assumptions(found: &AssessAnswer) -> Sheet {
+    assumed(&found.assumptions)
+}
+
+/// What an answer assumes, a line for each sentence at its end.
+pub(super) fn assumed(sentences: &[String]) -> Sheet {
     let mut sheet = Sheet::new();
-    found.assumptions.iter().for_each(|line| sheet.line(line));
+    if !sentences.is_empty() {
+        sheet.line("Assumed:");
+        sentences.iter().for_each(|sentence| say!(sheet, "  {sentence}"));
+    }
     sheet
 }
 
@@ -75,14 +118,14 @@ pub fn table(found: &AssessAnswer) -> Table {
     // a column for the safety margin, if the design requires one on any limit
     let reserved = found.requirements.iter().any(|m| m.reserve.0 > 0.0);
     let mut table = Table::new(
-        [left("requirement", 17), left("status", 9), right("least margin", COLUMN)]
+        [left("requirement", 17), left("status", 9).gap(2), right("least margin", 0).gap(2)]
             .into_iter()
-            .chain(reserved.then(|| right("less reserve", COLUMN)))
+            .chain(reserved.then(|| right("after reserve", 0).gap(2)))
             .chain([
-                right("proved margin", COLUMN),
-                left("unit", 8),
-                left("of", 24),
-                left("worst pose x,y,z,qw,qx,qy,qz", 0),
+                right("proved margin", 0).gap(2),
+                left("unit", 0),
+                left("binds at", 0).gap(2),
+                left(format!("worst pose {POSE} [deg]"), 0).gap(2),
             ]),
     );
     // `left`: the margin minus the safety margin
@@ -103,16 +146,16 @@ pub fn table(found: &AssessAnswer) -> Table {
             () => (Tone::of(m.met), m.margin.0),
         };
         let proved = match m.proved_margin.0 {
-            x if m.status == MarginVerdict::AtLimit || x == 0.0 => decimals(0.0),
-            x if x.is_finite() => decimals(x),
+            x if m.status == MarginVerdict::AtLimit || x == 0.0 => figure(0.0),
+            x if x.is_finite() => figure(x),
             _ => "none".into(),
         };
         let short = if m.reserve_kept == Some(false) { Tone::No } else { Tone::Plain };
         row(
-            m.name.code(),
+            m.name.label(),
             Cell::toned(m.status.name(), tone),
-            [&decimals(margin), &proved],
-            Cell::toned(decimals(m.margin_with_reserve.0), short),
+            [&figure(margin), &proved],
+            Cell::toned(figure(m.margin_with_reserve.0), short),
             [&m.unit, &m.between.join(", "), &place(m.pose.as_ref())],
         );
     }
@@ -123,16 +166,12 @@ pub fn table(found: &AssessAnswer) -> Table {
         RegularityWord::Undecided => (Tone::Open, "undecided"),
     };
     let at = place(found.regular.pose.as_ref());
-    row("singularity", Cell::toned(status, tone), ["-", "-"], "-".into(), ["", "sign of det J", &at]);
+    row("no singular pose", Cell::toned(status, tone), ["-", "-"], "-".into(), ["", "sign of det J", &at]);
     let c = &found.conditioning;
-    let value = format!("{:.6}", c.inverse_condition.0);
-    let of = "least found, 1 at best";
-    row("conditioning", "no limit".into(), [&value, "-"], "-".into(), ["", of, &c.pose.short()]);
+    let value = figure(c.inverse_condition.0);
+    let of = "1 at best, 0 at a singular pose";
+    row("conditioning", "no limit".into(), [&value, "-"], "-".into(), ["", of, &pose(&c.pose)]);
     table
-}
-
-fn place(pose: Option<&PoseQuaternionRecord>) -> String {
-    pose.map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short)
 }
 
 /// Whether a margin is kept, in a cell.
@@ -143,37 +182,4 @@ pub(super) fn judged(margin: &MarginRecord, text: impl Into<String>) -> Cell {
         () => Tone::Plain,
     };
     Cell::toned(text, tone)
-}
-
-/// Width of a column of numbers.
-const COLUMN: usize = 14;
-
-/// A number with six decimals, or fewer if the column is too narrow.
-fn decimals(x: f64) -> String {
-    let plain = format!("{x:.6}");
-    if plain.len() <= COLUMN || !x.is_finite() {
-        return plain;
-    }
-    let whole = format!("{x:.0}");
-    match COLUMN.checked_sub(whole.len() + 1) {
-        Some(digits) if digits > 0 => format!("{x:.digits$}"),
-        _ if whole.len() <= COLUMN => whole,
-        _ => format!("{x:.6e}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_fit_their_column() {
-        let shown =
-            [0.5, -123_456.0, 11_578_664_355.117, 999_999_999_999_999.0, -0.000_000_1, f64::NEG_INFINITY];
-        let texts = shown.map(decimals);
-        assert_eq!(
-            texts,
-            ["0.500000", "-123456.000000", "11578664355.12", "1.000000e15", "-0.000000", "-inf"]
-        );
-    }
 }

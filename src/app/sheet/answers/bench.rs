@@ -59,8 +59,27 @@ fn classes(rows: &[BenchClassRecord], seed: u64) -> Sheet {
         if r.failures.len() > LISTED {
             say!(out, "  and {} more, see --json", r.failures.len() - LISTED);
         }
+        if let Some(digits) = r.digits {
+            open(&mut out, r, digits, seed);
+        }
     }
     out
+}
+
+/// Rounded designs whose poses are not proved to be all.
+fn open(out: &mut Sheet, r: &BenchClassRecord, digits: u32, seed: u64) {
+    for o in r.open.iter().take(LISTED) {
+        say!(
+            out,
+            "  OPEN --class {} --digits {digits} --seed {seed} --first {}: {}",
+            r.counts.class,
+            o.problem,
+            o.solver
+        );
+    }
+    if r.open.len() > LISTED {
+        say!(out, "  and {} more, see --json", r.open.len() - LISTED);
+    }
 }
 
 fn errors(e: &ErrorStatistics) -> String {
@@ -114,6 +133,7 @@ fn counts(rows: &[BenchClassRecord]) -> Table {
         ("complete", 8),
         ("certified", 9),
         ("proved", 7),
+        ("all real", 8),
         ("missed", 6),
         ("spurious", 8),
         ("false", 5),
@@ -132,6 +152,7 @@ fn counts(rows: &[BenchClassRecord]) -> Table {
             c.complete.to_string(),
             c.certified.to_string(),
             r.proved.to_string(),
+            r.proved_bounded.to_string(),
             c.missed_roots.to_string(),
             c.spurious_roots.to_string(),
             c.false_certificates.to_string(),

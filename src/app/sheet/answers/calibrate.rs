@@ -1,8 +1,9 @@
 //! Joint centres and leg offsets from measurements, or poses to measure.
 
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use machine::calibration::{NoiseSource, StartName};
-use num::shown::{fixed, significant};
+use num::shown::fixed;
 use records::{CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationRecord, ResidualsRecord};
 
 /// The greatest number of unobservable changes written out.
@@ -30,14 +31,19 @@ pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     if !answer.next_poses.is_empty() {
         say!(
             out,
-            "\nposes to measure {}: x, y, z ({units}), roll, pitch, yaw (deg); factor of the deviations; greatest one after it",
-            if answer.calibration.is_some() { "next" } else { "first" }
+            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor of the deviations; greatest one after it",
+            if answer.calibration.is_some() { "next" } else { "first" },
+            if answer.frames.is_usual() { "roll, pitch, yaw" } else { "a, b, c" },
+            answer.frames.angles
         );
-        let columns = (0..6).map(|k| right("", if k < 3 { 10 } else { 9 }));
+        if !answer.frames.is_usual() {
+            say!(out, "{}", answer.frames.sentence);
+        }
+        let columns = (0..6).map(|_| right("", 7));
         let mut table = Table::new(columns.chain([right("", 0).gap(2), left("", 0).gap(2)]));
         for next in &answer.next_poses {
-            let numbers = next.pose.position.iter().chain(&next.rpy_deg).map(|x| fixed(x.0, 3));
-            let gains = [format!("{:.4}", next.shrinks.0), significant(next.greatest_deviation.0)];
+            let numbers = next.in_frames.position.iter().chain(&next.in_frames.angles).map(|x| figure(x.0));
+            let gains = [figure(next.shrinks.0), figure(next.greatest_deviation.0)];
             table.row(numbers.chain(gains));
         }
         out.table(table);
@@ -78,9 +84,9 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     say!(
         out,
         "noise ({source}): length {} {units}, position {} {units}, rotation {} deg",
-        significant(found.noise.length.0),
-        significant(found.noise.position.0),
-        significant(found.noise.rotation_deg.0)
+        figure(found.noise.length.0),
+        figure(found.noise.position.0),
+        figure(found.noise.rotation_deg.0)
     );
     let begun = match found.start.taken {
         StartName::Nominal => "begun at the design",
@@ -94,19 +100,19 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     say!(out, "{begun}{other}");
     if let Some(motions) = &found.motions {
         for (body, m) in [("base", &motions.base), ("platform", &motions.platform)] {
-            let p = <[f64; 3]>::from(m.motion.position).map(significant);
+            let p = <[f64; 3]>::from(m.motion.position).map(figure);
             say!(
                 out,
                 "{body} carried to the design: shift {} {units}, rms {} {units} left",
                 p.join(", "),
-                significant(m.rms)
+                figure(m.rms)
             );
         }
     }
 }
 
 fn residuals(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
-    let numbers = [right("rms", 12), right("greatest", 11)];
+    let numbers = [right("rms", 8), right("greatest", 0).gap(2)];
     let columns = [left(format!("residuals [{units}]"), 15)].into_iter().chain(numbers);
     let mut table = Table::new(columns.chain([left("where", 0).gap(2)]));
     let rows = [
@@ -118,38 +124,41 @@ fn residuals(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     for (name, residuals) in rows {
         let Some(ResidualsRecord { rms, greatest, .. }) = residuals else { continue };
         let Some(greatest) = greatest else { continue };
-        let [rms, value] = [rms.0, greatest.value.0].map(significant);
+        let [rms, value] = [rms.0, greatest.value.0].map(figure);
         table.row([name.to_owned(), rms, value, format!("line {}, leg {}", greatest.line, greatest.leg)]);
     }
     out.space();
     out.table(table);
     let chi = &found.chi_square;
-    let probability = chi.probability.map_or(String::new(), |p| format!(", probability {}", significant(p)));
-    say!(out, "chi-square {} with {} degrees of freedom{probability}", significant(chi.value), chi.freedoms);
+    let probability = chi.probability.map_or(String::new(), |p| format!(", probability {}", figure(p)));
+    say!(out, "chi-square {} with {} degrees of freedom{probability}", figure(chi.value), chi.freedoms);
 }
 
 /// Joints with their standard deviations, and the offsets of the legs.
 fn machine(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     let columns = [left(format!("joint [{units}]"), 22)].into_iter();
-    let columns = columns.chain(["x", "y", "z"].map(|axis| right(axis, 12)));
-    let columns = columns.chain(["x", "y", "z"].map(|axis| right(format!("deviation {axis}"), 11)));
+    let columns = columns.chain(["x", "y", "z"].map(|axis| right(axis, 10)));
+    let columns = columns.chain(["x", "y", "z"].map(|axis| right(format!("std {axis}"), 0).gap(2)));
     let mut table = Table::new(columns.chain([right("moved", 8).gap(2)]));
     for joint in &found.joints {
         let moved = joint.moved.iter().map(|x| x.0 * x.0).sum::<f64>().sqrt();
         let position = joint.position.map(|x| fixed(x.0, 4));
-        let deviations = joint.deviations.map_or_else(
-            || ["held"; 3].map(str::to_owned),
-            |deviations| deviations.map(|x| significant(x.0)),
-        );
+        let deviations = joint
+            .deviations
+            .map_or_else(|| ["held"; 3].map(str::to_owned), |deviations| deviations.map(|x| figure(x.0)));
         let name = [format!("{}.{}", joint.body, joint.joint)];
-        table.row(name.into_iter().chain(position).chain(deviations).chain([significant(moved)]));
+        table.row(name.into_iter().chain(position).chain(deviations).chain([figure(moved)]));
     }
     out.space();
     out.table(table);
-    let mut table = Table::new([left("", 8), right("", 12).gap(2), right("", 12).gap(2)]);
+    let mut table = Table::new([
+        left(format!("leg offset [{units}]"), 0),
+        right("offset", 9).gap(2),
+        right("std", 0).gap(2),
+    ]);
     for leg in &found.offsets {
-        let deviation = leg.deviation.map_or("held".to_owned(), |d| significant(d.0));
-        table.row([format!("offset {}", leg.leg), significant(leg.offset.0), deviation]);
+        let deviation = leg.deviation.map_or("held".to_owned(), |d| figure(d.0));
+        table.row([format!("leg {}", leg.leg), figure(leg.offset.0), deviation]);
     }
     out.table(table);
 }
@@ -158,22 +167,22 @@ fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     if let Some(poses) = &found.computed_poses {
         say!(
             out,
-            "\nposes computed with it are off by {} {units} and {} deg (deviations, greatest of {} poses; medians {} {units}, {} deg), besides the noise of their lengths",
-            significant(poses.position_greatest.0),
-            significant(poses.rotation_deg_greatest.0),
+            "\nPoses computed with this machine have standard deviations of at most {} {units} and {} deg over {} poses (medians {} {units}, {} deg), besides the noise of their lengths.",
+            figure(poses.position_greatest.0),
+            figure(poses.rotation_deg_greatest.0),
             poses.poses,
-            significant(poses.position_median.0),
-            significant(poses.rotation_deg_median.0)
+            figure(poses.position_median.0),
+            figure(poses.rotation_deg_median.0)
         );
     }
     let o = &found.observability;
     say!(
         out,
         "\nobservability: volume {}, inverse condition {}, noise amplification {}, harmonic {}",
-        significant(o.volume_index.0),
-        significant(o.inverse_condition.0),
-        significant(o.noise_amplification.0),
-        significant(o.harmonic_index.0)
+        figure(o.volume_index.0),
+        figure(o.inverse_condition.0),
+        figure(o.noise_amplification.0),
+        figure(o.harmonic_index.0)
     );
     if !o.unobservable.is_empty() {
         out.line("changes that are not seen:");
@@ -190,9 +199,9 @@ fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
             out,
             "outlier: line {}{leg}: {} deviations from the model, where right ones stay below {}; weight {}",
             outlier.line,
-            significant(outlier.distance.0),
-            significant(outlier.threshold.0),
-            significant(outlier.weight.0)
+            figure(outlier.distance.0),
+            figure(outlier.threshold.0),
+            figure(outlier.weight.0)
         );
     }
     if !found.indispensable.is_empty() {

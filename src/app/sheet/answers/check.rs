@@ -1,7 +1,8 @@
-//! Whether a design is architecturally singular, and why.
+//! Whether a design is architecturally singular, why, and how many poses given lengths have.
 
 use std::fmt::Write as _;
 
+use crate::figure::{figure, length};
 use crate::{Sheet, Table};
 use records::{
     CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number, legs_in_words,
@@ -11,17 +12,81 @@ use synthesis::singularity::Assembly;
 /// The ratio of distance from a line to distance along it, below which joints of a body count as nearly on the line.
 const NEARLY: f64 = 0.05;
 
-/// The answer of `check` below its headline; `size` and `units` are those of the design.
+/// The answer of `check`; with the algebra behind it, if wanted.
 #[must_use]
-pub fn check(c: &CheckAnswer, headline: &str, size: f64, units: &str) -> Sheet {
+pub fn check(c: &CheckAnswer, with_details: bool) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "{headline}\n{}", c.explanation);
+    out.line(&c.headline);
     if let Some(evidence) = c.singular_home.filter(|_| c.architecturally_singular != Some(true)) {
-        say!(out, "THE HOME POSE IS SINGULAR: {}", evidence);
+        say!(out, "THE HOME POSE IS SINGULAR: {evidence}");
     }
+    // a regular design needs no more words than its headline
+    let said = c.architecturally_singular != Some(false);
+    match c.level.filter(|level| level.is_proved()) {
+        Some(level) if said => say!(out, "Proved {}: {}.", level.words(), c.explanation),
+        Some(level) => say!(out, "Proved {}.", level.words()),
+        None => say!(out, "{}.", c.explanation),
+    }
+    ways_to_assemble(&mut out, c);
+    if let Some(n) = &c.nearest_singular {
+        nearest(&mut out, n, c);
+    }
+    if let Some(lengths) = c.griffis_duffy.as_ref().and_then(lengths_in_words) {
+        say!(out, "The lengths of the design {lengths}.");
+    }
+    // a body whose joints lie nearly on a line turns nearly freely about it
+    for l in c.best_lines.iter().filter(|l| l.distance.0 <= NEARLY * l.reach.0) {
+        let [point, direction] = [l.point, l.direction].map(|v| v.map(|x| figure(x.0)).join(", "));
+        let off = length(l.distance.0, &c.units);
+        say!(
+            out,
+            "The joints of the {} lie within {off} of a line through ({point}) along ({direction}).",
+            l.body
+        );
+    }
+    let f = &c.jacobian_inverse_condition;
+    say!(
+        out,
+        "Conditioning at {} random poses: best {}, median {}, worst {} (1 at best, 0 at a singular pose).",
+        f.poses,
+        figure(f.best),
+        figure(f.median),
+        figure(f.worst)
+    );
+    if with_details {
+        out.space();
+        out.part("Details", false, details(c));
+    } else {
+        out.line("The algebra behind this answer: --details");
+    }
+    out
+}
+
+/// How many poses given lengths have, and how many of those of a general platform lie at infinity.
+fn ways_to_assemble(out: &mut Sheet, answer: &CheckAnswer) {
+    let (c, bound) = (&answer.pose_count, answer.pose_bound.poses);
+    match (c.finite, c.dimension) {
+        (Some(0), _) if answer.architecturally_singular == Some(true) => {
+            out.line("No way to assemble it for generic leg lengths; lengths that fit let it move.");
+        }
+        (Some(n), _) => {
+            let lost = answer.common_points.and_then(|p| Some(p.isotropic? + p.at_infinity?));
+            let lost = lost.map_or_else(String::new, |lost| format!("; {lost} lost at infinity"));
+            say!(out, "{n} ways to assemble it for given leg lengths, real and complex, counted{lost}.");
+        }
+        (None, Some(d)) => say!(out, "Given leg lengths let it move: its poses form a set of dimension {d}."),
+        (None, None) => say!(out, "At most {bound} ways to assemble it for given leg lengths, not counted."),
+    }
+    if answer.solvability.quadratic || !answer.solvability.placed_first.is_empty() {
+        say!(out, "Its poses are found in steps: {}.", answer.solvability.sentence());
+    }
+}
+
+/// Ranks, dependencies, fields and counts.
+fn details(c: &CheckAnswer) -> Sheet {
+    let mut out = Sheet::new();
     say!(out, "joints: {}", c.joints.explanation);
     let ranks = [("rank of the leg vectors", c.leg_rank), ("generic rank of the lines", c.jacobian_rank)];
-    out.space();
     out.table(Table::facts(27, ranks.map(|(name, rank)| (name, rank.to_string()))));
     say!(out, "proof: {}", c.proof_explanation);
     for f in c.cases.iter().skip(1) {
@@ -33,49 +98,24 @@ pub fn check(c: &CheckAnswer, headline: &str, size: f64, units: &str) -> Sheet {
     if let Some(g) = &c.griffis_duffy {
         griffis_duffy(&mut out, g);
     }
-    if let Some(n) = &c.nearest_singular {
-        nearest(&mut out, n, size, units);
-    }
-    // a body with its joints nearly on a line rotates almost freely about it
-    for l in c.best_lines.iter().filter(|l| l.distance.0 <= NEARLY * l.reach.0) {
-        let (off, [x, y, z], [a, b, c]) = (l.distance.0, l.point.map(|x| x.0), l.direction.map(|x| x.0));
-        say!(
-            out,
-            "the joints of the {} lie within {off:.3e} {units} of a line, through ({x:.4}, {y:.4}, {z:.4}) along ({a:.4}, {b:.4}, {c:.4})",
-            l.body
-        );
-    }
     pose_count(&mut out, c);
-    let f = &c.jacobian_inverse_condition;
-    let values: Vec<String> = c.singular_values.iter().map(|x| format!("{:.3e}", x.0)).collect();
+    let values: Vec<String> = c.singular_values.iter().map(|x| figure(x.0)).collect();
     say!(out, "\nsingular values of the normalised leg vectors: {}", values.join(", "));
-    say!(
-        out,
-        "inverse condition number of the Jacobian at {} random poses: best {:.3e}, median {:.3e}, worst {:.3e}",
-        f.poses,
-        f.best,
-        f.median,
-        f.worst
-    );
     out
 }
 
 fn pose_count(out: &mut Sheet, answer: &CheckAnswer) {
-    let (c, bound) = (&answer.pose_count, &answer.pose_bound);
-    let error = c.error_probability.map(|p| {
-        format!("counted modulo {} random primes, wrong with probability {p:.1e} at most", c.primes.len())
-    });
-    let error = error.unwrap_or_default();
-    match (c.finite, c.dimension) {
-        (Some(n), _) => {
-            say!(out, "\nfinite poses, real and complex, for generic leg lengths: {n} ({error})");
-        }
-        (None, Some(d)) => {
-            say!(out, "\nfor generic leg lengths the poses form a set of dimension {d} ({error})");
-        }
-        (None, None) => out.line("\nthe finite poses for generic leg lengths are not counted"),
+    let c = &answer.pose_count;
+    out.space();
+    if let Some(p) = c.error_probability {
+        let primes = c.primes.len();
+        say!(
+            out,
+            "poses counted modulo {primes} random primes, wrong with probability {} at most",
+            figure(p)
+        );
     }
-    if let Some(degrees) = &c.by_degree {
+    if let Some(degrees) = c.by_degree.as_ref().filter(|degrees| !degrees.is_empty()) {
         let degrees: Vec<String> = degrees.iter().map(ToString::to_string).collect();
         say!(out, "  by degree {}", degrees.join(" + "));
     }
@@ -83,13 +123,13 @@ fn pose_count(out: &mut Sheet, answer: &CheckAnswer) {
         let number = |n: Option<usize>| n.map_or("not counted".into(), |n| n.to_string());
         say!(
             out,
-            "  common points of six legs: {} finite, with e.e = 0 {}, at infinity {}",
+            "  common points of six legs: {} finite, {} with e.e = 0, {} at infinity",
             p.finite,
             number(p.isotropic),
             number(p.at_infinity)
         );
     }
-    say!(out, "  proved for all lengths: {}", bound.theorem);
+    say!(out, "  proved for all lengths: {}", answer.pose_bound.theorem);
     say!(out, "  in steps: {}", answer.solvability.sentence());
 }
 
@@ -103,7 +143,7 @@ fn sum(coefficients: &[Number; 6], letter: char) -> String {
             (false, false) => " + ",
         };
         let size = c.abs();
-        let factor = if size.total_cmp(&1.0).is_eq() { String::new() } else { format!("{size} ") };
+        let factor = if size.total_cmp(&1.0).is_eq() { String::new() } else { format!("{} ", figure(size)) };
         let _ = write!(text, "{sign}{factor}{letter}{}", i + 1);
     }
     text
@@ -112,47 +152,43 @@ fn sum(coefficients: &[Number; 6], letter: char) -> String {
 fn dependency(out: &mut Sheet, d: &DependencyRecord) {
     say!(out, "\ndependency of {}: {} = 0", legs_in_words(&d.legs), sum(&d.coefficients, 'v'));
     say!(out, "  base ends span dimension {}, platform ends {}", d.base_dimension, d.platform_dimension);
-    say!(out, "  squared lengths of every pose: {} = {}", sum(&d.coefficients, 's'), d.constant.0);
+    say!(out, "  squared lengths of every pose: {} = {}", sum(&d.coefficients, 's'), figure(d.constant.0));
     if let Some(defect) = d.lengths_defect {
-        say!(out, "  the lengths of the design miss it by {:.1e} (relative)", defect.0);
+        say!(out, "  the lengths of the design miss it by {} (relative)", figure(defect.0));
     }
 }
 
 fn griffis_duffy(out: &mut Sheet, g: &GriffisDuffyRecord) {
-    let t: Vec<String> = g.t.iter().map(|t| format!("{:.6}", t.0)).collect();
+    let t: Vec<String> = g.t.iter().map(|t| figure(t.0)).collect();
     say!(out, "\nGriffis-Duffy type, going round by {}: t = {}", legs_in_words(&g.order), t.join(", "));
-    let exactly = if g.exactly_singular { " (zero exactly)" } else { "" };
-    say!(out, "  det A = prod (1 - t) - prod t = {:.6e}{exactly}; singular where it is zero", g.det.0);
-    say!(
-        out,
-        "  joints off their sides by at most {:.1e} (recognised up to {:.1e})",
-        g.deviation.0,
-        g.deviation_limit.0
-    );
-    let lengths = match &g.assembly {
-        None => return,
-        Some(Assembly::Incompatible { defect }) => {
-            format!("cannot be assembled: they miss the condition by {defect:.1e} (relative)")
-        }
-        Some(Assembly::NoRealPose {}) => {
-            "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
-        }
-        Some(Assembly::Undecided { .. }) => "satisfy the condition; no real pose was found".into(),
-        Some(Assembly::Real { residual, .. }) => {
-            format!("can be assembled, and the platform moves: real pose found, residual {residual:.1e}")
-        }
-    };
-    say!(out, "  the lengths of the design {lengths}");
+    let det = if g.exactly_singular { "0 exactly".into() } else { figure(g.det.0) };
+    say!(out, "  det A = prod (1 - t) - prod t = {det}; singular where it is zero");
+    let [off, limit] = [g.deviation.0, g.deviation_limit.0].map(figure);
+    say!(out, "  joints off their sides by at most {off} of the size (recognised up to {limit})");
 }
 
-fn nearest(out: &mut Sheet, n: &NearestSingularRecord, size: f64, units: &str) {
+/// Whether the lengths of the design fit, after `the lengths of the design`; `None` where it has none.
+fn lengths_in_words(g: &GriffisDuffyRecord) -> Option<String> {
+    Some(match g.assembly.as_ref()? {
+        Assembly::Incompatible { defect } => {
+            format!("cannot be assembled: they miss the condition by {} (relative)", figure(*defect))
+        }
+        Assembly::NoRealPose {} => {
+            "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
+        }
+        Assembly::Undecided { .. } => "satisfy the condition; no real pose was found".into(),
+        Assembly::Real { .. } => "can be assembled, and the platform then moves with locked legs".into(),
+    })
+}
+
+fn nearest(out: &mut Sheet, n: &NearestSingularRecord, c: &CheckAnswer) {
     say!(
         out,
-        "\nnearest singular design found ({}, {}): {:.6e} away, {:.1e} of the size (norm of the change of all joints)",
-        n.kind,
+        "Nearest singular design found: {} away, {} % of the size ({}, {}); none is nearer than {}.",
+        length(n.distance.0, &c.units),
+        figure(100.0 * n.distance.0 / c.size.0),
+        n.kind.replace('_', " "),
         legs_in_words(&n.legs),
-        n.distance.0,
-        n.distance.0 / size
+        length(n.distance_at_least.0, &c.units)
     );
-    say!(out, "  none is nearer than {:.6e} (lengths in {units})", n.distance_at_least.0);
 }

@@ -1,5 +1,7 @@
 //! The families of replaceable legs.
 
+use super::moves::ends;
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{ComponentRecord, ComponentsAnswer, ExactCurveOutcome, PlaneCurveRecord};
 
@@ -7,11 +9,12 @@ use records::{ComponentRecord, ComponentsAnswer, ExactCurveOutcome, PlaneCurveRe
 #[must_use]
 pub fn components(r: &ComponentsAnswer) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "replaceable legs of {}\n", r.name);
-    if r.count == 0 {
-        out.line("none: no leg can be moved without changing the platform");
+    let families = if r.count == 1 { "1 family".to_owned() } else { format!("{} families", r.count) };
+    match r.count {
+        0 => say!(out, "{}: no leg can be moved without changing the platform", r.name),
+        _ => say!(out, "{}: {families} of legs that can be moved without changing the platform\n", r.name),
     }
-    out.table(families(&r.components));
+    out.table(table(&r.components));
     if r.leg_rank < 6 {
         let exact = r.leg_rank_decision.exact.map_or(String::new(), |e| format!(", exactly {e}"));
         say!(out, "\nthe leg vectors are dependent: rank {}{exact}", r.leg_rank);
@@ -24,8 +27,7 @@ pub fn components(r: &ComponentsAnswer) -> Sheet {
     for family in r.components.iter().filter(|family| !family.samples.is_empty()) {
         say!(out, "\nlegs of family {}", family.component);
         for s in &family.samples {
-            let ([a, b, c], [d, e, f]) = (s.ends.base.map(|x| x.0), s.ends.platform.map(|x| x.0));
-            say!(out, "  [{a}, {b}, {c}] - [{d}, {e}, {f}]  residual {:.1e}", s.residual.0);
+            say!(out, "  {}  residual {}", ends(&s.ends), figure(s.residual.0));
         }
     }
     for doubt in &r.doubts {
@@ -34,7 +36,7 @@ pub fn components(r: &ComponentsAnswer) -> Sheet {
     out
 }
 
-fn families(list: &[ComponentRecord]) -> Table {
+fn table(list: &[ComponentRecord]) -> Table {
     let mut table = Table::new([
         right("no", 4),
         left("type", 12).gap(2),
@@ -94,8 +96,15 @@ fn curve(out: &mut Sheet, body: &str, c: &PlaneCurveRecord) {
     }
     for s in &c.singular_points {
         let at = s.point.map(|p| p.map(|x| x.0));
-        let at = at.map_or("infinity".to_owned(), |[x, y, z]| format!("[{x}, {y}, {z}]"));
+        let at = at.map_or("infinity".to_owned(), |at| {
+            format!("({})", at.map(rounding_is_zero).map(figure).join(", "))
+        });
         let line = if s.line_of_partners { ", a whole line corresponds" } else { "" };
         say!(out, "            {} at {at}{line}", s.kind);
     }
+}
+
+/// A coordinate of a point in space; one that rounding has left of zero is zero.
+fn rounding_is_zero(x: f64) -> f64 {
+    if x.abs() < 1e-12 { 0.0 } else { x }
 }

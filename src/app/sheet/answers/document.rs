@@ -7,8 +7,8 @@ use super as answers;
 use crate::{Sheet, Table, left};
 use num::shown::significant;
 use records::{
-    AssessAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, LimitsAnswer, MapAnswer, MotionAnswer,
-    OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer,
+    AssessAnswer, CheckAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, LimitsAnswer, MapAnswer,
+    MotionAnswer, OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer,
 };
 
 type Fields = Map<String, Value>;
@@ -18,7 +18,7 @@ type Fields = Map<String, Value>;
 struct DocumentKind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
 
 /// The kinds of documents; the first kind with all its fields present applies.
-const KINDS: [DocumentKind; 16] = [
+const KINDS: [DocumentKind; 17] = [
     DocumentKind(&["samples", "map"], "Equivalence", |f, [a, b]| {
         read(f).map(|x: VerifyAnswer| answers::verify(&x, a, b))
     }),
@@ -41,7 +41,10 @@ const KINDS: [DocumentKind; 16] = [
     DocumentKind(&["relation", "A"], "Leg map", |f, [a, b]| {
         read(f).map(|x: MapAnswer| answers::map(&x, a, b))
     }),
-    DocumentKind(&["architecturally_singular"], "Architectural singularity", |_, _| None),
+    DocumentKind(&["architecturally_singular"], "Architectural singularity", |f, _| {
+        read(f).map(|x: CheckAnswer| answers::check(&x, true))
+    }),
+    DocumentKind(&["wrench_matrix", "resolution"], "At a pose", |_, _| None),
     DocumentKind(&["axes", "violated"], "Limits", |f, [a, _]| {
         read(f).map(|x: LimitsAnswer| answers::limits(a, &x))
     }),

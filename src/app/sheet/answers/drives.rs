@@ -1,8 +1,10 @@
 //! The fit of the drives of a table.
 
-use super::requirements;
+use super::assess::assumed;
+use super::verdict;
+use crate::figure::figure;
 use crate::{Cell, Sheet, Table, left, right};
-use num::shown::significant as short;
+use machine::requirements::TermKind;
 use records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
 
 /// The answer of `build drives`: the verdict, a line for each drive, and the requirements with the chosen drive.
@@ -10,16 +12,18 @@ use records::{DriveRecord, DrivesAnswer, MarginRecord, Number};
 pub fn drives(answer: &DrivesAnswer) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{}: {}", answer.name, sentence(answer));
-    answer.assumptions.iter().for_each(|line| out.line(line));
     out.space();
     out.table(table(answer));
+    out.space();
     if let Some(drive) = answer.drives.first().filter(|d| d.fits == Some(true)) {
-        say!(out, "\nwith {}:", drive.name);
-        out.add(requirements(&answer.name, Some(&drive.assessment)));
+        let file = answer.output.as_deref().unwrap_or("FILE, written with -o FILE");
+        say!(out, "With {}:", drive.name);
+        out.add(verdict(&answer.name, Some(&drive.assessment), &format!("equipod assess {file}")));
     }
     if let Some(path) = &answer.output {
         say!(out, "wrote {path}");
     }
+    out.add(assumed(&answer.assumptions));
     out
 }
 
@@ -45,19 +49,20 @@ fn table(answer: &DrivesAnswer) -> Table {
         format!("force {force}"),
         format!("speed {length}/s"),
     ];
-    let columns = [left("drive", 5), left("fits", 9)].into_iter().chain(titles.map(|title| right(title, 13)));
-    let mut table = Table::new(columns.chain([left("what binds", 0).gap(2)]));
+    let columns =
+        [left("drive", 5), left("fits", 9)].into_iter().chain(titles.map(|title| right(title, 0).gap(2)));
+    let mut table = Table::new(columns.chain([left("tightest requirements", 0).gap(2)]));
     for drive in &answer.drives {
         let fits = match drive.fits {
             Some(true) => "yes",
             Some(false) => "no",
             None => "undecided",
         };
-        let number = |x: Option<Number>| Cell::from(x.map_or_else(|| "-".to_owned(), |x| short(x.0)));
+        let number = |x: Option<Number>| Cell::from(x.map_or_else(|| "-".to_owned(), |x| figure(x.0)));
         let [least, greatest] = drive.leg_length.map(Some);
         let numbers = [drive.price, drive.mass, least, greatest, drive.force, drive.speed].map(number);
         let cells = [drive.name.as_str().into(), fits.into()].into_iter().chain(numbers);
-        table.row(cells.chain([binding(drive).join(", ").into()]));
+        table.row(cells.chain([binding(drive).join("; ").into()]));
     }
     table
 }
@@ -65,23 +70,28 @@ fn table(answer: &DrivesAnswer) -> Table {
 /// The requirements that a drive violates or that are unproved. For a drive that fits, its margins of length, force and
 /// speed.
 fn binding(drive: &DriveRecord) -> Vec<String> {
-    let with = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
+    let with = |m: &MarginRecord| format!("{}: {} {}", m.name.label(), figure(m.margin.0), m.unit);
     let mut out = Vec::new();
     for m in &drive.assessment.requirements {
-        let own = matches!(m.name.code(), "leg_too_short" | "leg_too_long" | "leg_force" | "leg_speed");
+        let own = matches!(
+            m.name,
+            TermKind::LegTooShort | TermKind::LegTooLong | TermKind::LegForce | TermKind::LegSpeed
+        );
         let tells = if drive.fits == Some(true) { own } else { m.met != Some(true) };
         if tells {
             out.push(with(m));
         }
     }
     if drive.fits != Some(true) && drive.assessment.regular.met != Some(true) {
-        out.push("singularity".into());
+        out.push("singular pose".into());
     }
     for motion in &drive.motions {
         for m in motion.requirements.iter().filter(|m| m.margin.violates()) {
-            out.push(format!("{} ({}, {} s)", with(&m.margin), motion.motion, short(m.time_s)));
+            out.push(format!("{} ({}, {} s)", with(&m.margin), motion.motion, figure(m.time_s)));
         }
-        out.extend(motion.singular_at_s.map(|t| format!("singularity ({}, {} s)", motion.motion, short(t))));
+        out.extend(
+            motion.singular_at_s.map(|t| format!("singular pose ({}, {} s)", motion.motion, figure(t))),
+        );
     }
     out
 }

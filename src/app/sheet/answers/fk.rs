@@ -1,12 +1,14 @@
 //! All poses for given lengths, or one pose that is tracked.
 
-use crate::{Sheet, Table, left, listed, right};
+use super::poses::{POSE, numbers, pose};
+use crate::figure::figure;
+use crate::{Sheet, Table, left, right};
 use fk::{CompletenessWord, NearWord};
 use machine::coupled::DriveSolutionWord;
-use platform::geom::{ComplexPose, Pose};
+use platform::geom::ComplexPose;
 use records::{
     ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
-    RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
+    PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
 };
 
 /// The answer of `fk` for a design of this name, in its units.
@@ -25,7 +27,7 @@ fn one_set(name: &str, units: &str, one: &FkOneAnswer) -> Sheet {
         (None, Some(near)) => followed(&mut out, near, units),
         _ => {}
     }
-    poses(&mut out, name, &one.solved);
+    poses(&mut out, name, units, &one.solved, one.frames.as_ref());
     if one.angles_deg.is_some() {
         out.line(elbows(&one.solved));
         beyond_limits(&mut out, one, "");
@@ -85,7 +87,7 @@ fn cells(outcome: &FkRowOutcome) -> Vec<String> {
         (None, Some(near)) => vec![
             near.outcome.name().to_owned(),
             near.segments.to_string(),
-            format!("{:.3e}", near.inverse_condition.0),
+            figure(near.inverse_condition.0),
             position(near),
         ],
         _ => {
@@ -105,7 +107,7 @@ fn cells(outcome: &FkRowOutcome) -> Vec<String> {
 }
 
 fn position(near: &NearRecord) -> String {
-    listed(near.reached.position.map(|x| x.0), 6)
+    pose(&near.reached)
 }
 
 /// The tracking of the pose, before the list of poses.
@@ -114,28 +116,34 @@ fn followed(out: &mut Sheet, near: &NearRecord, units: &str) {
     match near.outcome {
         NearWord::Tracked => say!(
             out,
-            "tracked in {} segment(s), {} Newton steps; moved by {:.6} and {:.4} degrees; inverse condition {:.2e}",
+            "Followed from the pose given: moved by {} {units} and {} deg, in {} segment(s), {} Newton steps; conditioning there {}",
+            figure(near.distance.0),
+            figure(near.angle_deg.0),
             near.segments,
             near.newton_steps,
-            near.distance.0,
-            near.angle_deg.0,
-            near.inverse_condition.0
+            figure(near.inverse_condition.0)
         ),
         NearWord::NearSingularity => say!(
             out,
-            "NEAR A SINGULARITY: stopped after {share:.4} % of the way, inverse condition {:.2e}",
-            near.inverse_condition.0
+            "NEAR A SINGULARITY: stopped after {} % of the way, conditioning there {}",
+            figure(share),
+            figure(near.inverse_condition.0)
         ),
         NearWord::Lost => {
-            say!(out, "LOST after {share:.4} % of the way: {}", near.reason.as_deref().unwrap_or_default());
+            say!(
+                out,
+                "LOST after {} % of the way: {}",
+                figure(share),
+                near.reason.as_deref().unwrap_or_default()
+            );
         }
     }
     if let Some(found) = &near.uncertainty {
         say!(
             out,
-            "standard deviations by what the calibration does not know: {:.3e} {units} and {:.3e} degrees",
-            found.position.0,
-            found.rotation_deg.0
+            "Standard deviations from the uncertainty of the calibration: {} {units} and {} deg",
+            figure(found.position.0),
+            figure(found.rotation_deg.0)
         );
     }
 }
@@ -148,21 +156,23 @@ fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
             let [position, angle] =
                 [drives.position_bound, drives.angle_bound_deg].map(|x| x.map_or(f64::INFINITY, |x| x.0));
             format!(
-                "{at}: proved, the pose with these lengths of drives is within {position:.1e} and {angle:.1e} degrees; {steps} step(s)"
+                "{POSE} = {at}: proved, the pose with these lengths of drives is within {} and {} deg; {steps} step(s)",
+                figure(position),
+                figure(angle)
             )
         }
         DriveSolutionWord::Unproved => format!(
-            "{at}: UNPROVED, the corrections settled after {steps} step(s) and no bound of the error is proved"
+            "{POSE} = {at}: UNPROVED, the corrections settled after {steps} step(s) and no bound of the error is proved"
         ),
         _ => {
             let why = drives.reason.as_deref().unwrap_or_default();
-            format!("NO POSE after {steps} step(s): {why}; factor {:.2}", drives.factor.0)
+            format!("NO POSE after {steps} step(s): {why}; factor {}", figure(drives.factor.0))
         }
     }
 }
 
 /// The number of poses, the completeness of the list, and the real poses.
-fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
+fn poses(out: &mut Sheet, name: &str, units: &str, s: &SolvedRecord, frames: Option<&PoseConventionRecord>) {
     if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
     {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
@@ -180,13 +190,14 @@ fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
         };
         say!(
             out,
-            "{name}: {} finite poses, {} of them real{undecided} (method {})",
+            "{name}: {} {}, {} of them real{undecided} (method {})",
             s.finite_count,
+            if s.finite_count == 1 { "pose" } else { "poses" },
             s.real_count,
             s.method
         );
     }
-    say!(out, "{}, {}", completeness(s), s.completeness_reason);
+    say!(out, "{}: {}", completeness(s), s.completeness_reason);
     for call in &s.library_calls {
         let [rows, columns] = call.size;
         say!(
@@ -197,8 +208,19 @@ fn poses(out: &mut Sheet, name: &str, s: &SolvedRecord) {
             call.calls
         );
     }
-    for (i, r) in numbered(s).filter(|(_, r)| r.real != Some(false)) {
-        real_pose(out, i, r);
+    let frames = frames.filter(|frames| !frames.is_usual());
+    let mut listed: Vec<_> = numbered(s).filter(|(_, r)| r.real != Some(false)).collect();
+    let violating = listed.len();
+    listed.retain(|(_, r)| r.real_pose.is_none_or(|pose| pose.allowed != Some(false)));
+    let violating = violating - listed.len();
+    listed.sort_by(|(_, a), (_, b)| from_home(a).total_cmp(&from_home(b)));
+    out.space();
+    out.table(real_poses(&listed, units, frames));
+    if violating > 0 {
+        say!(out, "{violating} real poses do not meet the requirements: see --json");
+    }
+    if let Some(frames) = frames {
+        out.line(&frames.sentence);
     }
     let complex = s.solutions.iter().filter(|r| r.real == Some(false)).count();
     if complex > 0 {
@@ -227,47 +249,72 @@ fn completeness(s: &SolvedRecord) -> &'static str {
     let as_written =
         matches!(s.solution_set, SolutionSetRecord::PositiveDimensional { dimension_established: true, .. });
     match (s.completeness, moves, s.all_paths_accounted) {
-        (CompletenessWord::Proved, ..) => "complete: proved",
-        (CompletenessWord::ProvedBounded, ..) => "complete: proved for all real poses",
-        (CompletenessWord::Modular, ..) => "complete: modulo random primes",
-        (CompletenessWord::Unproved, true, true) if as_written => "self-motion: established",
-        (CompletenessWord::Unproved, true, true) => "self-motion within the rounding of the lengths",
+        (CompletenessWord::Proved, ..) => "All poses are found, proved",
+        (CompletenessWord::ProvedBounded, ..) => "All real poses are found, proved",
+        (CompletenessWord::Modular, ..) => "All poses are found, counted modulo random primes",
+        (CompletenessWord::Unproved, true, true) if as_written => "Self-motion, established",
+        (CompletenessWord::Unproved, true, true) => "Self-motion within the rounding of the lengths",
         (CompletenessWord::Unproved, true, false) => "UNDECIDED: self-motion",
-        (CompletenessWord::Unproved, false, true) => "complete: not proved",
-        (CompletenessWord::Unproved, false, false) => "INCOMPLETE: roots may be missing",
+        (CompletenessWord::Unproved, false, true) => "Not proved to be all poses",
+        (CompletenessWord::Unproved, false, false) => "INCOMPLETE, poses may be missing",
     }
 }
 
-/// The real part of a pose, with roll, pitch and yaw in degrees.
-fn shown(r: &SolutionRecord) -> (Pose, [f64; 3]) {
-    let pose = ComplexPose::from(&r.pose).real_part();
-    let (roll, pitch, yaw) = pose.rotation.euler_angles();
-    (pose, [roll, pitch, yaw].map(f64::to_degrees))
+/// The real part of a pose: position, then roll, pitch and yaw in degrees.
+fn shown(r: &SolutionRecord) -> [f64; 6] {
+    numbers(&ComplexPose::from(&r.pose).real_part())
 }
 
-fn real_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
-    let (pose, angles) = shown(r);
-    let undecided = if r.real.is_none() { "  reality undecided" } else { "" };
-    let certified = if r.certified { "  certified" } else { "" };
-    say!(
-        out,
-        "{number:>3}  p = {}  rpy_deg = {}  residual {:.1e}{certified}{undecided}",
-        listed(pose.position.iter().copied(), 6),
-        listed(angles, 4),
-        r.residual.0
-    );
+/// The distance of a pose from home; poses that are not real come last.
+fn from_home(r: &SolutionRecord) -> f64 {
+    r.real_pose.map_or(f64::INFINITY, |pose| pose.distance_from_home)
+}
+
+/// A row for each real pose, in the convention `frames` where it is not the usual one.
+fn real_poses(
+    listed: &[(usize, &SolutionRecord)],
+    units: &str,
+    frames: Option<&PoseConventionRecord>,
+) -> Table {
+    let position =
+        ["x", "y", "z"].map(|axis| if units == "1" { axis.to_owned() } else { format!("{axis} {units}") });
+    let angles = match frames {
+        None => ["roll", "pitch", "yaw"].map(|angle| format!("{angle} deg")),
+        Some(frames) => ["1", "2", "3"].map(|k| format!("angle {k} {}", frames.angles)),
+    };
+    let columns = position.into_iter().chain(angles).map(|title| right(title, 8).gap(2));
+    let columns = [right("pose", 0)].into_iter().chain(columns);
+    let mut table = Table::new(columns.chain([left("root", 0).gap(2)]));
+    for (number, r) in listed {
+        let kind = match (r.certified, r.real.is_some()) {
+            (true, true) => "certified",
+            (false, true) => "not certified",
+            (true, false) => "certified, real or complex undecided",
+            (false, false) => "not certified, real or complex undecided",
+        };
+        let mut kind = kind.to_owned();
+        let mut numbers = shown(r);
+        if let Some(pose) = r.real_pose {
+            let own = pose.in_frames;
+            if frames.is_some() {
+                let all: Vec<f64> = own.position.iter().chain(&own.angles).map(|x| x.0).collect();
+                numbers = all.try_into().unwrap_or(numbers);
+            }
+            if pose.nearest_home {
+                kind.push_str(", nearest to home");
+            }
+            if !own.angles_unique {
+                kind.push_str(", angles not unique");
+            }
+        }
+        table.row([number.to_string()].into_iter().chain(numbers.map(figure)).chain([kind]));
+    }
+    table
 }
 
 /// A possible multiple pose, with the number of paths that end near it.
 fn unproved_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
-    let (pose, angles) = shown(r);
-    say!(
-        out,
-        "{number:>3}  near p = {}  rpy_deg = {}  paths {}",
-        listed(pose.position.iter().copied(), 4),
-        listed(angles, 2),
-        r.multiplicity
-    );
+    say!(out, "{number:>3}  near {POSE} = {}  paths {}", shown(r).map(figure).join(","), r.multiplicity);
 }
 
 /// The real poses with all cranks on the sides that the design keeps.
@@ -276,9 +323,9 @@ fn elbows(s: &SolvedRecord) -> String {
         numbered(s).filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
     let kept: Vec<String> = kept.map(|(i, _)| i.to_string()).collect();
     match kept.len() {
-        0 => "no real pose has all cranks on the sides that the design keeps".into(),
-        1 => format!("all cranks are on the sides that the design keeps in pose {}", kept[0]),
-        _ => format!("all cranks are on the sides that the design keeps in poses {}", kept.join(", ")),
+        0 => "No real pose has all cranks on the sides that the design keeps".into(),
+        1 => format!("All cranks are on the sides that the design keeps in pose {}", kept[0]),
+        _ => format!("All cranks are on the sides that the design keeps in poses {}", kept.join(", ")),
     }
 }
 
@@ -317,11 +364,12 @@ fn rotations(out: &mut Sheet, found: &RotationPolynomialRecord) {
     let widest = most(|[low, high]| high.0 - low.0) / most(|[low, high]| low.0.abs().max(high.0.abs()));
     say!(
         out,
-        "polynomial in c3 = z / w of the quaternion: degree {}, {} real roots; coefficients enclosed to {widest:.0e} of the largest, see --json",
+        "polynomial in c3 = z / w of the quaternion: degree {}, {} real roots; coefficients enclosed to {} of the largest, see --json",
         p.degree.unwrap_or(0),
-        p.real_roots.len()
+        p.real_roots.len(),
+        figure(widest)
     );
-    let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
+    let middle = |[low, high]: &[Number; 2]| figure(0.5 * (low.0 + high.0));
     let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
         say!(out, "its real roots: {}", roots.join(", "));
@@ -343,7 +391,7 @@ fn closure(out: &mut Sheet, closure: &ClosureRecord) {
         p.polynomial.distinct_roots.unwrap_or(0),
         p.polynomial.real_roots.len()
     );
-    let middle = |[low, high]: &[Number; 2]| format!("{:.9}", 0.5 * (low.0 + high.0));
+    let middle = |[low, high]: &[Number; 2]| figure(0.5 * (low.0 + high.0));
     let roots: Vec<String> = p.polynomial.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
         say!(out, "its real roots: {}", roots.join(", "));

@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::Sheet;
-use num::shown::fixed;
+use crate::figure::figure;
 use platform::geom::Pose;
 use records::{AlignmentOutcome, FramesRecord};
 use synthesis::alignment::AlignmentWord;
@@ -21,7 +21,7 @@ pub(super) fn frames(r: &FramesRecord) -> Sheet {
         for (k, m) in motions.iter().enumerate() {
             say!(out, "{:>3}  base      {}", k + 1, motion(&Pose::from(&m.base)));
             say!(out, "     platform  {}", motion(&Pose::from(&m.platform)));
-            say!(out, "     residual {:.1e}, det A = {:.6}", m.residual.0, m.det.0);
+            say!(out, "     residual {}, det A = {}", figure(m.residual.0), figure(m.det.0));
         }
     } else {
         for (name, other) in [("exchanged", &found.exchanged), ("mirrored", &found.mirrored)] {
@@ -39,6 +39,6 @@ fn motion(p: &Pose) -> String {
     // the axis comes from the quaternion: for a half turn the skew part of the matrix is zero
     let q = UnitQuaternion::from_rotation_matrix(&p.rotation);
     let (axis, angle) = q.axis_angle().map_or((Vector3::z(), 0.0), |(u, t)| (u.into_inner(), t.to_degrees()));
-    let vector = |v: &Vector3<f64>| format!("({})", [v.x, v.y, v.z].map(|x| fixed(x, 6)).join(", "));
-    format!("turn by {angle:.6} deg about {}, then shift by {}", vector(&axis), vector(&p.position))
+    let vector = |v: &Vector3<f64>| format!("({})", [v.x, v.y, v.z].map(figure).join(", "));
+    format!("rotate by {} deg about {}, then shift by {}", figure(angle), vector(&axis), vector(&p.position))
 }

@@ -1,28 +1,33 @@
 //! The free travel of the platform.
 
+use super::poses::{POSE, pose};
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
-use num::shown::significant as short;
 use records::{
-    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, StraightWayRecord,
-    WorkspaceSizeRecord,
+    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, RayEndRecord,
+    StraightWayRecord, WorkspaceSizeRecord,
 };
 
 /// The answer of `limits` about a design of this name.
 #[must_use]
 pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     let mut out = Sheet::new();
-    let at = answer.pose.short();
+    let at = pose(&answer.pose);
     if answer.allowed {
-        say!(out, "{name} may be at {at} and move from there, one number at a time:\n");
-        let columns = [left("axis", 6), right("value", 12), right("down to", 12), left("where binds", 32)];
-        let more = [right("up to", 12), left("where binds", 32), left("unit", 0)];
+        say!(out, "{name} may be at {POSE} = {at}, and move from there, one number at a time:\n");
+        let columns =
+            [left("axis", 6), right("value", 9), right("down to", 9), left("limited there by", 0).gap(2)];
+        let more = [right("up to", 9), left("limited there by", 0).gap(2), left("unit", 0)];
         out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
     } else {
-        say!(out, "{name} may not be at {at}:");
+        say!(out, "{name} may not be at {POSE} = {at}:");
         for limit in &answer.violated {
             let unit = limit.unit.as_deref().unwrap_or("of det J at home");
-            say!(out, "  {} is missed by {} {unit}", named(limit), short(-limit.margin.0));
+            say!(out, "  {}: missed by {} {unit}", named(limit), figure(-limit.margin.0));
         }
+    }
+    if !answer.frames.is_usual() {
+        say!(out, "{}", answer.frames.sentence);
     }
     if let Some(found) = &answer.way {
         way(&mut out, found);
@@ -31,6 +36,9 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
         nearest(&mut out, answer, found);
     } else if !answer.allowed {
         out.line("No allowed pose was found, home among those tried.");
+    }
+    if let Some(path) = &answer.surface {
+        say!(out, "\nwrote {path}");
     }
     if let Some(found) = &answer.workspace {
         workspace(&mut out, found, &answer.length_unit);
@@ -41,9 +49,9 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
 /// The requirement with the legs, joints or load concerned.
 fn named(limit: &LimitRecord) -> String {
     if limit.between.is_empty() {
-        limit.code().to_owned()
+        limit.label().to_owned()
     } else {
-        format!("{} ({})", limit.code(), limit.between.join(", "))
+        format!("{} ({})", limit.label(), limit.between.join(", "))
     }
 }
 
@@ -53,25 +61,25 @@ fn bound(limit: Option<&LimitRecord>) -> String {
 
 fn axis(row: &FreeRangeRecord) -> [String; 7] {
     [
-        row.axis.name().to_string(),
-        short(row.value),
-        short(row.back.value),
+        row.axis.clone(),
+        figure(row.value),
+        figure(row.back.value),
         bound(row.back.binds.as_ref()),
-        short(row.forth.value),
+        figure(row.forth.value),
         bound(row.forth.binds.as_ref()),
         row.unit.clone(),
     ]
 }
 
 fn way(out: &mut Sheet, found: &StraightWayRecord) {
-    let to = found.to.short();
+    let to = pose(&found.to);
     match &found.binds {
         None => say!(out, "\nThe straight way to {to} is free."),
         Some(limit) => say!(
             out,
-            "\nThe straight way to {to} is free up to {} of it, at {}; there {} binds.",
-            short(found.free),
-            found.pose.short(),
+            "\nThe straight way to {to} is free up to {} of it, at {}; the limit there is {}.",
+            figure(found.free),
+            pose(&found.pose),
             named(limit)
         ),
     }
@@ -81,16 +89,16 @@ fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord)
     let binds = found.binds.iter().map(named).collect::<Vec<_>>().join(", ");
     say!(
         out,
-        "\n{} is at {}, {} {} away (a radian counts as {} {}).\nThere bind: {binds}.",
+        "\n{} is {POSE} = {}, {} {} away (a radian counts as {} {}).\nLimits there: {binds}.",
         if found.stationary {
             "The nearest allowed pose, locally,"
         } else {
             "The nearest allowed pose found"
         },
-        found.pose.short(),
-        short(found.distance),
+        pose(&found.pose),
+        figure(found.distance),
         answer.length_unit,
-        short(found.characteristic_length),
+        figure(found.characteristic_length),
         answer.length_unit
     );
     if answer.allowed && !found.straight_from_home {
@@ -100,18 +108,19 @@ fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord)
 
 fn size(found: &FreeSizeRecord, unit: &str) -> String {
     let proved = if found.proved > 0.0 {
-        format!("{} {unit} proved", short(found.proved))
+        format!("{} {unit} proved", figure(found.proved))
     } else {
         "nothing proved".to_owned()
     };
     let beyond = bound(found.binds.as_ref());
-    format!("{proved}, {} {unit} without a violation found; beyond it {beyond} binds", short(found.searched))
+    format!("{proved}, {} {unit} without a violation found; limited by {beyond}", figure(found.searched))
 }
 
 fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
-    let ends = found.ends.iter().map(|e| format!("{} {:.0} %", e.end, 100.0 * e.share));
-    let ends = ends.collect::<Vec<_>>().join(", ");
-    let half = |h: &[f64; 3]| h.iter().map(|x| format!("+-{}", short(*x))).collect::<Vec<_>>().join(" x ");
+    let label = |e: &RayEndRecord| e.name.map_or_else(|| e.end.clone(), |kind| kind.label().to_owned());
+    let ends = found.ends.iter().map(|e| format!("{} {:.0} %", label(e), 100.0 * e.share));
+    let ends = ends.collect::<Vec<_>>().join("; ");
+    let half = |h: &[f64; 3]| h.iter().map(|x| format!("+-{}", figure(*x))).collect::<Vec<_>>().join(" x ");
     out.line("\nAround home:");
     let mut table = Table::new([left("", 22), left("", 0)]);
     let mut line = |name: &str, text: &str| table.row([name, text]);
@@ -119,7 +128,7 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
         "volume of positions",
         &format!(
             "{} {unit}^3 on straight ways at the orientation of home (halves of {} ways differ by {:.1} %)",
-            short(found.volume),
+            figure(found.volume),
             found.rays,
             100.0 * found.volume_doubt
         ),
@@ -129,7 +138,7 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
     line(
         "largest box found",
         &format!(
-            "{} {unit} proved, {} without a violation found; beyond it {} binds",
+            "{} {unit} proved, {} {unit} without a violation found; limited by {}",
             half(&found.box_proved),
             half(&found.box_searched),
             bound(found.box_binds.as_ref())
@@ -140,9 +149,9 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
             &format!("turn about {}", turn.axis),
             &format!(
                 "-{} deg ({}) to {} deg ({})",
-                short(turn.back_deg),
+                figure(turn.back_deg),
                 bound(turn.back_binds.as_ref()),
-                short(turn.forth_deg),
+                figure(turn.forth_deg),
                 bound(turn.forth_binds.as_ref())
             ),
         );

@@ -1,5 +1,6 @@
 //! The squared length of a virtual leg at all poses while one leg length varies.
 
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{LocusAnswer, LocusRowRecord};
 
@@ -18,7 +19,7 @@ pub fn locus(name: &str, r: &LocusAnswer) -> Sheet {
     let mut table = Table::new([right("from", 9), right("to", 9)].into_iter().chain(counts));
     for group in r.rows.chunk_by(|a, b| key(a) == key(b)) {
         let (poses, real, status, complete) = key(&group[0]);
-        let ends = [&group[0], &group[group.len() - 1]].map(|row| format!("{:.5}", row.length.0));
+        let ends = [&group[0], &group[group.len() - 1]].map(|row| figure(row.length.0));
         let doubt = if complete { "" } else { " (poses may be missing)" };
         let counts = [poses, real].map(|n| n.to_string());
         table.row(ends.into_iter().chain(counts).chain([format!("{}{doubt}", status.name())]));
@@ -27,7 +28,7 @@ pub fn locus(name: &str, r: &LocusAnswer) -> Sheet {
     if !r.meetings.is_empty() {
         out.line("\ndouble values on the real axis, about:");
         let mut table = Table::new([right("length", 9), right("value", 9).gap(2)]);
-        r.meetings.iter().for_each(|m| table.row([m.length, m.value].map(|x| format!("{x:.5}"))));
+        r.meetings.iter().for_each(|m| table.row([m.length, m.value].map(figure)));
         out.table(table);
     }
     out

@@ -1,8 +1,8 @@
 //! The affine map between squared leg lengths.
 
 use super::frames::frames;
+use crate::figure::figure;
 use crate::{Cell, Sheet, Table, left, right};
-use num::shown::fixed;
 use records::{CorrespondenceRecord, MapAnswer, MapRecord, MappedLengthsRecord};
 use synthesis::Relation;
 
@@ -26,9 +26,9 @@ fn mapped(out: &mut Sheet, lengths: &MappedLengthsRecord) {
         say!(out, "no lengths of TO: {}", lengths.why_not.as_deref().unwrap_or_default());
         return;
     };
-    let mut table = Table::new([left("", 6), right("FROM", 12), right("TO", 12).gap(2)]);
+    let mut table = Table::new([left("", 6), right("FROM", 9), right("TO", 9).gap(2)]);
     for (k, (from, to)) in lengths.from.iter().zip(to).enumerate() {
-        table.row([format!("leg {}", k + 1), fixed(from.0, 6), fixed(to.0, 6)]);
+        table.row([format!("leg {}", k + 1), figure(from.0), figure(to.0)]);
     }
     out.table(table);
 }
@@ -37,7 +37,7 @@ fn same_legs(c: &CorrespondenceRecord) -> Option<String> {
     let named: Vec<(usize, usize)> =
         c.legs.iter().enumerate().filter_map(|(i, leg)| leg.map(|old| (i + 1, old))).collect();
     let worst = named.iter().map(|(i, _)| c.distances[i - 1].0).fold(0.0, f64::max);
-    let nearly = if c.exact { String::new() } else { format!(", up to {worst:.1e} of the size") };
+    let nearly = if c.exact { String::new() } else { format!(", up to {} of the size", figure(worst)) };
     if c.permutation {
         let order: Vec<String> = named.iter().map(|(_, old)| old.to_string()).collect();
         return Some(format!("the legs of TO are legs {} of FROM{nearly}", order.join(", ")));
@@ -51,21 +51,19 @@ fn same_legs(c: &CorrespondenceRecord) -> Option<String> {
 #[must_use]
 pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "{from} -> {to}: {}\n{}\n", r.relation.unwrap_or(Relation::Undecided).name(), r.explanation);
-    out.line("s(TO) = A s(FROM) + c");
-    let entries = (1..=6).map(|k| right(format!("A{k}"), 9));
+    say!(out, "{from} -> {to}: {}", r.relation.unwrap_or(Relation::Undecided).name());
+    let exactly = r.det_exact.as_ref().map_or_else(String::new, |exact| format!(" = {exact} exactly"));
+    say!(out, "det A = {}{exactly}\n{}\n", figure(r.determinant.0), r.explanation);
+    out.line("squared leg lengths: s(TO) = A s(FROM) + c");
+    let entries = (1..=6).map(|k| right(format!("A{k}"), 7));
     let columns = [left("", 6)].into_iter().chain(entries);
-    let mut table = Table::new(columns.chain([right("c", 14), right("residual", 10).gap(2)]));
+    let mut table = Table::new(columns.chain([right("c", 8).gap(2), right("residual", 0).gap(2)]));
     for (i, row) in r.matrix.iter().enumerate() {
         let (constant, residual) = (r.constants[i].0, r.residuals[i].0);
-        let cells = [format!("leg {}", i + 1)].into_iter().chain(row.iter().map(|x| fixed(x.0, 5)));
-        table.row(cells.chain([format!("{constant:.6}"), format!("{residual:.1e}")]).map(Cell::from));
+        let cells = [format!("leg {}", i + 1)].into_iter().chain(row.iter().map(|x| figure(x.0)));
+        table.row(cells.chain([figure(constant), figure(residual)]).map(Cell::from));
     }
     out.table(table);
-    say!(out, "\ndet A = {}", r.determinant.0);
-    if let Some(exact) = &r.det_exact {
-        say!(out, "      = {exact} exactly");
-    }
     exact_rows(&mut out, r);
     out
 }

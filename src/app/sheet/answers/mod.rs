@@ -1,6 +1,7 @@
 //! The sheet of each answer, one file for each; [`document()`] chooses the sheet for a JSON document.
 
 mod assess;
+mod at_pose;
 #[cfg(feature = "lab")]
 mod bench;
 mod calibrate;
@@ -10,6 +11,7 @@ mod components;
 mod derivation;
 mod document;
 mod drives;
+mod export;
 mod family;
 mod fk;
 mod frames;
@@ -20,8 +22,10 @@ mod map;
 mod motion;
 mod moves;
 mod nearest;
+mod new_design;
 mod optimize;
 mod pentapod;
+mod poses;
 mod round;
 mod self_motion;
 mod singular_locus;
@@ -32,8 +36,9 @@ mod verify;
 
 pub use assess::{
     assess, assumptions, requirements, requirements_without_assumptions, sentence,
-    table as requirements_table,
+    table as requirements_table, verdict,
 };
+pub use at_pose::at_pose;
 #[cfg(feature = "lab")]
 pub use bench::bench;
 pub use calibrate::calibrate;
@@ -43,6 +48,7 @@ pub use components::components;
 pub use derivation::{derivation, derivation_steps};
 pub use document::{document, heading, words};
 pub use drives::drives;
+pub use export::export;
 pub use family::family;
 pub use fk::fk;
 pub use legs::legs;
@@ -52,6 +58,7 @@ pub use map::{leg_map, map};
 pub use motion::motion;
 pub use moves::{move_search, moves};
 pub use nearest::nearest;
+pub use new_design::new_design;
 pub use optimize::{optimize, search, tried_drives};
 pub use pentapod::pentapod;
 pub use round::round;

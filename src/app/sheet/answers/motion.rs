@@ -1,9 +1,10 @@
 //! The legs along motions.
 
-use super::assess::judged;
+use super::assess::{assumed, judged};
+use super::poses::{POSE, pose as at_pose};
+use crate::figure::figure;
 use crate::{Cell, Sheet, Table, left, right};
 use machine::dynamics::Extreme;
-use num::shown::significant as short;
 use records::{
     CrankMotionRecord, MotionAnswer, MotionRegularity, MotionRunRecord, StiffnessRecord, TimedMarginRecord,
 };
@@ -13,9 +14,6 @@ use records::{
 pub fn motion(answer: &MotionAnswer) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{} {}", answer.name, sentence(answer));
-    for line in &answer.assumptions {
-        say!(out, "{line}");
-    }
     for motion in &answer.motions {
         say!(
             out,
@@ -23,7 +21,7 @@ pub fn motion(answer: &MotionAnswer) -> Sheet {
             motion.motion,
             motion.instants,
             if motion.instants == 1 { "instant" } else { "instants" },
-            short(motion.duration_s)
+            figure(motion.duration_s)
         );
         match &motion.cranks {
             Some(list) => cranks(&mut out, answer, motion, list),
@@ -37,24 +35,28 @@ pub fn motion(answer: &MotionAnswer) -> Sheet {
     if let Some(path) = &answer.csv {
         say!(out, "wrote {path}");
     }
+    if !answer.assumptions.is_empty() {
+        out.space();
+    }
+    out.add(assumed(&answer.assumptions));
     out
 }
 
 fn sentence(answer: &MotionAnswer) -> String {
     let missed = |m: &MotionRunRecord| {
-        let of = m.requirements.iter().filter(|r| r.margin.violates()).map(|r| r.margin.name.code());
-        of.chain(m.singular_at_s.map(|_| "singularity"))
+        let of = m.requirements.iter().filter(|r| r.margin.violates()).map(|r| r.margin.name.label());
+        of.chain(m.singular_at_s.map(|_| "singular pose"))
             .chain(m.unreached_at_s.map(|_| "reach"))
             .collect::<Vec<_>>()
     };
     let mut all: Vec<&str> = answer.motions.iter().flat_map(missed).collect();
     all.sort_unstable();
     all.dedup();
-    if all == ["singularity"] {
+    if all == ["singular pose"] {
         return "passes a singular pose".into();
     }
     if !all.is_empty() {
-        return format!("exceeds its limits: {}", all.join(", "));
+        return format!("exceeds its limits: {}", all.join("; "));
     }
     if answer.motions.is_empty() {
         return "at a pose".into();
@@ -82,13 +84,13 @@ fn legs(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord) {
     ];
     let rows = motion.legs.iter().map(|leg| {
         let cells = [
-            short(leg.shortest.value),
-            short(leg.longest.value),
-            short(leg.speed.value),
-            short(leg.acceleration.value),
+            figure(leg.shortest.value),
+            figure(leg.longest.value),
+            figure(leg.speed.value),
+            figure(leg.acceleration.value),
             extreme(leg.push),
             extreme(leg.pull),
-            leg.rms_force.map_or("-".to_string(), |x| short(x.0)),
+            leg.rms_force.map_or("-".to_string(), |x| figure(x.0)),
             extreme(leg.power_w),
         ];
         (leg.leg, cells)
@@ -104,10 +106,10 @@ fn singular(out: &mut Sheet, motion: &MotionRunRecord) {
         let what = if motion.cranks.is_some() { "pose or a crank" } else { "pose" };
         say!(
             out,
-            "At {} s the {what} is singular: {}. The drives cannot hold the platform at {}.",
-            short(time),
+            "At {} s the {what} is singular: {}. The drives cannot hold the platform at {POSE} = {}.",
+            figure(time),
             evidence,
-            pose.short()
+            at_pose(pose)
         );
     } else if motion.regularity == MotionRegularity::Proved {
         out.line("No pose of the motion is singular: proved, between the instants too.");
@@ -120,12 +122,12 @@ fn table<const N: usize>(
     titles: [String; N],
     rows: impl Iterator<Item = (usize, [String; N])>,
 ) -> Table {
-    let columns = [left(what, 0)].into_iter().chain(titles.map(|title| right(title, 14)));
+    let columns = [left(what, 0)].into_iter().chain(titles.map(|title| right(title, 9).gap(2)));
     Table::new(columns).with_rows(rows.map(|(number, cells)| [number.to_string()].into_iter().chain(cells)))
 }
 
 fn extreme(found: Option<Extreme>) -> String {
-    found.map_or("-".to_string(), |x| short(x.value))
+    found.map_or("-".to_string(), |x| figure(x.value))
 }
 
 fn cranks(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord, list: &[CrankMotionRecord]) {
@@ -141,35 +143,35 @@ fn cranks(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord, list
     ];
     let rows = list.iter().map(|crank| {
         let cells = [
-            short(crank.least_deg.value),
-            short(crank.greatest_deg.value),
-            short(crank.speed_deg.value),
-            short(crank.acceleration_deg.value),
+            figure(crank.least_deg.value),
+            figure(crank.greatest_deg.value),
+            figure(crank.speed_deg.value),
+            figure(crank.acceleration_deg.value),
             extreme(crank.torque),
-            crank.rms_torque.map_or("-".to_string(), |x| short(x.0)),
+            crank.rms_torque.map_or("-".to_string(), |x| figure(x.0)),
             extreme(crank.power_w),
         ];
         (crank.leg, cells)
     });
     out.table(table("crank", titles, rows));
     if let Some(time) = motion.unreached_at_s {
-        say!(out, "At {} s a rod does not reach from its crank to the platform.", short(time));
+        say!(out, "At {} s a rod does not reach from its crank to the platform.", figure(time));
     }
     singular(out, motion);
 }
 
 fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
     let (length, force) = (&answer.length_unit, &answer.force_unit);
-    say!(out, "\nstiffness at {}", found.pose.short());
+    say!(out, "\nstiffness at {POSE} = {}", at_pose(&found.pose));
     say!(
         out,
         "least: {} {force}/{length} against a force through the platform origin, {} {force} {length}/rad against a torque",
-        short(found.linear.0),
-        short(found.angular.0)
+        figure(found.linear.0),
+        figure(found.angular.0)
     );
     out.line("K (rows: force, torque; columns: shift, turn in radians)");
-    let rows = found.matrix.iter().map(|row| row.iter().map(|x| short(x.0)));
-    out.table(Table::new((0..6).map(|_| right("", 14).gap(1))).with_rows(rows));
+    let rows = found.matrix.iter().map(|row| row.iter().map(|x| figure(x.0)));
+    out.table(Table::new((0..6).map(|_| right("", 9).gap(2))).with_rows(rows));
     match &found.natural {
         None => out.line(
             "No natural frequencies: the payload has no mass, or no inertia that is held against turns.",
@@ -179,8 +181,8 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
             let mut table = Table::new([right("frequency Hz", 14)].into_iter().chain(shape));
             for one in all {
                 let most = one.shape.iter().map(|x| x.0.abs()).fold(f64::MIN_POSITIVE, f64::max);
-                let shape = one.shape.iter().map(|x| format!("{:.4}", x.0 / most));
-                table.row([short(one.frequency_hz.0)].into_iter().chain(shape));
+                let shape = one.shape.iter().map(|x| figure(x.0 / most));
+                table.row([figure(one.frequency_hz.0)].into_iter().chain(shape));
             }
             out.table(table);
         }
@@ -189,14 +191,15 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
 
 fn requirements(out: &mut Sheet, motion: &MotionRunRecord) {
     let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
-    let less = reserved.then(|| right("less reserve", 14));
-    let columns = [left("requirement", 17), right("least margin", 14).gap(2)].into_iter().chain(less);
-    let mut table = Table::new(columns.chain([left("unit", 8), left("of", 24), left("at s", 0)]));
+    let less = reserved.then(|| right("after reserve", 0).gap(2));
+    let columns = [left("requirement", 17), right("least margin", 0).gap(2)].into_iter().chain(less);
+    let mut table =
+        Table::new(columns.chain([left("unit", 0), left("binds at", 0).gap(2), left("time s", 0).gap(2)]));
     for TimedMarginRecord { time_s, margin } in &motion.requirements {
-        let less = reserved.then(|| Cell::from(format!("{:.6}", margin.margin_with_reserve.0)));
-        let found = judged(margin, format!("{:.6}", margin.margin.0));
-        let (of, at) = (margin.between.join(", "), short(*time_s));
-        let cells = [margin.name.code().into(), found].into_iter().chain(less);
+        let less = reserved.then(|| Cell::from(figure(margin.margin_with_reserve.0)));
+        let found = judged(margin, figure(margin.margin.0));
+        let (of, at) = (margin.between.join(", "), figure(*time_s));
+        let cells = [margin.name.label().into(), found].into_iter().chain(less);
         table.row(cells.chain([margin.unit.clone(), of, at].map(Cell::from)));
     }
     out.table(table);

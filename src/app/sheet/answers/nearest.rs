@@ -1,5 +1,7 @@
 //! The octahedral platform nearest to a design.
 
+use super::poses::{POSE, pose};
+use crate::figure::figure;
 use crate::{Sheet, Table, right};
 use records::{NearestAnswer, SourceWord};
 
@@ -14,21 +16,21 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
     let mut table = Table::new(columns.into_iter().chain(moves));
     for (leg, displacements) in n.displacements.iter().enumerate() {
         let side = n.order.iter().position(|l| *l == leg + 1).unwrap_or(0);
-        let numbers = [n.offsets[side], displacements[0], displacements[1]].map(|x| format!("{:.6}", x.0));
+        let numbers = [n.offsets[side], displacements[0], displacements[1]].map(|x| figure(x.0));
         table.row([leg + 1, side + 1].map(|k| k.to_string()).into_iter().chain(numbers));
     }
     out.space();
     out.table(table);
     say!(
         out,
-        "\nlargest displacement {:.6} {units}, root of the mean square {:.6} {units}; det A = {:.6}\n\
-         leg {} differs most in length: {:.6} {units} at {} ({} poses of the {} workspace)",
-        n.largest_displacement.0,
-        n.rms_displacement.0,
-        n.det.0,
+        "\nlargest displacement {} {units}, root mean square {} {units}; det A = {}\n\
+         leg {} differs most in length: by {} {units} at {POSE} = {} ({} poses of the {} workspace)",
+        figure(n.largest_displacement.0),
+        figure(n.rms_displacement.0),
+        figure(n.det.0),
         n.deviating_leg,
-        n.largest_length_deviation.0,
-        n.deviating_pose.short(),
+        figure(n.largest_length_deviation.0),
+        pose(&n.deviating_pose),
         n.poses,
         if n.workspace_from == SourceWord::Design { "design's" } else { "default" }
     );

@@ -1,9 +1,10 @@
 //! The result of a search.
 
-use super::{assumptions, requirements, requirements_without_assumptions};
+use super::assess::{assumptions, requirements, sentence, verdict};
+use super::document::words;
+use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use ask::OptimizeStatus;
-use num::shown::significant as short;
 use optimize::dimensional::ChosenVariable;
 use optimize::offsets::Zone;
 use records::{
@@ -28,10 +29,13 @@ pub fn search(name: &str, a: &OptimizeAnswer) -> Sheet {
 fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{name}: {}", a.status.name().replace('_', " "));
+    meaning(&mut out, a);
     if let Some(choice) = &a.choice {
         say!(out, "{choice}");
     }
-    progress(&mut out, a);
+    if let Some(list) = &a.front {
+        front_in_words(&mut out, a, list.len());
+    }
     if let Some(s) = &a.symmetry {
         say!(out, "{}", s.message);
     }
@@ -42,8 +46,12 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     if a.platform.objective.is_some() {
         let found = a.design.as_ref().map_or(name, DesignRecord::name);
         if with_requirements {
-            out.space();
-            out.add(requirements(found, a.platform.assessment.as_ref()));
+            out.add(match &a.output {
+                Some(path) => {
+                    verdict(found, a.platform.assessment.as_ref(), &format!("equipod assess {path}"))
+                }
+                None => requirements(found, a.platform.assessment.as_ref()),
+            });
             out.space();
         }
         platform(&mut out, &a.platform, &a.limits.units);
@@ -67,40 +75,43 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     if let Some(r) = &a.platform.riding {
         say!(out, "{}", r.message);
     }
-    meaning(&mut out, a);
     branches(&mut out, a);
+    search_facts(&mut out, a);
     if let Some(path) = &a.output {
         say!(out, "wrote {path}");
     }
     out
 }
 
-/// The task and the statistics of the search.
-fn progress(out: &mut Sheet, a: &OptimizeAnswer) {
+/// What was assumed of the poses and held beside the requirements, and how long the search was.
+fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
     let (l, units) = (&a.limits, &a.limits.units);
-    let room =
-        l.min_joint_distance.map_or_else(String::new, |d| format!("joints at least {d} {units} apart; "));
+    let room = l
+        .min_joint_distance
+        .map_or_else(String::new, |d| format!("joints at least {} {units} apart; ", figure(d)));
     say!(
         out,
-        "{} workspace, {} home; {room}|det A| >= {}; L = {} {units}",
+        "Searched with the {} workspace and {} home; {room}|det A| >= {}; characteristic length {} {units}",
         a.region.workspace.words(),
         a.region.home.words(),
-        l.min_abs_det,
-        l.characteristic_length
+        figure(l.min_abs_det),
+        figure(l.characteristic_length)
     );
     let r = &a.search;
     if let (Some(starts), Some(feasible)) = (r.starts, r.feasible) {
         say!(out, "{starts} starts, {feasible} of them feasible in the first pass");
     }
     say!(out, "{} conic programs, solved by clarabel", r.conic_programs);
-    if let (Some(list), Some(dominated), Some(unmet)) = (&a.front, r.dominated, r.unmet) {
-        if a.status == OptimizeStatus::Interrupted {
-            out.line("the front as far as it was found; runs that were not finished may be improved");
-        }
+}
+
+fn front_in_words(out: &mut Sheet, a: &OptimizeAnswer, count: usize) {
+    if a.status == OptimizeStatus::Interrupted {
+        out.line("the front as far as it was found; runs that were not finished may be improved");
+    }
+    if let (Some(dominated), Some(unmet)) = (a.search.dominated, a.search.unmet) {
         say!(
             out,
-            "{} platforms of which none is better in every objective; {dominated} dominated or equal ones left out, {unmet} bounds not met",
-            list.len()
+            "{count} platforms of which none is better in every objective; {dominated} dominated or equal ones left out, {unmet} bounds not met"
         );
     }
 }
@@ -111,26 +122,26 @@ fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
         (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
             let gap =
                 a.tolerance.map_or_else(String::new, |t| format!(" to within the gap of {t} asked for"));
-            say!(out, "no better platform is near; that there is none anywhere is not proved{gap}");
+            say!(out, "No better platform is near; that there is none anywhere is not proved{gap}.");
         }
         (_, Some(OptimalityWord::BestOfStarts)) => out
-            .line("a local optimum, the best of all starts; that there is no better platform is not proved"),
+            .line("A local optimum, the best of all starts; that there is no better platform is not proved."),
         (OptimizeStatus::Violated, _) => {
-            out.line("the platform misses requirements and is not called optimal");
+            out.line("The platform misses requirements and is not called optimal.");
         }
-        (OptimizeStatus::Feasible, _) => out.line("the limits are met; better platforms may be near"),
+        (OptimizeStatus::Feasible, _) => out.line("The limits are met; better platforms may be near."),
         (OptimizeStatus::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
             let reason = a.failure.as_ref().map_or_else(String::new, |w| format!(": {w}"));
-            say!(out, "no platform that meets the requirements was found, and no conflict{reason}");
+            say!(out, "No platform that meets the requirements was found, and no conflict{reason}");
         }
         _ => {}
     }
     if let Some(b) = &a.global_bound {
         say!(
             out,
-            "proved: no offsets within the limits reach more than {:.9} ({:.2e} above the solution; {} boxes)",
-            b.upper,
-            b.gap,
+            "Proved: no offsets within the limits reach more than {} ({} above the solution; {} boxes)",
+            figure(b.upper),
+            figure(b.gap),
             b.boxes
         );
     }
@@ -151,12 +162,12 @@ fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
         n.failed
     );
     for r in ConflictReasonRecord::all(a.branches.as_deref().unwrap_or_default()) {
-        say!(out, "  {:>3} {}, for example: {}", r.branches, r.code, r.message);
+        say!(out, "  {:>3} {}, for example: {}", r.branches, words(&r.code), r.message);
     }
     for (i, b) in a.runners_up.iter().flatten().enumerate() {
         if let (Some(value), Some(offsets)) = (b.objective, b.offsets) {
-            let t: Vec<String> = offsets.iter().map(|t| format!("{:8.4}", t.0)).collect();
-            say!(out, "  runner-up {}  {}  {:.6}  t = {}", i + 1, b.branch, value.0, t.join(" "));
+            let t: Vec<String> = offsets.iter().map(|t| figure(t.0)).collect();
+            say!(out, "  runner-up {}  {}  {}  t = {}", i + 1, b.branch, figure(value.0), t.join(", "));
         }
     }
 }
@@ -166,7 +177,7 @@ fn front(out: &mut Sheet, list: &[FrontMemberRecord]) {
     for (k, member) in list.iter().enumerate() {
         let s = &member.platform;
         let objectives = s.objectives.iter().flatten();
-        let values = objectives.map(|o| format!("{} {:.6} {}", o.name.code(), o.value.0, o.unit));
+        let values = objectives.map(|o| format!("{} {} {}", words(o.name.code()), figure(o.value.0), o.unit));
         let met = match s.requirements_met {
             Some(true) => "",
             Some(false) => "  (violates requirements)",
@@ -175,13 +186,13 @@ fn front(out: &mut Sheet, list: &[FrontMemberRecord]) {
         let path = member.output.as_ref().map_or_else(String::new, |p| format!("  {p}"));
         say!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
     }
+    out.space();
     for (k, member) in list.iter().enumerate() {
-        say!(out, "\n{}.", k + 1);
-        out.add(match member.platform.assessment.as_ref() {
-            Some(found) => requirements_without_assumptions(found),
-            None => requirements(member.design.name(), None),
-        });
-        out.space();
+        match (&member.platform.assessment, &member.output) {
+            (Some(found), Some(path)) => say!(out, "{}. {}: equipod assess {path}", k + 1, sentence(found)),
+            (Some(found), None) => say!(out, "{}. {}", k + 1, sentence(found)),
+            (None, _) => {}
+        }
     }
     // the assumptions are the same for all members
     if let Some(found) = list.first().and_then(|member| member.platform.assessment.as_ref()) {
@@ -196,9 +207,9 @@ pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
     let columns = [left("drive", 5).gap(3), left("outcome", 11), right(price, 12), right("objective", 14)];
     let mut table = Table::new(columns.into_iter().chain([left("", 0).gap(2)]));
     for drive in &d.drives {
-        let number = |x: Option<Number>| x.map_or_else(|| "-".to_owned(), |x| short(x.0));
-        let left = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
-        let margins = || drive.margins.iter().map(left).collect::<Vec<String>>().join(", ");
+        let number = |x: Option<Number>| x.map_or_else(|| "-".to_owned(), |x| figure(x.0));
+        let left = |m: &MarginRecord| format!("{}: {} {}", m.name.label(), figure(m.margin.0), m.unit);
+        let margins = || drive.margins.iter().map(left).collect::<Vec<String>>().join("; ");
         table.row([
             drive.name.clone(),
             drive.outcome.name().to_owned(),
@@ -237,16 +248,15 @@ fn candidates(out: &mut Sheet, list: &[OptimumRecord]) {
             None => "requirements not all proved",
         };
         let values: Vec<String> =
-            c.objectives.iter().map(|o| format!("{} {:.6}", o.name.code(), o.value.0)).collect();
+            c.objectives.iter().map(|o| format!("{} {}", words(o.name.code()), figure(o.value.0))).collect();
         say!(out, "  {}: {}; {met}", c.output.as_deref().unwrap_or_default(), values.join(", "));
     }
 }
 
 /// The chosen variables with their values before and after.
 fn variables(out: &mut Sheet, list: &[ChosenVariable]) {
-    let columns = [left("", 20).gap(3), right("", 12), left("", 0).gap(2)];
-    let rows =
-        list.iter().map(|v| [v.name.clone(), format!("{:.6}", v.value), format!("from {:.6}", v.start)]);
+    let columns = [left("", 20).gap(3), right("", 9), left("", 0).gap(2)];
+    let rows = list.iter().map(|v| [v.name.clone(), figure(v.value), format!("from {}", figure(v.start))]);
     out.table(Table::new(columns).with_rows(rows));
 }
 
@@ -255,34 +265,35 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     for o in s.objectives.iter().flatten() {
         say!(
             out,
-            "{} {:.9} {} ({:.9} over the {held} held poses)",
-            o.name.code(),
-            o.value.0,
+            "{}: {} {} ({} over the {held} poses held in the search)",
+            words(o.name.code()),
+            figure(o.value.0),
             o.unit,
-            o.at_held_poses.0
+            figure(o.at_held_poses.0)
         );
     }
-    if let Some(worst) = &s.worst_pose {
-        say!(out, "worst at held pose {}", worst.index + 1);
-    }
     if let (Some(det), Some(margin)) = (s.det, s.search_margins.and_then(|m| m.abs_det)) {
-        say!(out, "det A = {:.9} (margin {:.3e})", det.0, margin.0);
+        say!(out, "det A = {} (margin {})", figure(det.0), figure(margin.0));
     }
     variables(out, s.variables.as_deref().unwrap_or_default());
     offsets(out, s, units);
     if let Some(e) = s.local_optimality {
         let pattern = e.pattern_gain.zip(e.pattern_trials).map_or_else(String::new, |(gain, trials)| {
-            format!(", pattern search gained {:.1e} in {trials} trials", gain.0)
+            format!(", pattern search gained {} in {trials} trials", figure(gain.0))
         });
-        say!(out, "gain still promised {:.1e} a unit of the variables{pattern}", e.stationarity.0);
+        say!(
+            out,
+            "Converged (remaining first-order gain {} per unit of the variables){pattern}",
+            figure(e.stationarity.0)
+        );
     }
     if let Some(v) = &s.verify {
         say!(
             out,
-            "{} to the design (poses of {} samples differ by at most {:.1e})",
+            "Compared with the design: {} (poses of {} samples differ by at most {})",
             v.verdict.name(),
             v.sample_count,
-            v.worst_distance.0
+            figure(v.worst_distance.0)
         );
     }
     // requirements outside the assessment: the search alone demands the spacing that offsets need
@@ -292,8 +303,8 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     let mut table = Table::new([left("", 17).gap(3), right("", 14), left("", 8), left("", 0)]);
     for m in s.constraint_margins.iter().flatten().filter(listed) {
         let tone = if m.margin.0 >= 0.0 { Tone::Plain } else { Tone::No };
-        let margin = Cell::toned(format!("{:.6}", m.margin.0), tone);
-        table.row([m.name.code().into(), margin, m.unit.as_str().into(), m.between.join(", ").into()]);
+        let margin = Cell::toned(figure(m.margin.0), tone);
+        table.row([m.name.label().into(), margin, m.unit.as_str().into(), m.between.join(", ").into()]);
     }
     out.table(table);
 }
@@ -315,8 +326,8 @@ fn offsets(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
             order[i].to_string(),
             sliding_body(i).to_string(),
             Zone::of_symbol(zone).map_or("", Zone::words).to_owned(),
-            format!("{:.6}", offsets[i].0),
-            s.shifts.map_or_else(String::new, |d| format!("{:.6}", d[i].0)),
+            figure(offsets[i].0),
+            s.shifts.map_or_else(String::new, |d| figure(d[i].0)),
         ]);
     }
     out.table(table);
@@ -333,9 +344,9 @@ fn conflict(out: &mut Sheet, c: &ConflictRecord) {
         say!(out, "  {}", g.message);
     }
     out.line("the sum of the violations, each in its scale, is least where these give, and the others hold:");
-    let mut table = Table::new([left("", 17).gap(3), right("", 14), left("", 0)]);
+    let mut table = Table::new([left("", 17).gap(3), right("", 9), left("", 0)]);
     for g in c.requirements.iter().filter(|g| g.together.0 > 0.0) {
-        table.row([g.name.code().to_owned(), g.amount(), g.unit.clone()]);
+        table.row([g.name.label(), figure(g.together.0), g.unit.clone()]);
     }
     out.table(table);
 }
@@ -367,13 +378,13 @@ mod tests {
         assert_eq!(
             out,
             r"within the bounds of the variables these requirements could not, from any start, be met together:
-  the least leg length would have to give by 1.564700 in
-  the room between base joints would have to give by 3.250e-8 in
-  the greatest leg force would have to give by no more than the spare of the search
-  the greatest leg speed cannot make room alone, whatever it gives
+  leg length, minimum: would have to give by 1.56 in
+  spacing of base joints: would have to give by 3.25e-8 in
+  leg force, maximum: would have to give by no more than the spare of the search
+  leg speed, maximum: alone it cannot resolve the conflict, however much it gives
 the sum of the violations, each in its scale, is least where these give, and the others hold:
-  leg_too_short           1.564700 in
-  leg_force               4.500e-7 force
+  leg length, minimum      1.56 in
+  leg force, maximum     4.5e-7 N
 "
         );
         assert!(!out.contains("0.000000"));

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::{Sheet, listed};
+use crate::Sheet;
+use crate::figure::figure;
 use fk::LineClass;
 use records::{LineTermRecord, PentapodAnswer, legs_in_words};
 use synthesis::DecouplingLeg;
@@ -43,8 +44,8 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
         say!(
             out,
             "joints on the line, in units of {} {units}: {}",
-            line.length.0,
-            listed(line.marks.map(|x| x.0), 6)
+            figure(line.length.0),
+            line.marks.map(|x| figure(x.0)).join(", ")
         );
         if let Some(class) = line.class {
             say!(out, "the line is found by {}", equation(class));
@@ -150,9 +151,9 @@ fn poses(out: &mut Sheet, answer: &PentapodAnswer, units: &str) {
         };
         say!(
             out,
-            "  joint of leg 1 at {} {units}  direction {}{twice}",
-            listed(pose.position.re.map(|x| x.0), 9),
-            listed(pose.direction.re.map(|x| x.0), 9)
+            "  joint of leg 1 at ({}) {units}  direction ({}){twice}",
+            pose.position.re.map(|x| figure(x.0)).join(", "),
+            pose.direction.re.map(|x| figure(x.0)).join(", ")
         );
     }
 }

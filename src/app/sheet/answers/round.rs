@@ -1,6 +1,7 @@
 //! Joints on holes.
 
-use super::requirements;
+use super::verdict;
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use ask::rounding::RoundingWay;
 use machine::manufacture::Judgement;
@@ -15,13 +16,13 @@ fn judged(out: &mut Sheet, what: &str, j: &Judgement, met: Option<bool>, units: 
         (None, true) => "met at the sampled poses",
         _ => "violated",
     };
-    let det = j.det.map_or(String::new(), |d| format!(", det A = {d:.6}"));
+    let det = j.det.map_or(String::new(), |d| format!(", det A = {}", figure(d)));
     say!(
         out,
-        "{what:<8} worst inverse condition number {:.6}{det}; joints at least {:.4} and {:.4} {units} apart; requirements {requirements}",
-        j.objective,
-        j.least_distances[0],
-        j.least_distances[1]
+        "{what:<8} worst conditioning {}{det}; joints at least {} and {} {units} apart; requirements {requirements}",
+        figure(j.objective),
+        figure(j.least_distances[0]),
+        figure(j.least_distances[1])
     );
 }
 
@@ -37,8 +38,8 @@ fn table(joints: &[RoundedJointRecord]) -> Table {
     let mut table = Table::new(columns.chain([right("moved", 10).gap(2), left("off its line", 0).gap(2)]));
     for j in joints {
         let [i, k] = j.cell.map_or_else(|| ["-".to_string(), "-".into()], |cell| cell.map(|x| x.to_string()));
-        let off = j.off_line.map_or("corner".to_string(), |x| format!("{:.3e}", x.0));
-        table.row([j.body.to_string(), j.joint.clone(), i, k, format!("{:.6}", j.distance.0), off]);
+        let off = j.off_line.map_or("corner".to_string(), |x| figure(x.0));
+        table.row([j.body.to_string(), j.joint.clone(), i, k, figure(j.distance.0), off]);
     }
     table
 }
@@ -48,14 +49,17 @@ fn table(joints: &[RoundedJointRecord]) -> Table {
 pub fn round(r: &RoundAnswer) -> Sheet {
     let units = &r.units;
     let mut out = Sheet::new();
+    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::name);
+    let missed = r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.name()));
+    say!(out, "{}: chosen {chosen}{missed}", r.name);
     if let Some(design) = &r.design {
-        out.add(requirements(design.name(), r.assessment.as_ref()));
-        out.space();
+        let file = r.output.as_deref().unwrap_or("FILE, written with -o FILE");
+        out.add(verdict(design.name(), r.assessment.as_ref(), &format!("equipod assess {file}")));
     }
+    out.space();
     // the written design was assessed over the whole workspace; the line about its sampled poses must not claim more
     let written = r.chosen.or(r.least_missed);
     let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
-    say!(out, "{}", r.name);
     judged(&mut out, "wanted", &r.wanted, None, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {
@@ -64,7 +68,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             say!(
                 out,
                 "  equivalent to its own octahedral platform: {proof}; leg map and forward kinematics: {}",
-                e.verdict.name()
+                e.verdict.name().replace('_', " ")
             );
             if r.free_grid {
                 grids(&mut out, &e.grids);
@@ -81,16 +85,16 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             let e = &n.pose_error;
             say!(
                 out,
-                "  with the wanted design: {}; error of the pose by its formula: first order {:.4e} {units}, {:.4e} deg \
-                 (every joint on the nearest point: {:.4e}, {:.4e}); solved at {} random poses at most {:.4e}, {:.4e}",
-                n.verdict.name(),
-                e.first_order.position.0,
-                e.first_order.rotation_deg.0,
-                e.first_order_nearest_points.position.0,
-                e.first_order_nearest_points.rotation_deg.0,
+                "  with the wanted design: {}; error of the pose by its formula: first order {} {units}, {} deg \
+                 (every joint on the nearest point: {} {units}, {} deg); solved at {} random poses at most {} {units}, {} deg",
+                n.verdict.name().replace('_', " "),
+                figure(e.first_order.position.0),
+                figure(e.first_order.rotation_deg.0),
+                figure(e.first_order_nearest_points.position.0),
+                figure(e.first_order_nearest_points.rotation_deg.0),
                 e.solved_poses,
-                e.solved.position.max,
-                e.solved.rotation_deg.max
+                figure(e.solved.position.max),
+                figure(e.solved.rotation_deg.max)
             );
             if r.free_grid {
                 grids(&mut out, &n.grids);
@@ -101,9 +105,6 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             say!(out, "nearest  none: {}", why.error.message);
         }
     }
-    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::name);
-    let missed = r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.name()));
-    say!(out, "chosen: {chosen}{missed}");
     if let Some(path) = &r.output {
         say!(out, "wrote {path}");
     }

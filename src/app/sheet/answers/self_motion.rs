@@ -1,6 +1,8 @@
 //! Curves of poses with constant leg lengths.
 
-use crate::{Sheet, listed};
+use super::poses::{POSE, pose as at};
+use crate::Sheet;
+use crate::figure::figure;
 use ask::MotionOrigin;
 use records::{MotionEvidenceWord, SelfmotionAnswer};
 
@@ -8,29 +10,28 @@ use records::{MotionEvidenceWord, SelfmotionAnswer};
 #[must_use]
 pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
     let mut out = Sheet::new();
-    out.line(&r.name);
-    say!(out, "{}", verdict(r));
+    say!(out, "{}: {}", r.name, verdict(r));
     if let (Some(d), None) = (r.dimension.filter(|d| *d > 1), &r.start) {
         let count = r.real_poses.len();
         say!(out, "real poses found on the set of dimension {d}: {count}; it was not followed");
         for pose in &r.real_poses {
-            let (p, q) = (pose.position.map(|x| x.0), pose.quaternion.map(|x| x.0));
-            say!(out, "  p = {}  q = {}", listed(p, 6), listed(q, 6));
+            say!(out, "  {POSE} = {}", at(pose));
         }
     }
     for (k, curve) in r.curves.iter().enumerate() {
         let arc = curve.points.last().map_or(0.0, |p| p.arc);
         let degree = match &curve.degree {
-            Some(d) if d.complete => format!(", degree {} (trace test {:.1e})", d.degree, d.defect),
+            Some(d) if d.complete => format!(", degree {} (trace test {})", d.degree, figure(d.defect)),
             Some(d) => format!(", degree at least {}", d.degree),
             None => String::new(),
         };
         let origin = curve.found_by.map_or("", MotionOrigin::name);
         say!(
             out,
-            "curve {}: {} poses, length {arc:.6} in (e, g / size), {}, {} crossings{degree}, found from a {}",
+            "curve {}: {} poses, length {} in (e, g / size), {}, {} crossings{degree}, found from a {}",
             k + 1,
             curve.points.len(),
+            figure(arc),
             curve.end,
             curve.crossings.len(),
             origin.replace('_', " ")
@@ -39,8 +40,8 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
     if !r.curves.is_empty() {
         say!(
             out,
-            "leg lengths constant to {:.1e} of the size; {} crossings; {} further starting poses tried",
-            r.worst_length_error.0,
+            "leg lengths constant to {} of the size; {} crossings; {} further starting poses tried",
+            figure(r.worst_length_error.0),
             r.crossings.len(),
             r.further_starts
         );
@@ -72,14 +73,14 @@ fn verdict(r: &SelfmotionAnswer) -> String {
     let first = r.tangent_dimension.unwrap_or(0);
     match (r.dimension, r.evidence) {
         (Some(0), MotionEvidenceWord::FirstOrder) => format!(
-            "no self-motion at this pose: proved, the six leg lines are independent (singular values {:.1e} to 1)",
-            r.singular_values[7].0 / r.singular_values[0].0
+            "no self-motion at this pose: proved, the six leg lines are independent (singular values {} to 1)",
+            figure(r.singular_values[7].0 / r.singular_values[0].0)
         ),
         (Some(0), MotionEvidenceWord::SecondOrder) => {
-            let [radius, within] = r.isolated.map_or([0.0; 2], |i| [i.radius.0, i.within.0]);
+            let [radius, within] = r.isolated.map_or([0.0; 2], |i| [i.radius.0, i.within.0]).map(figure);
             format!(
                 "no self-motion at this pose: proved to second order. The leg lines leave {}, and the legs stop it.\n\
-                 every pose with these lengths within {radius:.1e} of the pose lies within {within:.1e} of it (sizes and radians)",
+                 every pose with these lengths within {radius} of the pose lies within {within} of it (sizes and radians)",
                 freedoms(first)
             )
         }

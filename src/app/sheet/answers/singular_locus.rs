@@ -1,6 +1,7 @@
 //! det J over a family of poses, as a polynomial.
 
 use crate::Sheet;
+use crate::figure::figure;
 use num::shown::significant;
 use records::{CoefficientsWord, Number, PolynomialRecord, PoseFamilyWord, SingularLocusAnswer};
 
@@ -11,16 +12,20 @@ const EXACT_LENGTH: usize = 400;
 #[must_use]
 pub fn singular_locus(r: &SingularLocusAnswer) -> Sheet {
     let mut out = Sheet::new();
-    let [position, quaternion] = [r.position.join(", "), r.quaternion.join(", ")];
+    let position = r.position.join(", ");
+    let rotation = match r.quaternion.join(", ") {
+        none if none == "1, 0, 0, 0" => "without rotation".to_owned(),
+        quaternion => format!("with the rotation of the quaternion ({quaternion})"),
+    };
     let direction = r.direction.as_ref().map(|d| d.join(", ")).unwrap_or_default();
     let p = &r.polynomial;
     let family = match r.family {
-        PoseFamilyWord::Positions => format!("at the positions (x, y, z) with the quaternion ({quaternion})"),
+        PoseFamilyWord::Positions => format!("at the positions (x, y, z) {rotation}"),
         PoseFamilyWord::Line => {
-            format!("on the line ({position}) + u ({direction}) with the quaternion ({quaternion})")
+            format!("on the line ({position}) + u ({direction}) {rotation}")
         }
         PoseFamilyWord::Rotation => format!(
-            "at the position ({position}) with the rotations (1, u ({direction})) before the quaternion ({quaternion})"
+            "at the position ({position}) {rotation}, then rotated by the quaternions (1, u ({direction}))"
         ),
     };
     say!(out, "{}: det J {family}", r.name);
@@ -51,10 +56,10 @@ fn roots(out: &mut Sheet, r: &SingularLocusAnswer) {
     for ([low, high], times) in p.real_roots.iter().zip(&p.real_root_multiplicities) {
         let u = 0.5 * (low.0 + high.0);
         let angle = r.axis_squared.map_or_else(String::new, |square| {
-            format!(", a turn of {:.9} degrees", 2.0 * (u * square.0.sqrt()).atan().to_degrees())
+            format!(", a turn of {} deg", figure(2.0 * (u * square.0.sqrt()).atan().to_degrees()))
         });
         let often = if *times > 1 { format!(", {times} times") } else { String::new() };
-        say!(out, "  u = {u:.12}{angle}{often}");
+        say!(out, "  u = {}{angle}{often}", figure(u));
     }
 }
 

@@ -1,36 +1,36 @@
 //! det J at poses, along paths, and the box in which it is proved not to vanish.
 
-use crate::{Sheet, Table, right};
-use records::{
-    JudgedPoseRecord, PoseQuaternionRecord, SignOutcome, SignPairsRecord, SignPathRecord, SingularitiesAnswer,
-};
+use super::poses::{POSE, place, pose};
+use crate::figure::figure;
+use crate::{Sheet, Table, left, right};
+use records::{JudgedPoseRecord, SignOutcome, SignPairsRecord, SignPathRecord, SingularitiesAnswer};
 use synthesis::singularity::RegularityWord;
 
 /// The answer of `singular poses`; `of_the_design`: the region comes from the design.
 #[must_use]
 pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
     let mut out = Sheet::new();
-    out.line(&r.name);
+    let name = &r.name;
     if let Some(regular) = &r.regular {
         let region = if of_the_design { "workspace" } else { "region of --box" };
-        let at = regular.pose.as_ref().map(PoseQuaternionRecord::short).unwrap_or_default();
+        let at = place(regular.pose.as_ref());
         match regular.status {
-            RegularityWord::Proved => say!(out, "The {region} is free of singular poses: proved."),
+            RegularityWord::Proved => say!(out, "{name}: no singular pose in the {region}, proved."),
             RegularityWord::ChangesSign => {
-                say!(out, "The {region} holds a singular pose: det J changes its sign on the way to {at}.");
+                say!(
+                    out,
+                    "{name}: the {region} holds a singular pose, proved. det J changes its sign on the way to {POSE} = {at}."
+                );
             }
             RegularityWord::Undecided => {
                 say!(
                     out,
-                    "It is undecided whether the {region} holds a singular pose, near {at}; more --cells may decide."
+                    "{name}: undecided whether the {region} holds a singular pose, near {POSE} = {at}; more --cells may decide."
                 );
             }
         }
     }
-    judged(&mut out, "pose", &r.pose);
-    for (k, mode) in r.assembly_modes.iter().enumerate() {
-        judged(&mut out, &format!("mode {}", k + 1), mode);
-    }
+    regular_box(&mut out, r);
     let negative = r.assembly_modes.iter().filter(|m| m.determinant.0 < 0.0).count();
     say!(
         out,
@@ -39,50 +39,55 @@ pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
         r.assembly_modes.len() - negative,
         if r.assembly_modes_accounted { "" } else { "; some may be missing" }
     );
+    out.space();
+    out.table(judged(r));
     r.path.iter().for_each(|found| path(&mut out, found));
     r.between.iter().for_each(|found| pairs(&mut out, found));
-    let b = &r.regular_box;
-    let (widths, degrees) = (b.translation, b.rotation_deg);
-    say!(
-        out,
-        "{} of half widths t x ({:.4}, {:.4}, {:.4}) {} and t x ({:.4}, {:.4}, {:.4}) degrees of the rotation vector about the pose:",
-        b.region.name(),
-        widths[0],
-        widths[1],
-        widths[2],
-        r.units,
-        degrees[0],
-        degrees[1],
-        degrees[2]
-    );
-    if !(b.proved_scale.0 > 0.0) {
-        out.line("  nothing is proved: the pose itself may be singular");
-        return out;
-    }
-    say!(
-        out,
-        "  no singular pose for t <= {:.4}, proved over {} cells; the same for every equivalent platform",
-        b.proved_scale.0,
-        b.cells
-    );
-    match &b.singular_within {
-        Some(s) => say!(out, "  a singular pose within t = {:.4}, proved by a change of sign", s.scale.0),
-        None => say!(out, "  no change of sign found up to t = {:.4}", b.searched_scale.0),
-    }
     out
 }
 
-fn judged(out: &mut Sheet, name: &str, j: &JudgedPoseRecord) {
-    let p = j.pose.position.map(|x| x.0);
+/// The region about the pose that is proved to be free of singular poses.
+fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
+    let b = &r.regular_box;
+    let listed = |widths: [f64; 3], scale: f64| widths.map(|w| figure(w * scale)).join(", ");
+    let widths = |scale: f64| {
+        let (positions, angles) = (listed(b.translation, scale), listed(b.rotation_deg, scale));
+        format!("({positions}) {} and ({angles}) deg of the rotation vector", r.units)
+    };
+    let shape = b.region.name();
+    if !(b.proved_scale.0 > 0.0) {
+        out.line("Around the pose nothing is proved: the pose itself may be singular.");
+        return;
+    }
+    let proved = b.proved_scale.0;
+    say!(out, "Around the pose a {shape} of half widths {} has no singular pose, proved;", widths(proved));
     say!(
         out,
-        "{name:<8} [{:.4}, {:.4}, {:.4}]  det J {:+.6e}  inverse condition {:.3e}",
-        p[0],
-        p[1],
-        p[2],
-        j.determinant.0,
-        j.inverse_condition.0
+        "  the same holds for every equivalent platform ({} times the {shape} asked for).",
+        figure(proved)
     );
+    match &b.singular_within {
+        Some(s) => {
+            say!(out, "  At {} times the {shape} there is a singular pose, proved.", figure(s.scale.0))
+        }
+        None => {
+            say!(out, "  No singular pose was found up to {} times the {shape}.", figure(b.searched_scale.0))
+        }
+    }
+}
+
+/// A row for the pose and for each assembly mode.
+fn judged(r: &SingularitiesAnswer) -> Table {
+    let columns = [left("", 8), right("det J", 8).gap(2), right("conditioning", 0).gap(2)];
+    let mut table = Table::new(columns.into_iter().chain([left(format!("{POSE} [deg]"), 0).gap(2)]));
+    let mut row = |name: String, j: &JudgedPoseRecord| {
+        table.row([name, figure(j.determinant.0), figure(j.inverse_condition.0), pose(&j.pose)]);
+    };
+    row("pose".into(), &r.pose);
+    for (k, mode) in r.assembly_modes.iter().enumerate() {
+        row(format!("mode {}", k + 1), mode);
+    }
+    table
 }
 
 /// The sign of det J along a path, in words.
@@ -97,7 +102,7 @@ fn path(out: &mut Sheet, r: &SignPathRecord) {
                 None if p.singular => "a singular pose, proved by a change of sign",
                 None => "det J vanishes or nearly so",
             };
-            say!(out, "    {:<14} to {:<14} {told}", p.from.0, p.to.0);
+            say!(out, "    {} to {}: {told}", figure(p.from.0), figure(p.to.0));
         }
     }
 }

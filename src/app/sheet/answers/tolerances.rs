@@ -1,8 +1,9 @@
 //! The joint errors allowed.
 
-use super::requirements;
+use super::poses::{POSE, pose};
+use super::verdict;
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
-use num::shown::significant;
 use records::{
     CalibratedPosesRecord, CorrelationsWord, JointBudgetRecord, Number, SolvedBudgetRecord, TolerancesAnswer,
     TrialsRecord, WorkspaceWord,
@@ -12,34 +13,39 @@ use records::{
 #[must_use]
 pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
     let units = &r.units;
-    let mut out = requirements(name, r.assessment.as_ref());
+    let mut out = Sheet::new();
+    let [joint, coordinate] = [&r.all_joints_radius, &r.all_coordinates];
     say!(
         out,
-        "\n{name}: error of the tool point at most {} {units}, of the orientation {} deg ({} poses, {} workspace)\n",
-        r.bound.position.0,
-        r.bound.rotation_deg.0,
+        "{name}: every joint may be off by {} {units} in any direction ({} is the limit), to first order",
+        figure(joint.value),
+        joint.kind.name()
+    );
+    say!(
+        out,
+        "Bounds asked for: tool point within {} {units}, orientation within {} deg, at {} poses of the {} workspace",
+        figure(r.bound.position.0),
+        figure(r.bound.rotation_deg.0),
         r.poses.count,
         if r.poses.workspace == WorkspaceWord::Design { "given" } else { "default" }
     );
-    for (what, limit) in [("joint", &r.all_joints_radius), ("coordinate", &r.all_coordinates)] {
-        let any = if what == "joint" { " in any direction" } else { "" };
-        say!(
-            out,
-            "to first order every {what} may be off by {:.6e} {units}{any} ({} is the limit)",
-            limit.value,
-            limit.kind.name()
-        );
-    }
+    say!(
+        out,
+        "Every coordinate may be off by {} {units} ({} is the limit), to first order",
+        figure(coordinate.value),
+        coordinate.kind.name()
+    );
+    say!(out, "{}", sentence(&r.solved, units));
     out.space();
     out.table(joints(&r.joints));
+    out.space();
     for (what, e) in [("the budget", &r.worst_errors.in_budget), ("1.5 times it", &r.worst_errors.times_1_5)]
     {
         if let Some(e) = e {
-            let (p, w) = (e.position.0, e.rotation_deg.0);
-            say!(out, "\njoints off by {what} in the worst way, solved: {p:.6e} {units}, {w:.6e} deg");
+            let (p, w) = (figure(e.position.0), figure(e.rotation_deg.0));
+            say!(out, "joints off by {what} in the worst way, solved: {p} {units}, {w} deg");
         }
     }
-    say!(out, "\n{}", sentence(&r.solved, units));
     spread(&mut out, "random errors in the budget", &r.trials);
     if let Some(calibrated) = &r.calibrated {
         spread(&mut out, "random errors with the covariance of the calibration", calibrated);
@@ -52,28 +58,30 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
             out,
             "\nat {} poses, to first order, the greatest errors by joints off by {} {units}, lengths by {} {units} and growth of {} (base, platform, legs)",
             map.poses,
-            significant(map.joint_error.0),
-            significant(map.length_error.0),
-            map.growth.map(|x| significant(x.0)).join(", ")
+            figure(map.joint_error.0),
+            figure(map.length_error.0),
+            map.growth.map(|x| figure(x.0)).join(", ")
         );
         for (what, unit, worst) in
             [("position", units.as_str(), &map.position), ("orientation", "deg", &map.rotation_deg)]
         {
             say!(
                 out,
-                "{what}: {} {unit} at {}; by joints alone {}, by lengths {}, by growth {}; half of the poses stay below {}",
-                significant(worst.greatest.0),
-                worst.pose.short(),
-                significant(worst.joints.0),
-                significant(worst.lengths.0),
-                significant(worst.growth.0),
-                significant(worst.median.0)
+                "{what}: {} {unit} at {POSE} = {}; by joints alone {}, by lengths {}, by growth {}; half of the poses stay below {}",
+                figure(worst.greatest.0),
+                pose(&worst.pose),
+                figure(worst.joints.0),
+                figure(worst.lengths.0),
+                figure(worst.growth.0),
+                figure(worst.median.0)
             );
         }
         if let Some(path) = &map.path {
             say!(out, "wrote {path}");
         }
     }
+    out.space();
+    out.add(verdict(name, r.assessment.as_ref(), "equipod assess DESIGN"));
     out
 }
 
@@ -92,16 +100,16 @@ fn computed_poses(out: &mut Sheet, r: &CalibratedPosesRecord, units: &str) {
     );
     for (what, unit, d) in [("position", units, &r.position), ("orientation", "deg", &r.rotation_deg)] {
         let without = if known {
-            format!(" ({} without the correlations)", significant(d.independent.0))
+            format!(" ({} without the correlations)", figure(d.independent.0))
         } else {
             String::new()
         };
         say!(
             out,
-            "{what}: {} {unit} in the median, {} at {}{without}",
-            significant(d.median.0),
-            significant(d.greatest.0),
-            d.pose.short()
+            "{what}: {} {unit} in the median, {} at {POSE} = {}{without}",
+            figure(d.median.0),
+            figure(d.greatest.0),
+            pose(&d.pose)
         );
     }
 }
@@ -119,16 +127,16 @@ fn joints(joints: &[JointBudgetRecord]) -> Table {
         text("alone along x, y, z", 29),
         text("all, largest product", 0),
     ]);
-    let optional = |x: &Option<Number>| x.map_or("any".to_string(), |x| format!("{:.3e}", x.0));
-    let list = |v: &[Option<Number>; 3]| v.each_ref().map(|x| format!("{:>9}", optional(x))).join(" ");
+    let optional = |x: &Option<Number>| x.map_or("any".to_string(), |x| figure(x.0));
+    let list = |v: &[Option<Number>; 3]| v.each_ref().map(optional).join(", ");
     for j in joints {
         table.row([
             j.body.to_string(),
             j.joint.clone(),
-            format!("{:.3e}", j.alone.value),
-            format!("({})", j.direction.map(|x| format!("{:6.3}", x.0)).join(" ")),
-            format!("{:.3}", j.position_per_unit.0),
-            format!("{:.4}", j.rotation_deg_per_unit.0),
+            figure(j.alone.value),
+            j.direction.map(|x| figure(x.0)).join(", "),
+            figure(j.position_per_unit.0),
+            figure(j.rotation_deg_per_unit.0),
             list(&j.along_axes),
             list(&j.largest_product),
         ]);
@@ -139,15 +147,15 @@ fn joints(joints: &[JointBudgetRecord]) -> Table {
 /// The exact check of the first-order radius.
 fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
     let radius = solved.radius.map_or_else(String::new, |r| {
-        format!("; with {:.6e} {units} the worst errors found keep it when they are solved", r.0)
+        format!("; solved, the worst errors found keep it with {} {units}", figure(r.0))
     });
     match solved.largest_share {
-        _ if solved.within_bound => "solved, no error looked at in the budget goes beyond the bound".into(),
+        _ if solved.within_bound => "Solved, no error looked at in this budget exceeds the bounds".into(),
         Some(share) => format!(
-            "the first order is too wide: solved, errors in the budget use up {:.6} of the bound{radius}",
-            share.0
+            "The first order is too wide: solved, errors in the budget use up {} of the bound{radius}",
+            figure(share.0)
         ),
-        None => format!("the first order is too wide: poses with errors in the budget were lost{radius}"),
+        None => format!("The first order is too wide: poses with errors in the budget were lost{radius}"),
     }
 }
 
@@ -171,7 +179,7 @@ fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord) {
     ];
     let rows = rows.map(|(what, s)| {
         let q = &s.position;
-        let numbers = [q.median, q.p90, q.p99, q.max, s.rotation_deg.max].map(|x| format!("{x:.3e}"));
+        let numbers = [q.median, q.p90, q.p99, q.max, s.rotation_deg.max].map(figure);
         [what.to_owned()].into_iter().chain(numbers)
     });
     out.table(Table::new(columns.chain([left("max [deg]", 0).gap(2)])).with_rows(rows));

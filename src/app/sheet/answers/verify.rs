@@ -1,6 +1,7 @@
 //! Whether two designs are kinematically equivalent.
 
 use super::frames::frames;
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{SampleRecord, VerifyAnswer};
 
@@ -10,12 +11,12 @@ pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     let mut out = Sheet::new();
     if v.sampling.is_none() {
         // no motion was found: the explanation of the alignment is the answer
-        say!(out, "{a} ~ {b}: {}", v.verdict.name());
+        say!(out, "{a} ~ {b}: {}", v.verdict.name().replace('_', " "));
         out.add(frames(&v.frames));
         return out;
     }
     out.add(frames(&v.frames));
-    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name(), v.explanation);
+    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name().replace('_', " "), v.explanation);
     if let Some(polynomial) = &v.map.det_of_shares {
         say!(
             out,
@@ -36,7 +37,7 @@ pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
             s.matched.to_string(),
             s.b.real_count.to_string(),
             format!("{}+{}", s.a.certified_count, s.b.certified_count),
-            format!("{:.1e}", s.worst_distance.0),
+            figure(s.worst_distance.0),
             remark(s),
         ]);
     }

@@ -7,9 +7,8 @@ use super::PlanText;
 use ask::Design;
 use ask::design::parse;
 use files::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
-use files::design::{Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, SeriesKind, Violation};
+use files::design::{Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, Violation, read_poses};
 use machine::requirements::{TermKind, Terms};
-use platform::geom::{InvalidPose, Pose};
 
 /// The key of a design's table of poses.
 pub(super) const TRAJECTORY: &str = "workspace.trajectory";
@@ -59,8 +58,8 @@ impl BasePlan {
     /// # Errors
     /// A text that is no table of poses.
     pub fn with_poses(mut self, table: &[u8]) -> Result<Self, InvalidSeries> {
-        let read = SeriesKind::Poses
-            .read(table, |line| line.parse::<Pose>().map_err(|e: InvalidPose| e.to_string()))?;
+        let (home, frames) = (self.design.home_or_default(), self.design.trajectory_frames());
+        let read = read_poses(table, &frames, &home)?;
         if let Some(own) = &self.design.workspace.trajectory
             && let Ok(place) = self.place(TRAJECTORY)
         {
@@ -73,9 +72,8 @@ impl BasePlan {
                 }
             }
         }
-        let home = self.design.home_or_default();
         if let Some(trajectory) = &mut self.design.workspace.trajectory {
-            trajectory.poses = read.with_home(&home).rows.into_iter().map(|row| row.value).collect();
+            trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
         }
         Ok(self)
     }

@@ -1,6 +1,7 @@
 //! Small arithmetic expressions: `sqrt(3)*r/2 - 1.5`.
 //!
 //! ```text
+//! length  = product [ unit ] { ("+" | "-") product [ unit ] }
 //! sum     = product { ("+" | "-") product }
 //! product = signed { ("*" | "/") signed }
 //! signed  = { "+" | "-" } power
@@ -10,6 +11,7 @@
 
 use std::ops::Range;
 
+use crate::design::scale::{UNITS, micrometres};
 use num::exact::{Rational, decimal};
 use num::real::{NoReal, RealNumber};
 
@@ -71,6 +73,15 @@ pub(in crate::design) struct Slip {
     pub(in crate::design) too_complex: bool,
 }
 
+/// The units that may stand behind a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::design) enum UnitsBehind {
+    /// None: it is an angle, a share or a name for either.
+    None,
+    /// Units of length, which become the unit of the design: so many micrometres, where its label names a known length.
+    Length(Option<u64>),
+}
+
 /// An operation without a result, and its place in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::design) struct Stuck {
@@ -96,16 +107,27 @@ pub(in crate::design) fn is_name(text: &str) -> bool {
 }
 
 impl Expression {
+    /// A number without unit.
     pub(in crate::design) fn parse(text: &str) -> Result<Self, Slip> {
+        Self::read(text, UnitsBehind::None).map(|read| read.0)
+    }
+
+    /// A length, and whether it has its own unit: `12/5 mm`, `5 ft + 3 in`. The factor to the unit of the design is in
+    /// the expression, so that it stays exact.
+    pub(in crate::design) fn read(text: &str, units: UnitsBehind) -> Result<(Self, bool), Slip> {
         if text.len() > MAX_LENGTH {
             let message = format!("the expression is longer than {MAX_LENGTH} characters");
             return Err(Slip { place: 0..text.len(), message, too_complex: true });
         }
-        let mut reader = ExpressionReader { text, at: 0, depth: 0 };
-        let whole = reader.sum()?;
+        let mut reader = ExpressionReader { text, at: 0, depth: 0, units, terms: 0, with_unit: 0 };
+        let whole = reader.chain([('+', Operator::Plus), ('-', Operator::Minus)], ExpressionReader::term)?;
         reader.skip_blanks();
         match reader.rest().chars().next() {
-            None => Ok(whole),
+            None if reader.with_unit != 0 && reader.with_unit != reader.terms => {
+                let message = "either every term of a sum has a unit, or none has one".to_owned();
+                Err(Slip { place: whole.place, message, too_complex: false })
+            }
+            None => Ok((whole, reader.with_unit != 0)),
             Some(c) => {
                 let message = format!("`{}` is out of place in the expression", c.escape_debug());
                 Err(Slip { place: reader.at..reader.at + c.len_utf8(), message, too_complex: false })
@@ -193,6 +215,10 @@ struct ExpressionReader<'t> {
     text: &'t str,
     at: usize,
     depth: usize,
+    units: UnitsBehind,
+    /// Terms of the whole sum, and how many of them have a unit.
+    terms: usize,
+    with_unit: usize,
 }
 
 impl<'t> ExpressionReader<'t> {
@@ -253,6 +279,38 @@ impl<'t> ExpressionReader<'t> {
                 part: SumPart::Chain(Box::new(first), rest),
             },
         })
+    }
+
+    /// A product of the whole sum, with the unit behind it.
+    fn term(&mut self) -> Result<Expression, Slip> {
+        let product = self.product()?;
+        self.terms += 1;
+        self.skip_blanks();
+        let from = self.at;
+        let word = self.run(|c| c.is_ascii_alphanumeric() || c == '_');
+        let Some(length) = micrometres(word) else {
+            self.at = from;
+            return Ok(product);
+        };
+        let own = match self.units {
+            UnitsBehind::Length(Some(own)) => own,
+            UnitsBehind::Length(None) => {
+                let known = UNITS.map(|(label, _)| label).join(", ");
+                let message = format!(
+                    "`{word}` cannot be converted, since the unit of the design is no known length; known are {known}"
+                );
+                return self.slip(from, message);
+            }
+            UnitsBehind::None => {
+                return self
+                    .slip(from, format!("`{word}` is a unit of length, and this number is no length"));
+            }
+        };
+        self.with_unit += 1;
+        let factor = SumPart::Decimal(Rational::new(length.into(), own.into()));
+        let factor = Expression { place: from..self.at, part: factor };
+        let place = product.place.start..self.at;
+        Ok(Expression { place, part: SumPart::Chain(Box::new(product), vec![(Operator::Times, factor)]) })
     }
 
     fn sum(&mut self) -> Result<Expression, Slip> {
@@ -420,6 +478,39 @@ mod tests {
         ] {
             assert_eq!(shown(text), expected, "{text}");
         }
+    }
+
+    #[test]
+    fn lengths_may_have_units_and_stay_exact() {
+        let length = |text: &str, own: Option<u64>| -> String {
+            match Expression::read(text, UnitsBehind::Length(own)) {
+                Err(slip) => format!("{:?} {}", slip.place, slip.message),
+                Ok((read, with_unit)) => {
+                    let value = read.value(&|name| Err(Unsolved::Name(name.to_string())));
+                    let value = value.map(|x| x.exact().map(ToString::to_string));
+                    format!("{} {with_unit}", value.unwrap().unwrap())
+                }
+            }
+        };
+        let mixed = "either every term of a sum has a unit, or none has one";
+        for (text, own, expected) in [
+            ("12/5 mm", Some(1000), "12/5 true"),
+            ("36/19 in", Some(1000), "4572/95 true"),
+            ("1in", Some(304_800), "1/12 true"),
+            ("5 ft + 3 in", Some(25_400), "63 true"),
+            ("-sqrt(3)*2 cm - 1 mm", Some(1000), "-1 - 20*sqrt(3) true"),
+            ("(1 + 2)/3 m", Some(1000), "1000 true"),
+            ("12/5", Some(1000), "12/5 false"),
+            ("12/5", None, "12/5 false"),
+            ("1 + 2 mm", Some(1000), &format!("0..8 {mixed}")),
+            ("(1 mm)*2", Some(1000), "0..2 a parenthesis is not closed"),
+            ("2 mm mm", Some(1000), "5..6 `m` is out of place in the expression"),
+            ("2 parsec", Some(1000), "2..3 `p` is out of place in the expression"),
+        ] {
+            assert_eq!(length(text, own), expected, "{text}");
+        }
+        assert!(length("2 mm", None).starts_with("2..4 `mm` cannot be converted"));
+        assert_eq!(shown("2 mm"), "2..4 `mm` is a unit of length, and this number is no length");
     }
 
     #[test]

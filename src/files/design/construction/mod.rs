@@ -14,8 +14,8 @@ use nalgebra::Point3;
 
 pub use self::cranks::CrankLimits;
 pub(super) use self::cranks::{CrankCopy, PARTS, WrittenCrank, WrittenCranks};
-use self::expression::{Expression, Slip};
-pub use self::origins::{InvalidShare, Origin, Share};
+use self::expression::{Expression, Slip, UnitsBehind};
+pub use self::origins::{InvalidShare, Origin, Share, length_in};
 use num::exact::rational;
 use num::real::RealNumber;
 use num::surd::{Surd, generators};
@@ -82,6 +82,12 @@ impl WrittenNumber {
     /// An expression.
     pub(super) fn text(text: &str) -> Result<Self, Slip> {
         Ok(Self { written: Spelling::Text(text.to_string()), tree: Expression::parse(text)? })
+    }
+
+    /// An expression that may have units of length, and whether it has.
+    pub(super) fn with_units(text: &str, units: UnitsBehind) -> Result<(Self, bool), Slip> {
+        let (tree, with_unit) = Expression::read(text, units)?;
+        Ok((Self { written: Spelling::Text(text.to_string()), tree }, with_unit))
     }
 
     /// A number as it stands in a file, with the decimal as written.

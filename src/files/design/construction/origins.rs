@@ -5,11 +5,12 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::expression::Unsolved;
+use super::expression::{UnitsBehind, Unsolved};
 use super::resolve::on_line;
 use super::{Construction, Constructions, LinePlace, RealPoint, Spelling, WrittenHome, WrittenNumber};
 use crate::design::DesignModel;
-use num::real::RealNumber;
+use crate::design::scale::micrometres;
+use num::real::{NoReal, RealNumber};
 use num::surd::Surd;
 use platform::manipulator::Body;
 
@@ -51,6 +52,62 @@ impl Share {
     }
 }
 
+/// A length in the unit of a design: a decimal or an expression, which may have a unit of its own: `12/5 mm`.
+///
+/// # Errors
+/// A text that is no number; a unit where the label of the design's unit names no known length.
+pub fn length_in(text: &str, units: &str) -> Result<RealNumber, InvalidShare> {
+    let text = text.trim();
+    if let Ok(decimal) = text.parse::<f64>()
+        && let Some(share) = Share::shortest(decimal)
+    {
+        return Ok(share.value);
+    }
+    let refuse = |why: String| InvalidShare { text: text.to_owned(), why };
+    let read = WrittenNumber::with_units(text, UnitsBehind::Length(micrometres(units)));
+    valued(&read.map_err(|slip| refuse(slip.message))?.0).map_err(refuse)
+}
+
+impl DesignModel {
+    /// The share of the way from one joint of a body to another at which a text puts a joint: a share, or a length with
+    /// a unit from the first joint: `1/5`, `12/5 mm`. It is exact where the joints and the length are.
+    ///
+    /// # Errors
+    /// A text that is neither; a unit where the design has none; two joints at one place.
+    pub fn share_of(&self, body: Body, ends: [usize; 2], text: &str) -> Result<Share, InvalidShare> {
+        if let Ok(share) = text.parse() {
+            return Ok(share);
+        }
+        let length = length_in(text, &self.units)?;
+        let refuse = |why: String| InvalidShare { text: text.trim().to_owned(), why };
+        let points = self.constructions.exact(body, self.manipulator.joints(body));
+        let way = || -> Result<RealNumber, NoReal> {
+            let [a, b] = ends.map(|end| &points[end]);
+            let [x, y, z] = [0, 1, 2].map(|i| b[i].minus(&a[i]));
+            let [x, y, z] = [x?, y?, z?].map(|x| x.times(&x));
+            length.over(&x?.plus(&y?)?.plus(&z?)?.sqrt()?)
+        };
+        let value = way().map_err(|why| refuse(why.to_string()))?;
+        let written = value.exact().and_then(|exact| WrittenNumber::text(&exact.to_string()).ok());
+        match written {
+            Some(written) => Ok(Share { written, value }),
+            None => {
+                Share::shortest(value.nearest()).ok_or_else(|| refuse("the share is not finite".to_owned()))
+            }
+        }
+    }
+}
+
+/// The value of a number without names.
+fn valued(written: &WrittenNumber) -> Result<RealNumber, String> {
+    let value = written.expression().value(&|name| Err(Unsolved::Name(name.to_owned())));
+    value.map_err(|stuck| match stuck.why {
+        Unsolved::NoReal(why) => why.to_string(),
+        Unsolved::Name(name) => format!("no value belongs to `{name}` here"),
+        Unsolved::Poisoned => "it has no value".to_owned(),
+    })
+}
+
 impl FromStr for Share {
     type Err = InvalidShare;
 
@@ -61,14 +118,7 @@ impl FromStr for Share {
             return Ok(decimal);
         }
         let written = WrittenNumber::text(text).map_err(|slip| refuse(slip.message))?;
-        let value = written.expression().value(&|name| Err(Unsolved::Name(name.to_owned())));
-        let value = value.map_err(|stuck| {
-            refuse(match stuck.why {
-                Unsolved::NoReal(why) => why.to_string(),
-                Unsolved::Name(name) => format!("no value belongs to `{name}` here"),
-                Unsolved::Poisoned => "it has no value".to_owned(),
-            })
-        })?;
+        let value = valued(&written).map_err(refuse)?;
         Ok(Self { written, value })
     }
 }
@@ -90,6 +140,8 @@ pub enum Origin {
     Kept(usize),
     /// It is on the line of two of them, at this share of the way.
     Between([usize; 2], Box<Share>),
+    /// It is in the plane of three of them: at so many ways from the first to the second and to the third.
+    InPlane([usize; 3], Box<[Share; 2]>),
     /// It is given by its coordinates alone.
     New,
 }
@@ -177,10 +229,23 @@ impl DesignModel {
                     let [a, b] = ends.map(|joint| &exact[joint]);
                     coordinates(&on_line(a, b, &share, &t.value)?.ok()??)
                 }
+                Origin::InPlane(corners, shares) => {
+                    let corners = corners.map(|joint| &exact[joint]);
+                    coordinates(&in_plane(corners, shares.each_ref().map(|share| &share.value)).ok()?)
+                }
             }
         };
         origins.iter().enumerate().map(one).collect()
     }
+}
+
+/// `a + t (b - a) + u (c - a)`.
+fn in_plane([a, b, c]: [&RealPoint; 3], [t, u]: [&RealNumber; 2]) -> Result<RealPoint, NoReal> {
+    let one = |i: usize| {
+        let along = |to: &RealPoint, share: &RealNumber| to[i].minus(&a[i])?.times(share);
+        a[i].plus(&along(b, t)?)?.plus(&along(c, u)?)
+    };
+    Ok([one(0)?, one(1)?, one(2)?])
 }
 
 impl Construction {

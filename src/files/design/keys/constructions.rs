@@ -12,7 +12,7 @@ use super::kind::{
 };
 use super::stored::{self, Word};
 use super::{Code, KeyTable, TEXT, key};
-use crate::design::construction::expression::{Slip, function_names, is_name};
+use crate::design::construction::expression::{Slip, UnitsBehind, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
     Construction, Constructions, CoordinatePlane, LinePlace, WrittenCranks, WrittenHome, WrittenNumber,
@@ -136,16 +136,34 @@ pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters
             );
             report.refuse(Code::Expression, &e.key_span, message, help);
         }
-        let value = quantity(report, &e.node, &format!("the parameter `{}`", shown(&e.key)));
+        let what = format!("the parameter `{}`", shown(&e.key));
+        let value = quantity(report, &e.node, NumberKind::Plain, &what);
         let places = Places { whole: e.key_span.clone(), parts: vec![e.node.span.clone()] };
         list.push((e.key.clone(), value, places));
     }
     list
 }
 
+/// What a number is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NumberKind {
+    /// A length, which may have a unit of its own.
+    Length,
+    /// Any other number.
+    Plain,
+}
+
 /// A number: a decimal as written, or an expression in quotes.
-pub(super) fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<WrittenNumber> {
+pub(super) fn quantity(
+    report: &mut Findings<'_>,
+    node: &Node,
+    kind: NumberKind,
+    what: &str,
+) -> Option<WrittenNumber> {
     let read = match &node.value {
+        Value::Text(text) if kind == NumberKind::Length => {
+            WrittenNumber::with_units(text, UnitsBehind::Length(report.length_unit)).map(|read| read.0)
+        }
         Value::Text(text) => WrittenNumber::text(text),
         Value::Number(_) => {
             let x = number(report, node, what)?;
@@ -163,8 +181,7 @@ pub(super) fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Op
         Ok(quantity) => Some(quantity),
         Err(Slip { place, message, too_complex }) => {
             let code = if too_complex { Code::TooComplex } else { Code::Expression };
-            let help =
-                "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg()";
+            let help = "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg(); a unit of length may stand behind a length";
             let span = inner(report, &node.span, Some(&place));
             report.refuse(code, &span, format!("{what}: {message}"), help);
             None
@@ -205,7 +222,7 @@ pub(super) fn joint(
 ) -> Option<(Construction, Places)> {
     let (made, parts) = match &node.value {
         Value::Array(_) => {
-            let (list, parts) = three_quantities(report, node, what, ("coordinate", "coordinates x, y, z"))?;
+            let (list, parts) = three_quantities(report, node, (NumberKind::Length, what), COORDINATES)?;
             (Construction::Coordinates(list), parts)
         }
         Value::Table(entries) => form(report, node, entries, what, names)?,
@@ -214,11 +231,14 @@ pub(super) fn joint(
     Some((made, Places { whole: node.span.clone(), parts }))
 }
 
+/// One coordinate and all three.
+pub(super) const COORDINATES: (&str, &str) = ("coordinate", "coordinates x, y, z");
+
 /// An array of three numbers or expressions, with their places. `number` is one of them, `noun` all three.
 pub(super) fn three_quantities(
     report: &mut Findings<'_>,
     node: &Node,
-    what: &str,
+    (kind, what): (NumberKind, &str),
     (number, noun): (&str, &str),
 ) -> Option<([WrittenNumber; 3], Vec<Span>)> {
     let Value::Array(list) = &node.value else {
@@ -235,7 +255,7 @@ pub(super) fn three_quantities(
     // evaluate all of them, so that each fault is reported
     let [a, b, c] = [x, y, z].map(|e| {
         place += 1;
-        quantity(report, e, &format!("{number} {place} of {what}"))
+        quantity(report, e, kind, &format!("{number} {place} of {what}"))
     });
     Some(([a?, b?, c?], [x, y, z].map(|e| e.span.clone()).to_vec()))
 }
@@ -261,7 +281,11 @@ fn form(
     check_keys(report, entries, &keys, what);
     let span = |key: &str| find(entries, key).map_or_else(|| node.span.clone(), |e| e.node.span.clone());
     let mut number_of = |key: &str, optional: bool| match find(entries, key) {
-        Some(e) => quantity(report, &e.node, &format!("`{key}` of {what}")).map(Some),
+        Some(e) => {
+            let is_length = form.kind(key).is_some_and(|kind| kind.unit == unit::LENGTH);
+            let kind = if is_length { NumberKind::Length } else { NumberKind::Plain };
+            quantity(report, &e.node, kind, &format!("`{key}` of {what}")).map(Some)
+        }
         None if optional => Some(None),
         None => {
             let help = format!("a joint with `{}` takes {}", keys[0], keys.join(", "));

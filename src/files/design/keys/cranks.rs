@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::constructions::{Places, quantity, three_quantities};
+use super::constructions::{NumberKind, Places, quantity, three_quantities};
 use super::found::{check_keys, nearest_help, shown, table, text};
 use super::joints::{Legs, NamedJoints};
 use super::kind::{
@@ -249,13 +249,13 @@ fn label(found: &FoundKey<'_, '_>) -> String {
 fn one(found: &mut FoundKey<'_, '_>, places: &mut Places, part: usize) -> Option<WrittenNumber> {
     places.parts[part] = found.entry.node.span.clone();
     let what = label(found);
-    quantity(found.report, &found.entry.node, &what)
+    quantity(found.report, &found.entry.node, NumberKind::Length, &what)
 }
 
 fn three(found: &mut FoundKey<'_, '_>, places: &mut Places, first: usize) -> Option<[WrittenNumber; 3]> {
     let what = label(found);
     let nouns = ("component", "components");
-    let (list, parts) = three_quantities(found.report, &found.entry.node, &what, nouns)?;
+    let (list, parts) = three_quantities(found.report, &found.entry.node, (NumberKind::Plain, &what), nouns)?;
     places.parts.splice(first..first + 3, parts);
     Some(list)
 }
@@ -284,7 +284,8 @@ fn range(found: &mut FoundKey<'_, '_>, places: &mut Places) -> Option<[WrittenNu
         found.refuse(Code::CoordinateCount, message, help);
         return None;
     };
-    let [a, b] = [least, most].map(|e| quantity(found.report, e, &format!("an angle of {what}")));
+    let [a, b] =
+        [least, most].map(|e| quantity(found.report, e, NumberKind::Plain, &format!("an angle of {what}")));
     places.parts.splice(8..10, [least.span.clone(), most.span.clone()]);
     Some([a?, b?])
 }
@@ -334,7 +335,7 @@ fn copy(
     if turn.is_some() {
         let e = find(entries, "deg")?;
         places.parts[PARTS - 1] = e.node.span.clone();
-        let deg = quantity(report, &e.node, &format!("`deg` of {what}"))?;
+        let deg = quantity(report, &e.node, NumberKind::Plain, &format!("`deg` of {what}"))?;
         return Some(CrankCopy::Turned { crank, deg });
     }
     let e = find(entries, "plane")?;

@@ -9,6 +9,7 @@ use super::constructions::{self, BODY, PARAMETERS};
 use super::cranks::{self, CRANKS};
 use super::envelope::{ENVELOPES, envelopes};
 use super::found::{check_keys, element_span, elements, numbers};
+use super::frames::FRAMES;
 use super::hardware::{HARDWARE, HardwareKeys, hardware};
 use super::holes::{HOLES, HOLES_SHAPE, holes};
 use super::joints::{self, Legs, NamedJoints};
@@ -22,6 +23,7 @@ use super::poses::{HOME, home};
 use super::stored::Word;
 use super::workspace::{WORKSPACE, workspace};
 use super::{Code, FoundKey, KeyTable, TEXT, axes, joint_models, key};
+use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{DesignModel, Warning, Workspace};
@@ -62,6 +64,12 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
             "cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base joints for what is different at one"),
         key!("home": table(&HOME), |_, _| (), |of| of.home.and_then(|_| HOME.put(of));
             "the pose the platform is built for"),
+        key!("frames": table(&FRAMES),
+            |found, to| {
+                FRAMES.read(found.report, &found.entry.node, "[frames]", &mut to.frames);
+            },
+            |of| FRAMES.put(&of.frames);
+            "the machine's own convention for poses that commands take and answer"),
         key!("workspace": table(&WORKSPACE), |_, _| (), |of| Some(&of.workspace).filter(|w| **w != Workspace::default()).and_then(|w| WORKSPACE.put(w));
             "the poses to reach"),
         key!("optimize": table(&OPTIMIZE), |_, _| (), |of| OPTIMIZE.put(&OptimizeKeys::of(of));
@@ -131,6 +139,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
         required(report, root, entries, key);
     }
     let units = Some(design.units.clone()).filter(|units| !units.is_empty());
+    report.length_unit = micrometres(&design.units);
     let legs_entry = legs_entry(report, root, entries);
     let parameters = constructions::parameters(report, entries);
     let mut base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));

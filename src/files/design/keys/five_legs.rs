@@ -9,6 +9,7 @@ use super::kind::{list_of, not_negative, table, unit};
 use super::{KeyTable, TEXT, key};
 use crate::design::FiveLegs;
 use crate::design::construction::RealPoint;
+use crate::design::scale::micrometres;
 use crate::design::tree::{Node, Value, find};
 use crate::design::violation::Findings;
 use num::exact::{Rational, rational};
@@ -48,6 +49,7 @@ pub(crate) fn five_legs(root: &Node, report: &mut Findings<'_>) -> Option<FiveLe
     for key in ["name", "units"] {
         required(report, root, entries, key);
     }
+    report.length_unit = micrometres(&design.units);
     let legs = legs_entry(report, root, entries);
     let parameters = constructions::parameters(report, entries);
     let mut body = |body: Body, key: &str| {

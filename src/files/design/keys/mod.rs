@@ -10,6 +10,7 @@ mod document;
 mod envelope;
 mod five_legs;
 mod found;
+mod frames;
 mod hardware;
 mod holes;
 mod joint_models;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::constructions::{Places, is_constructed, three_quantities};
+use super::constructions::{COORDINATES, NumberKind, Places, is_constructed, three_quantities};
 use super::found::{check_keys, numbers, table};
 use super::kind::{KeyKind, own, quantities, unit, vector};
 use super::stored::{self, StoredValue, rows};
@@ -84,13 +84,17 @@ pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<(Pose, Opti
     };
     check_keys(report, entries, &POSE.names(), "[home]");
     let position = pose_position(report, node, entries, "[home]").and_then(|e| {
-        three_quantities(report, &e.node, "`position` of [home]", ("coordinate", "coordinates x, y, z"))
+        three_quantities(report, &e.node, (NumberKind::Length, "`position` of [home]"), COORDINATES)
     });
     let turned = pose_rotation(report, node, entries, "[home]");
     let (rotation, angles) = match turned? {
         e if e.key == "rpy_deg" => {
-            let read =
-                three_quantities(report, &e.node, "`rpy_deg` of [home]", ("angle", "angles in degrees"))?;
+            let read = three_quantities(
+                report,
+                &e.node,
+                (NumberKind::Plain, "`rpy_deg` of [home]"),
+                ("angle", "angles in degrees"),
+            )?;
             (Rotation3::identity(), Some(read))
         }
         e => (rotation(report, e, "[home]")?, None),

@@ -26,7 +26,7 @@ const DEFINITIONS: &str = r##"{
     "range": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"$ref": "#/$defs/number"}},
     "quantity": {
         "oneOf": [{"$ref": "#/$defs/number"}, {"type": "string", "pattern": "\\S", "maxLength": 2000}],
-        "description": "a decimal, or an expression such as \"6*sqrt(3)\": numbers, names of parameters, + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg()"
+        "description": "a decimal, or an expression such as \"6*sqrt(3)\": numbers, names of parameters, + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg(); a length may have a unit behind it, \"12/5 mm\""
     },
     "percent": {"type": "string", "pattern": "^ *[0-9.]+ *% *$"},
     "reserve": {"oneOf": [{"$ref": "#/$defs/not_negative"}, {"$ref": "#/$defs/percent"}]},

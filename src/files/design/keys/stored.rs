@@ -12,6 +12,7 @@ use machine::requirements::{
     Region, VariableKind,
 };
 use machine::rotary::Elbow;
+use platform::geom::{AngleUnit, QuaternionOrder, UpAxis};
 use platform::manipulator::Body;
 
 /// A value behind a key.
@@ -135,6 +136,7 @@ macro_rules! words {
 }
 
 words! {
+    AngleUnit: Self::BOTH, Self::name;
     Body: Self::BOTH, Self::name;
     BoltsFrom: Self::ALL, Self::name;
     CoordinatePlane: Self::ALL, Self::name;
@@ -148,7 +150,9 @@ words! {
     MassUnit: Self::ALL, Self::label;
     Objective: Self::ALL, Self::code;
     PlateMass: Self::ALL, Self::name;
+    QuaternionOrder: Self::BOTH, Self::name;
     Region: [Self::Box, Self::Ellipsoid], Self::name;
+    UpAxis: Self::BOTH, Self::name;
     VariableKind: Self::ALL, Self::code;
 }
 

@@ -19,5 +19,5 @@ mod workbook;
 pub use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
 pub use points::{InvalidPointTable, PointTable};
 pub use rig_sheet::{InvalidRigSheet, RigSheet, SheetDialect, SheetLegs};
-pub use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};
+pub use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries, read_poses, read_poses_with_lengths};
 pub use sheet::InvalidSheet;

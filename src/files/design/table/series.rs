@@ -1,11 +1,10 @@
 //! Leg lengths or poses in rows, with times.
 
-use nalgebra::{UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use super::header::plain;
 use super::sheet::{CellTable, InvalidSheet, SheetRow};
-use platform::geom::Pose;
+use platform::geom::{AngleUnit, InvalidPose, ListedFrom, Pose, PoseConvention, RotationOrder};
 
 /// Least count of numbers in a row.
 const LEAST_NUMBERS: usize = 2;
@@ -20,12 +19,17 @@ const LEGS: usize = 6;
 pub enum SeriesKind {
     /// Six leg lengths.
     Lengths,
-    /// Six angles of cranks.
+    /// Six angles of cranks, degrees.
     Angles,
-    /// Position with roll, pitch and yaw, or with a quaternion.
-    Poses,
-    /// A pose and six leg lengths after it.
-    PosesWithLengths,
+}
+
+/// What a table is read as.
+#[derive(Debug, Clone, Copy)]
+enum RowKind<'a> {
+    /// Six numbers.
+    Six(SeriesKind),
+    /// A pose, and six leg lengths after it or none.
+    Poses { stated: &'a PoseConvention, with_lengths: bool },
 }
 
 /// A row that was read.
@@ -46,23 +50,17 @@ pub struct TimeSeries<T> {
     pub time_name: Option<String>,
     /// In the order of the text; at least one.
     pub rows: Vec<SeriesRow<T>>,
-    /// Whether poses count from home: the header has surge, sway and heave.
-    pub from_home: bool,
+    /// The convention of its poses: what was stated, and what the names of columns say where nothing was.
+    pub frames: PoseConvention,
     /// The guesses, one sentence each.
     pub guesses: Vec<String>,
 }
 
-impl TimeSeries<Pose> {
-    /// The poses in the base frame, including those that [count from home](Self::from_home).
+impl<T> TimeSeries<T> {
+    /// Rows that stand in no table.
     #[must_use]
-    pub fn with_home(mut self, home: &Pose) -> Self {
-        if std::mem::take(&mut self.from_home) {
-            for row in &mut self.rows {
-                let Pose { rotation, position } = row.value;
-                row.value = Pose { rotation: rotation * home.rotation, position: position + home.position };
-            }
-        }
-        self
+    pub fn of_rows(rows: Vec<SeriesRow<T>>) -> Self {
+        Self { time_name: None, rows, frames: PoseConvention::default(), guesses: Vec::new() }
     }
 }
 
@@ -76,8 +74,11 @@ pub enum InvalidSeries {
     #[error("there is no line of numbers")]
     Empty,
     /// The names of its angles do not determine their order.
-    #[error("`{0}` may be angles in several orders, or a rotation vector")]
+    #[error("`{0}` may be angles in several orders, or a rotation vector: state the rotation order")]
     Order(String),
+    /// Columns name each axis once, and the order turns about one of them twice.
+    #[error("`{0}` names every axis once, and the rotation order {1} turns about one of them twice")]
+    Twice(String, String),
     /// Rows that cannot be read, each with its line.
     #[error("{}", quoted(.0))]
     Rows(Vec<String>),
@@ -103,21 +104,12 @@ struct SeriesColumns {
     time: Option<usize>,
     /// The columns of the values in their order; `None`: all except the time.
     values: Option<Vec<usize>>,
-    /// Columns of angles in radians.
+    /// Columns of angles in radians that are read in degrees.
     radians: Vec<usize>,
-    /// The convention of the pose columns.
-    meant: PoseNames,
+    /// The convention of the poses.
+    frames: PoseConvention,
     /// The number of named columns; 0 without names.
     named: usize,
-}
-
-/// The naming convention of pose columns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct PoseNames {
-    /// Whether the angles are the U, V, W of hexapod makers: `R = Rx(U) Ry(V) Rz(W)`.
-    uvw: bool,
-    /// Whether the positions are the surge, sway and heave of motion simulators, which count from home.
-    from_home: bool,
 }
 
 impl SeriesKind {
@@ -134,84 +126,130 @@ impl SeriesKind {
         bytes: &[u8],
         record: impl Fn(&str) -> Result<T, String>,
     ) -> Result<TimeSeries<T>, InvalidSeries> {
-        let mut sheet = match CellTable::read(bytes, LEAST_NUMBERS) {
-            Ok(sheet) => sheet,
-            Err(InvalidSheet::NoNumbers(_)) => return Err(InvalidSeries::Empty),
-            Err(why) => return Err(InvalidSeries::Sheet(why)),
-        };
-        let mut guesses = std::mem::take(&mut sheet.guesses);
-        let header = sheet.header.clone().unwrap_or_default();
-        let columns = self.columns(&header, &mut guesses)?;
-        let (mut rows, mut bad) = (Vec::new(), Vec::new());
-        for row in &sheet.rows {
-            let has_numbers = row.cells.iter().any(|c| sheet.number(c).is_some());
-            if rows.is_empty() && bad.is_empty() && !has_numbers {
-                guesses.push(format!(
-                    "Line {}, `{}`, has no numbers and is passed over.",
-                    row.line,
-                    row.cells.join(" ")
-                ));
-                continue;
-            }
-            match columns.read(&sheet, row, &record) {
-                Ok((time, value)) => rows.push(SeriesRow { line: row.line, time, value }),
-                Err(why) => bad.push(format!("line {}: {why}", row.line)),
-            }
-        }
-        if !bad.is_empty() {
-            return Err(InvalidSeries::Rows(bad));
-        }
-        if rows.is_empty() {
-            return Err(InvalidSeries::Empty);
-        }
-        let time_name = columns.time.and_then(|c| header.get(c).cloned());
-        Ok(TimeSeries { time_name, rows, from_home: columns.meant.from_home, guesses })
+        read_rows(RowKind::Six(self), bytes, |_, text| record(text))
     }
+}
 
+/// Reads a table of poses in a convention. Names of columns say what it leaves open: the order of `u, v, w`, that
+/// `surge, sway, heave` count from home, the units of angles.
+///
+/// # Errors
+/// [`InvalidSeries`].
+pub fn read_poses(
+    bytes: &[u8],
+    stated: &PoseConvention,
+    home: &Pose,
+) -> Result<TimeSeries<Pose>, InvalidSeries> {
+    read_rows(RowKind::Poses { stated, with_lengths: false }, bytes, |frames, text| {
+        frames.read_text(text, home).map_err(|why| why.to_string())
+    })
+}
+
+/// Reads a table with a pose and six leg lengths a row.
+///
+/// # Errors
+/// [`InvalidSeries`].
+pub fn read_poses_with_lengths(
+    bytes: &[u8],
+    stated: &PoseConvention,
+    home: &Pose,
+) -> Result<TimeSeries<(Pose, [f64; 6])>, InvalidSeries> {
+    read_rows(RowKind::Poses { stated, with_lengths: true }, bytes, |frames, text| {
+        let fields: Vec<&str> = text.split(',').collect();
+        if !(12..=13).contains(&fields.len()) {
+            return Err(format!("{} values instead of a pose and six lengths", fields.len()));
+        }
+        let (pose, shown) = fields.split_at(fields.len() - LEGS);
+        let pose = frames.read_text(&pose.join(","), home).map_err(|why: InvalidPose| why.to_string())?;
+        let mut lengths = [0.0; LEGS];
+        for (leg, (length, field)) in lengths.iter_mut().zip(shown).enumerate() {
+            let read = field.trim().parse().ok().filter(|x: &f64| x.is_finite());
+            *length = read.ok_or_else(|| format!("length {}, `{field}`, is not a finite number", leg + 1))?;
+        }
+        Ok((pose, lengths))
+    })
+}
+
+fn read_rows<T>(
+    kind: RowKind<'_>,
+    bytes: &[u8],
+    record: impl Fn(&PoseConvention, &str) -> Result<T, String>,
+) -> Result<TimeSeries<T>, InvalidSeries> {
+    let mut sheet = match CellTable::read(bytes, LEAST_NUMBERS) {
+        Ok(sheet) => sheet,
+        Err(InvalidSheet::NoNumbers(_)) => return Err(InvalidSeries::Empty),
+        Err(why) => return Err(InvalidSeries::Sheet(why)),
+    };
+    let mut guesses = std::mem::take(&mut sheet.guesses);
+    let header = sheet.header.clone().unwrap_or_default();
+    let columns = kind.columns(&header, &mut guesses)?;
+    let (mut rows, mut bad) = (Vec::new(), Vec::new());
+    for row in &sheet.rows {
+        let has_numbers = row.cells.iter().any(|c| sheet.number(c).is_some());
+        if rows.is_empty() && bad.is_empty() && !has_numbers {
+            guesses.push(format!(
+                "Line {}, `{}`, has no numbers and is passed over.",
+                row.line,
+                row.cells.join(" ")
+            ));
+            continue;
+        }
+        match columns.read(&sheet, row, |text| record(&columns.frames, text)) {
+            Ok((time, value)) => rows.push(SeriesRow { line: row.line, time, value }),
+            Err(why) => bad.push(format!("line {}: {why}", row.line)),
+        }
+    }
+    if !bad.is_empty() {
+        return Err(InvalidSeries::Rows(bad));
+    }
+    if rows.is_empty() {
+        return Err(InvalidSeries::Empty);
+    }
+    let time_name = columns.time.and_then(|c| header.get(c).cloned());
+    Ok(TimeSeries { time_name, rows, frames: columns.frames, guesses })
+}
+
+impl RowKind<'_> {
     fn columns(self, header: &[String], guesses: &mut Vec<String>) -> Result<SeriesColumns, InvalidSeries> {
         let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
         let time = names.iter().position(|name| is_time(name));
-        let mut meant = PoseNames::default();
+        let is_in_radians = |c: usize| angle_unit_of(&header[c]) == Some(AngleUnit::Radians);
+        let mut frames = PoseConvention::default();
+        let mut radians = Vec::new();
         let values = match self {
-            Self::Lengths => numbered_columns(&names, &LENGTH_WORDS),
-            Self::Angles => numbered_columns(&without_angle_units(&names), &ANGLE_WORDS),
-            Self::Poses => {
-                let found = pose_columns(&names, true);
-                meant = found.as_ref().map_or(meant, |(_, meant)| *meant);
-                found.map(|(columns, _)| columns)
+            Self::Six(SeriesKind::Lengths) => numbered_columns(&names, &LENGTH_WORDS),
+            Self::Six(SeriesKind::Angles) => {
+                let found = numbered_columns(&without_angle_units(&names), &ANGLE_WORDS);
+                radians.extend(found.iter().flatten().copied().filter(|c| is_in_radians(*c)));
+                found
             }
-            Self::PosesWithLengths => {
-                let lengths = numbered_columns(&names, &LENGTH_WORDS);
-                pose_columns(&names, false).zip(lengths).map(|((pose, _), lengths)| [pose, lengths].concat())
+            Self::Poses { stated, with_lengths } => {
+                frames = *stated;
+                let lengths = with_lengths.then(|| numbered_columns(&names, &LENGTH_WORDS));
+                let found = named_pose(header, &names, stated)?.filter(|_| lengths != Some(None));
+                found.map(|named| {
+                    frames = named.frames;
+                    guesses.extend(named.guesses);
+                    radians = named.radians;
+                    named.columns.into_iter().chain(lengths.flatten().into_iter().flatten()).collect()
+                })
             }
         };
-        if values.is_none() && matches!(self, Self::Poses | Self::PosesWithLengths) {
-            let unclear =
-                ["rx", "ry", "rz"].map(|name| without_angle_units(&names).iter().position(|n| n == name));
-            if let [Some(x), Some(y), Some(z)] = unclear {
-                return Err(InvalidSeries::Order([x, y, z].map(|c| header[c].as_str()).join(", ")));
-            }
-        }
-        if meant.uvw {
-            guesses
-                .push("U, V and W are turns about x, y and z in this order: R = Rx(U) Ry(V) Rz(W).".into());
-        }
-        if meant.from_home {
-            guesses.push(
-                "Surge, sway and heave count from home, along x, y and z, and so does the rotation.".into(),
-            );
-        }
         guesses.extend(time.map(|c| format!("The column `{}` holds times.", header[c])));
-        let in_radians =
-            |list: &[usize]| list.iter().copied().filter(|c| names[*c].ends_with("rad")).collect();
-        let radians: Vec<usize> = match (&values, self) {
-            (Some(list), Self::Angles) => in_radians(list),
-            (Some(list), Self::Poses) => in_radians(&list[3..]),
-            (Some(list), Self::PosesWithLengths) => in_radians(&list[3..list.len() - LEGS]),
-            _ => Vec::new(),
+        let header_says_radians = match self {
+            Self::Six(_) => !radians.is_empty(),
+            Self::Poses { .. } => {
+                let angles = values.iter().flat_map(|list| list.iter().skip(3).take(3));
+                angles.copied().any(is_in_radians)
+            }
         };
-        if !radians.is_empty() {
+        if header_says_radians {
             guesses.push("The angles are in radians, as the header says.".into());
+        }
+        if values.is_none() && !header.is_empty() && matches!(self, Self::Poses { .. }) {
+            guesses.push(
+                "The names of the columns say nothing about poses: the columns are taken in order.".into(),
+            );
         }
         let unused = (0..header.len())
             .filter(|c| Some(*c) != time && values.as_ref().is_some_and(|list| !list.contains(c)));
@@ -219,7 +257,7 @@ impl SeriesKind {
         if !unused.is_empty() {
             guesses.push(format!("These columns are not used: {}.", unused.join(", ")));
         }
-        Ok(SeriesColumns { time, values, radians, meant, named: header.len() })
+        Ok(SeriesColumns { time, values, radians, frames, named: header.len() })
     }
 }
 
@@ -247,10 +285,7 @@ impl SeriesColumns {
             Some(angle) if self.radians.contains(&c) => format!("{:?}", angle.to_degrees()),
             _ => sheet.with_point(cell(c)),
         };
-        let mut values: Vec<String> = columns.into_iter().map(value).collect();
-        if self.meant.uvw {
-            turned_xyz(&mut values)?;
-        }
+        let values: Vec<String> = columns.into_iter().map(value).collect();
         Ok((time, record(&values.join(","))?))
     }
 }
@@ -263,6 +298,17 @@ fn is_time(name: &str) -> bool {
 const LENGTH_WORDS: [&str; 3] = ["leg", "len", "l"];
 /// Column names of crank angles.
 const ANGLE_WORDS: [&str; 7] = ["crank", "angle", "motor", "servo", "theta", "alpha", "q"];
+
+/// The unit of angles at the end of a name, in brackets or not.
+fn angle_unit_of(name: &str) -> Option<AngleUnit> {
+    let letters: String = name.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
+    let ends = |words: [&str; 3]| words.iter().any(|word| letters.ends_with(word));
+    if ends(["rad", "radian", "radians"]) {
+        Some(AngleUnit::Radians)
+    } else {
+        ends(["deg", "degree", "degrees"]).then_some(AngleUnit::Degrees)
+    }
+}
 
 /// The names without angle units at their ends.
 fn without_angle_units(names: &[String]) -> Vec<String> {
@@ -295,45 +341,80 @@ fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
     words.into_iter().find_map(of)
 }
 
-/// The columns of x, y and z with those of the angles or of the quaternion; `others` allows names of other conventions.
-fn pose_columns(names: &[String], others: bool) -> Option<(Vec<usize>, PoseNames)> {
-    let names = without_angle_units(names);
-    let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
-    let usual = [
-        column(&["x", "px", "posx", "tx"]),
-        column(&["y", "py", "posy", "ty"]),
-        column(&["z", "pz", "posz", "tz"]),
-    ];
-    let from_home = [column(&["surge"]), column(&["sway"]), column(&["heave"])];
-    let angles = vec![column(&["roll"]), column(&["pitch"]), column(&["yaw"])];
-    let quaternion = vec![column(&["qw"]), column(&["qx"]), column(&["qy"]), column(&["qz"])];
-    let uvw = vec![column(&["u"]), column(&["v"]), column(&["w"])];
-    let whole = |position: [Option<usize>; 3], rotation: &[Option<usize>], meant: PoseNames| {
-        let list: Option<Vec<usize>> = position.into_iter().chain(rotation.iter().copied()).collect();
-        Some((list?, meant))
-    };
-    let plain = PoseNames::default();
-    let known = whole(usual, &angles, plain).or_else(|| whole(usual, &quaternion, plain));
-    if !others {
-        return known;
-    }
-    known
-        .or_else(|| whole(usual, &uvw, PoseNames { uvw: true, from_home: false }))
-        .or_else(|| whole(from_home, &angles, PoseNames { uvw: false, from_home: true }))
+/// The columns of poses that names tell.
+struct NamedPose {
+    /// Position, then angles or the quaternion, in the order of the convention.
+    columns: Vec<usize>,
+    /// The convention, with what the names add to it.
+    frames: PoseConvention,
+    /// Columns in radians among others in degrees.
+    radians: Vec<usize>,
+    guesses: Vec<String>,
 }
 
-/// `x, y, z, U, V, W` as `x, y, z` and the quaternion of `Rx(U) Ry(V) Rz(W)`.
-fn turned_xyz(values: &mut Vec<String>) -> Result<(), String> {
-    let number = |text: &String| text.parse::<f64>().map_err(|_| format!("`{text}` is not a number"));
-    let [u, v, w] = match &values[..] {
-        [_, _, _, u, v, w] => [number(u)?, number(v)?, number(w)?],
-        other => return Err(format!("{} values instead of six", other.len())),
+/// The columns of x, y and z with those of the angles, or of the quaternion; `None` where names tell no pose.
+///
+/// # Errors
+/// Angles in an order that neither names nor the convention tell.
+fn named_pose(
+    header: &[String],
+    names: &[String],
+    stated: &PoseConvention,
+) -> Result<Option<NamedPose>, InvalidSeries> {
+    let names = without_angle_units(names);
+    let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
+    let all = |list: [Option<usize>; 3]| -> Option<[usize; 3]> {
+        let [x, y, z] = list;
+        Some([x?, y?, z?])
     };
-    let about = |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
-    let turn = about(Vector3::x_axis(), u) * about(Vector3::y_axis(), v) * about(Vector3::z_axis(), w);
-    values.truncate(3);
-    values.extend([turn.w, turn.i, turn.j, turn.k].map(|q| format!("{q:?}")));
-    Ok(())
+    let by_words = |words: [&str; 3]| all(words.map(|word| column(&[word])));
+    let usual = [["x", "px", "posx", "tx"], ["y", "py", "posy", "ty"], ["z", "pz", "posz", "tz"]];
+    let usual = all(usual.map(|words| column(&words)));
+    let motions = by_words(["surge", "sway", "heave"]);
+    let Some(position) = usual.or(motions) else { return Ok(None) };
+    let (mut frames, mut guesses, mut radians) = (*stated, Vec::new(), Vec::new());
+    if usual.is_none() && stated.relative_to.is_none() {
+        frames.relative_to = Some(ListedFrom::Home);
+        guesses.push(
+            "Surge, sway and heave count from home, along x, y and z, and so does the rotation.".into(),
+        );
+    }
+    let mut columns = position.to_vec();
+    let quaternion = ["qw", "qx", "qy", "qz"].map(|word| column(&[word]));
+    let roll = by_words(["roll", "pitch", "yaw"]);
+    let uvw = by_words(["u", "v", "w"]);
+    let rotations = by_words(["rx", "ry", "rz"]);
+    if let (None, [Some(w), Some(x), Some(y), Some(z)]) = (roll, quaternion) {
+        columns.extend(frames.quaternion_order().written([w, x, y, z]));
+        return Ok(Some(NamedPose { columns, frames, radians, guesses }));
+    }
+    let Some(about) = roll.or(uvw).or(rotations) else { return Ok(None) };
+    let shown = || about.map(|c| header[c].as_str()).join(", ");
+    if stated.rotation_order.is_none() {
+        if roll.is_none() && uvw.is_some() {
+            frames.rotation_order = Some(RotationOrder::MOVING_XYZ);
+            guesses
+                .push("U, V and W are turns about x, y and z in this order: R = Rx(U) Ry(V) Rz(W).".into());
+        } else if roll.is_none() {
+            return Err(InvalidSeries::Order(shown()));
+        }
+    }
+    let order = frames.order();
+    let places = order.places().ok_or_else(|| InvalidSeries::Twice(shown(), order.to_string()))?;
+    let mut written = about;
+    for (axis, place) in places.into_iter().enumerate() {
+        written[place] = about[axis];
+    }
+    let unit = |c: usize| angle_unit_of(&header[c]).unwrap_or(frames.angle_unit());
+    let units = written.map(unit);
+    // columns of several units are read in degrees
+    let one = if units.iter().all(|unit| *unit == units[0]) { units[0] } else { AngleUnit::Degrees };
+    if one == AngleUnit::Degrees {
+        radians.extend(written.into_iter().filter(|c| unit(*c) == AngleUnit::Radians));
+    }
+    frames.angles = Some(one).filter(|one| stated.angles.is_some() || *one != AngleUnit::default());
+    columns.extend(written);
+    Ok(Some(NamedPose { columns, frames, radians, guesses }))
 }
 
 #[cfg(test)]
@@ -375,21 +456,58 @@ mod tests {
         }
     }
 
+    fn home() -> Pose {
+        Pose::new([1.0, 2.0, 300.0], platform::geom::Angles::from_degrees([0.0, 0.0, 30.0]))
+    }
+
+    fn poses(text: &str, stated: &PoseConvention) -> TimeSeries<Pose> {
+        read_poses(text.as_bytes(), stated, &home()).unwrap_or_else(|why| panic!("{why}\n{text}"))
+    }
+
+    fn usual(text: &str) -> TimeSeries<Pose> {
+        poses(text, &PoseConvention::default())
+    }
+
     #[test]
     fn conventions_of_makers_are_taken_by_their_names_or_refused() {
-        let found = read(SeriesKind::Poses, "X,Y,Z,U,V,W\n0,0,650,5,3,10\n");
-        assert!(found.guesses.iter().any(|g| g.contains("Rx(U) Ry(V) Rz(W)")) && !found.from_home);
-        let [_, _, z, w, i, j, k] = found.rows[0].value[..] else { panic!("{:?}", found.rows) };
+        let found = usual("X,Y,Z,U,V,W\n0,0,650,5,3,10\n");
+        assert!(found.guesses.iter().any(|g| g.contains("Rx(U) Ry(V) Rz(W)")));
+        assert_eq!(found.frames.order(), RotationOrder::MOVING_XYZ);
         // the rotation about the platform's own z comes first, that about x last: the column of Rx(U) Ry(V) is its z
         // axis
-        let turned = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, i, j, k)) * Vector3::z();
         let (u, v) = (5.0_f64.to_radians(), 3.0_f64.to_radians());
-        let meant = Vector3::new(v.sin(), -u.sin() * v.cos(), u.cos() * v.cos());
-        assert!((turned - meant).norm() < 1e-15 && z.to_bits() == 650.0_f64.to_bits());
-        let home = read(SeriesKind::Poses, "surge,sway,heave,roll,pitch,yaw\n0,0,0,5,3,10\n");
-        assert!(home.from_home && home.guesses.iter().any(|g| g.contains("count from home")));
-        let unclear = SeriesKind::Poses.read(b"x,y,z,rx,ry,rz\n1,2,3,4,5,6\n", numbers);
+        let meant = [v.sin(), -u.sin() * v.cos(), u.cos() * v.cos()];
+        let pose = found.rows[0].value;
+        assert!((0..3).all(|k| (pose.rotation.matrix()[(k, 2)] - meant[k]).abs() < 1e-15));
+        assert_eq!(pose.position.z.to_bits(), 650.0_f64.to_bits());
+        let moved = usual("surge,sway,heave,roll,pitch,yaw\n0,0,0,0,0,0\n");
+        assert!(moved.guesses.iter().any(|g| g.contains("count from home")));
+        assert_eq!((moved.rows[0].value, moved.frames.measured_from()), (home(), ListedFrom::Home));
+        let text = "x,y,z,rx,ry,rz\n1,2,3,4,5,6\n";
+        let unclear = read_poses(text.as_bytes(), &PoseConvention::default(), &home());
         assert!(matches!(unclear, Err(InvalidSeries::Order(names)) if names == "rx, ry, rz"));
+    }
+
+    #[test]
+    fn an_order_that_is_stated_holds_for_columns_of_every_name() {
+        let stated =
+            |order: &str| PoseConvention { rotation_order: order.parse().ok(), ..Default::default() };
+        let table = |names: &str| format!("x,y,z,{names}\n1,2,3,4,5,6\n");
+        // named columns are turns about x, y and z, whatever comes first; those without names stand in the order
+        for (order, plain) in [("moving-zyx", "6,5,4"), ("fixed-yzx", "5,6,4"), ("vector", "4,5,6")] {
+            let convention = stated(order);
+            let meant = convention.read_text(&format!("1,2,3,{plain}"), &home()).unwrap();
+            for names in ["roll,pitch,yaw", "u,v,w", "rx_deg,ry_deg,rz_deg"] {
+                let found = poses(&table(names), &convention);
+                assert_eq!(found.rows[0].value, meant, "{order} {names}");
+                assert!(!found.guesses.iter().any(|g| g.contains("Rx(U)")));
+            }
+            assert_eq!(poses(&format!("1,2,3,{plain}\n"), &convention).rows[0].value, meant);
+        }
+        let twice = read_poses(table("rx,ry,rz").as_bytes(), &stated("moving-zxz"), &home());
+        assert!(matches!(twice, Err(InvalidSeries::Twice(..))), "{twice:?}");
+        let unnamed = poses(&table("alpha,beta,gamma"), &stated("moving-zxz"));
+        assert!(unnamed.guesses.iter().any(|g| g.contains("taken in order")), "{:?}", unnamed.guesses);
     }
 
     #[test]
@@ -409,30 +527,38 @@ mod tests {
 
     #[test]
     fn poses_are_read_by_their_names() {
-        let found =
-            read(SeriesKind::Poses, "time,yaw_rad,pitch_rad,roll_rad,x_mm,y_mm,z_mm\n1,0,0,1,10,20,30\n");
-        assert_eq!(found.rows[0].value, [10.0, 20.0, 30.0, 1f64.to_degrees(), 0.0, 0.0]);
+        let found = usual("time,yaw_rad,pitch_rad,roll_rad,x_mm,y_mm,z_mm\n1,0,0,1,10,20,30\n");
+        let meant = Pose::new([10.0, 20.0, 30.0], platform::geom::Angles::from_radians([1.0, 0.0, 0.0]));
+        assert_eq!((found.rows[0].value, found.frames.angles), (meant, Some(AngleUnit::Radians)));
         assert!(found.guesses.iter().any(|g| g.contains("radians")), "{:?}", found.guesses);
-        let found = read(SeriesKind::Poses, "qw,qx,qy,qz,x,y,z,note\n1,0,0,0,10,20,30,\"a, b\"\n");
-        assert_eq!(found.rows[0].value, [10.0, 20.0, 30.0, 1.0, 0.0, 0.0, 0.0]);
-        assert!(found.guesses.iter().any(|g| g.contains("`note`")), "{:?}", found.guesses);
+        assert_eq!(usual("x,y,z,roll [rad],pitch [rad],yaw [rad]\n10,20,30,1,0,0\n").rows[0].value, meant);
+        let mixed = usual("x,y,z,roll_rad,pitch_deg,yaw\n10,20,30,1,0,0\n");
+        assert_eq!(mixed.rows[0].value, meant);
+        let radians = PoseConvention { angles: Some(AngleUnit::Radians), ..PoseConvention::default() };
+        assert_eq!(poses("x,y,z,roll,pitch,yaw\n10,20,30,1,0,0\n", &radians).rows[0].value, meant);
+        let degrees = poses("x,y,z,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,90\n", &radians).rows[0].value;
+        assert!((degrees.angles().degrees()[2] - 90.0).abs() < 1e-12, "the header says the unit");
+        for order in platform::geom::QuaternionOrder::BOTH {
+            let convention = PoseConvention { quaternion: Some(order), ..PoseConvention::default() };
+            let found = poses("qw,qx,qy,qz,x,y,z,note\n0,1,0,0,10,20,30,\"a, b\"\n", &convention);
+            assert_eq!(found.rows[0].value.quaternion(), [0.0, 1.0, 0.0, 0.0]);
+            assert!(found.guesses.iter().any(|g| g.contains("`note`")), "{:?}", found.guesses);
+        }
     }
 
     #[test]
     fn poses_with_lengths_are_read_by_names_and_by_places() {
-        let numbers = |text: &str| -> Result<Vec<f64>, String> {
-            text.split(',').map(|f| f.parse().map_err(|_| format!("`{f}` is not a number"))).collect()
-        };
         let read = |text: &str| {
-            let kind = SeriesKind::PosesWithLengths;
-            kind.read(text.as_bytes(), numbers).unwrap_or_else(|why| panic!("{why}")).rows.remove(0).value
+            let stated = PoseConvention::default();
+            let table = read_poses_with_lengths(text.as_bytes(), &stated, &home());
+            table.unwrap_or_else(|why| panic!("{why}")).rows.remove(0).value
         };
-        let meant = [10.0, 20.0, 30.0, 1f64.to_degrees(), 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let pose = Pose::new([10.0, 20.0, 30.0], platform::geom::Angles::from_radians([1.0, 0.0, 0.0]));
         let named = "l6,l5,l4,l3,l2,l1,time,yaw_rad,pitch_rad,roll_rad,x_mm,y_mm,z_mm\n6,5,4,3,2,1,9,0,0,1,10,20,30\n";
-        assert_eq!(read(named), meant);
-        assert_eq!(read("1,2,3,4,5,6,7,8,9,10,11,12\n").len(), 12);
+        assert_eq!(read(named), (pose, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+        assert_eq!(read("1,2,3,4,5,6,7,8,9,10,11,12\n").1, [7.0, 8.0, 9.0, 10.0, 11.0, 12.0]);
         let quaternion = "x,y,z,qw,qx,qy,qz,leg_1,leg_2,leg_3,leg_4,leg_5,leg_6\n1,2,3,1,0,0,0,4,5,6,7,8,9\n";
-        assert_eq!(read(quaternion), [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        assert_eq!(read(quaternion).1, [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
     }
 
     #[test]

@@ -241,7 +241,12 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
             continue;
         }
         let mut vector = |far: f64| Vector3::from_fn(|_, _| rng.uniform(-far, far));
-        let mixed = StraightWay { start, velocity: vector(export.size), turn: vector(1.0) };
+        let mixed = StraightWay {
+            start,
+            velocity: vector(export.size),
+            turn: vector(1.0),
+            pivot: nalgebra::Vector3::zeros(),
+        };
         let far = |axis: PoseAxis| if axis.is_turn() { 1.0 } else { export.size };
         let axes = PoseAxis::ALL.map(|axis| (StraightWay::axis(&start, axis), far(axis)));
         for (way, mut most) in axes.into_iter().chain([(mixed, 1.0)]) {

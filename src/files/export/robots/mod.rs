@@ -1,8 +1,9 @@
 //! Models of robots for Gazebo (SDF) and ROS (URDF): six legs of universal joint, slide and ball joint. SDF closes the
 //! loops, URDF cannot.
 //!
-//! Both have one frame a link: the cylinder of a leg has its origin in the base joint and its third axis along the leg,
-//! the rod has its origin in the platform joint and the same axes, and base and platform have the frames of the design.
+//! Each link has one frame. The frame of a cylinder has its origin in the base joint and its third axis along the leg.
+//! The frame of a rod has its origin in the platform joint and the same axes. Base and platform have the frames of the
+//! design.
 
 mod sdf;
 mod urdf;
@@ -26,10 +27,10 @@ const PLATFORM_COLOUR: &str = "0.16 0.42 0.66 1";
 const CYLINDER_COLOUR: &str = "0.25 0.25 0.28 1";
 const ROD_COLOUR: &str = "0.75 0.75 0.78 1";
 
-/// Slides reach this share of the length at home either way where the design has no limits of lengths.
+/// Range of a slide in each direction, as a share of the length at home, if the design does not limit the lengths.
 const REACH: f64 = 0.5;
 
-/// A shape to look at, metres, in the frame of its link.
+/// A visible shape, metres, in the frame of its link.
 struct Shape {
     kind: ShapeKind,
     at: Pose,
@@ -40,14 +41,14 @@ enum ShapeKind {
     Sphere {
         radius: f64,
     },
-    /// Along the third axis, the origin in the middle.
+    /// A cylinder along the third axis with the origin in its middle.
     Cylinder {
         radius: f64,
         length: f64,
     },
 }
 
-/// `inner` in the frame `outer`, both in one frame.
+/// The pose `inner` relative to the pose `outer`, both given in the same frame.
 fn seen_from(outer: &Pose, inner: &Pose) -> Pose {
     let back = outer.rotation.inverse();
     Pose { rotation: back * inner.rotation, position: back * (inner.position - outer.position) }
@@ -75,11 +76,11 @@ struct Robot {
     base: RobotLink,
     platform: RobotLink,
     legs: Vec<RobotLeg>,
-    /// Greatest force of a drive, newtons, where the design limits it.
+    /// Greatest force of a drive, newtons; `None` if the design does not limit it.
     effort: Option<f64>,
     /// Whether gravity acts on the links.
     weighs: bool,
-    /// A body with next to no mass.
+    /// Mass and inertia, close to zero, of links without material.
     nothing: Solid,
     heading: String,
 }

@@ -12,7 +12,7 @@ use platform::geom::Pose;
 #[derive(Debug)]
 pub(in crate::export) struct Sdf;
 
-/// Words about this kind of model for its comment.
+/// Text about this kind of model for the comment in the file.
 const ABOUT: &str = "The joints ball2 to ball6 close the loops: Gazebo Classic simulates them; Gazebo with DART loads a tree and leaves them out.";
 
 impl Writer for Sdf {

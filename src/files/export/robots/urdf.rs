@@ -1,4 +1,4 @@
-//! URDF, the format of ROS: a tree, whose loops another program has to close.
+//! URDF, the format of ROS: a tree of links; another program must close the loops.
 
 use std::fmt::Write as _;
 
@@ -13,10 +13,10 @@ use platform::geom::Pose;
 #[derive(Debug)]
 pub(in crate::export) struct Urdf;
 
-/// Words about this kind of model for its comment.
+/// Text about this kind of model for the comment in the file.
 const ABOUT: &str = "URDF has trees only: the platform hangs on leg 1, and each other leg ends in a link closure2 to closure6.\n  The loops are closed where the frames of these links are that of the platform, as they are at home; weld them where a simulator can.\n  A ball joint is three hinges about axes through its centre.";
 
-/// Efforts and speeds that the design does not limit: URDF wants a number.
+/// Value for efforts and speeds that the design does not limit, since URDF requires a number.
 const UNLIMITED: f64 = 1e9;
 
 impl Writer for Urdf {
@@ -76,7 +76,8 @@ fn link(out: &mut String, name: &str, mass: Option<&Solid>, shapes: &[Shape]) {
     out.push_str("  </link>\n");
 }
 
-/// A joint: its kind, its name, parent and child, the frame of the child in that of the parent, and what follows.
+/// A joint: its kind, its name, parent and child, the frame of the child in the frame of the parent, and its further
+/// elements.
 fn joint(out: &mut String, (kind, name): (&str, &str), [parent, child]: [&str; 2], at: &Pose, rest: &str) {
     let _ = writeln!(
         out,

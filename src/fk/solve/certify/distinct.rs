@@ -58,13 +58,22 @@ fn coordinate(c: &Certificate, j: usize) -> WideDisc {
 
 /// The coordinates of the root of `inner` in `unit`, divided by the one of the patch. `None` when that one may vanish.
 fn on_patch(inner: &Certificate, patch: usize, unit: f64) -> Option<[WideDisc; 8]> {
+    carried(|j| coordinate(inner, j), (inner.patch, inner.unit), (patch, unit))
+}
+
+/// Coordinates on one patch in one unit as those on another patch in another unit.
+fn carried(
+    coordinate: impl Fn(usize) -> WideDisc,
+    (from, own): (usize, f64),
+    (patch, unit): (usize, f64),
+) -> Option<[WideDisc; 8]> {
     // both units are powers of two: products with their ratio are exact
-    let ratio = inner.unit / unit;
-    let disc = |j: usize| coordinate(inner, j).scaled(if j < 4 { 1.0 } else { ratio });
+    let ratio = own / unit;
+    let disc = |j: usize| coordinate(j).scaled(if j < 4 { 1.0 } else { ratio });
     if !ratio.is_normal() {
         return None;
     }
-    if inner.patch == patch {
+    if from == patch {
         return Some(std::array::from_fn(disc));
     }
     let factor = disc(patch).reciprocal()?;
@@ -74,6 +83,23 @@ fn on_patch(inner: &Certificate, patch: usize, unit: f64) -> Option<[WideDisc; 8
 /// Proves that `x` is not the root of `outer`.
 fn is_apart(x: &[WideDisc; 8], outer: &Certificate) -> bool {
     (0..8).filter(|j| *j != outer.patch).any(|j| x[j].is_disjoint(&coordinate(outer, j)))
+}
+
+/// Proves that the root of `inner`, for every choice of its data, lies where that of `outer` is the only one. The data
+/// of both may differ.
+pub(crate) fn is_captured_by(inner: &Certificate, outer: &Certificate) -> bool {
+    on_patch(inner, outer.patch, outer.unit).is_some_and(|x| is_captured(&x, outer))
+}
+
+/// Proves that the roots of the cluster `inner`, for every choice of its data, lie where those of `outer` are the only
+/// ones. The data of both may differ.
+pub(crate) fn cluster_is_captured_by(inner: &ClusterCertificate, outer: &ClusterCertificate) -> bool {
+    let of =
+        |c: &ClusterCertificate, j: usize, radius: f64| WideDisc::about(c.centre()[j], c.low()[j], radius);
+    let disc = |j: usize| of(inner, j, if j == inner.patch() { 0.0 } else { inner.radius() });
+    let (patch, radius) = (outer.patch(), outer.uniqueness_radius());
+    carried(disc, (inner.patch(), inner.unit()), (patch, outer.unit()))
+        .is_some_and(|x| lies_within(&x, patch, radius, |j| of(outer, j, 0.0)))
 }
 
 /// Proves that `x` lies in the uniqueness ball of `outer`.

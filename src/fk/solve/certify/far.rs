@@ -17,8 +17,30 @@
 //! `docs/theory/completeness.md`): `M` gives `e`, the first two lines give `alpha, beta, gamma`, the third gives `rho`.
 //! A regular zero is thus an isolated common point of the six legs, and different zeros are different points.
 //!
-//! The proof is Krawczyk's: `K = x - Y F(x) + (I - Y F'(X)) (X - x)` inside `X`, with `F(x)` in discs about
-//! double-doubles and `F'(X)` in discs about doubles.
+//! **The proof.** Six legs and the patch are regular far out although the eight equations may have double zeros: a
+//! common point at infinity of a butterfly is double, and rounded joints make two zeros of it that doubles do not tell
+//! apart. So the seven equations are followed as a curve and the last one, `q = gamma^2 - rho h`, is looked at on it.
+//! With a unit direction `d`, `Y` an approximate inverse of the Jacobian `G'` at a centre `c` with the row `d^*` in the
+//! place of `q'`, and `Y e_6 = d`:
+//!
+//! ```text
+//! G_t(x) = (legs, d^* (x - c) - t, patch),    x = c + d t + y,
+//! |y_k| <= R_k,    X = c + d [|t| <= tau] + [|y| <= R],
+//! |Y G_0(c)|_k + sum over j of |I - Y G'(X)|_kj (|d_j| tau + R_j) < R_k.
+//! ```
+//!
+//! 1. The left side bounds Krawczyk's operator of `G_t` for every complex `t` with `|t| <= tau`, because
+//!    `Y G_t(c + d t) = Y G_0(c) - (I - Y G') d t` with the mean value of `G'`. So there is exactly one `y(t)`, and it
+//!    is analytic in `t`.
+//! 2. `q(c + d t)` is a polynomial `p_0 + .. + p_3 t^3`, and `q(x(t))` differs from it by a remainder that `R` bounds.
+//!    If `|p_m| tau^m` is larger than this remainder and all other terms, `q(x(t))` has exactly `m` zeros with
+//!    `|t| < tau` by Rouche's theorem.
+//! 3. The curve is smooth with the parameter `t`, so that the multiplicity of a zero is the length of the local ring of
+//!    the eight equations, and that of the six legs on the closure of the group. The closure is a hypersurface in the
+//!    seven coordinates here, a complete intersection, where that length is the intersection number (Fulton 1984,
+//!    proposition 7.1).
+//!
+//! `G_0(c)` and the `p_k` are in discs about double-doubles, `G'(X)` in discs about doubles.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -26,8 +48,8 @@ use nalgebra::{SMatrix, SVector};
 use num_complex::Complex64;
 
 use super::system::SquareData;
-use num::ball::{Disc, UP, WideDisc};
-use num::double_double::{ComplexDoubleDouble, DoubleDouble};
+use num::ball::{Disc, TINY, UP, WideDisc};
+use num::double_double::DoubleDouble;
 use num::rounding::check_arithmetic;
 use platform::manipulator::{Body, Manipulator};
 
@@ -45,38 +67,78 @@ pub(crate) const D: [f64; 3] = [-0.375, 0.875, 0.5];
 /// The patch `l`.
 pub(crate) const PATCH: [f64; 4] = [0.375, 0.8125, -0.6875, 0.53125];
 /// Entries of `R` of a far pose are at least this large: those of real poses are at most one.
-const FAR: f64 = 1e2;
-/// Newton steps from a start.
-const STEPS: usize = 40;
-/// A step below this, relative, is the last one: values are in double-double.
-const SETTLED: f64 = 1e-22;
+const FAR: f64 = 4.0;
+/// Newton steps onto the curve.
+const STEPS: usize = 5;
+/// Zeros on the curve farther than this from the start belong to other starts.
+const REACH: f64 = 0.1;
+/// Two zeros closer than this are tried as a pair.
+const CLOSE: f64 = 1e-2;
+/// Discs of the parameter that are tried about a single zero: the first ones suffice for most.
+const RADII: [f64; 6] = [1e-8, 1e-6, 1e-10, 1e-12, 1e-14, 1e-4];
+/// The smallest and the largest disc about two zeros, and how the ones between follow each other.
+const PAIR_RADII: [f64; 3] = [1e-9, 1e-2, 32.0];
+/// How often a polydisc is widened before it is given up.
+const WIDENED: usize = 4;
 
-/// A number of the equations: a disc, or a disc with its derivatives.
+/// Numbers of the equations.
 trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    fn real(middle: DoubleDouble, radius: f64) -> Self;
+    fn of(x: f64) -> Self;
+    fn wide(x: WideDisc) -> Self;
+    fn scaled(self, x: f64) -> Self;
+}
+
+impl Ring for Complex64 {
     fn of(x: f64) -> Self {
-        Self::real(DoubleDouble::from(x), 0.0)
+        Self::from(x)
+    }
+    fn wide(x: WideDisc) -> Self {
+        x.centre.hi()
+    }
+    fn scaled(self, x: f64) -> Self {
+        self * x
+    }
+}
+
+impl Ring for Disc {
+    fn of(x: f64) -> Self {
+        Self::point(Complex64::from(x))
+    }
+    fn wide(x: WideDisc) -> Self {
+        x.rounded()
+    }
+    fn scaled(self, x: f64) -> Self {
+        self * Self::of(x)
     }
 }
 
 impl Ring for WideDisc {
-    fn real(middle: DoubleDouble, radius: f64) -> Self {
-        Self { centre: ComplexDoubleDouble { re: middle, im: DoubleDouble::ZERO }, radius }
+    fn of(x: f64) -> Self {
+        Self::about(Complex64::from(x), Complex64::ZERO, 0.0)
+    }
+    fn wide(x: WideDisc) -> Self {
+        x
+    }
+    fn scaled(self, x: f64) -> Self {
+        self * Self::of(x)
     }
 }
 
-/// A disc and its derivatives by the unknowns.
+/// A number and its derivatives by the unknowns.
 #[derive(Clone, Copy)]
-struct Dual {
-    value: Disc,
-    by: [Disc; N],
+struct Dual<T> {
+    value: T,
+    by: [T; N],
 }
 
-fn zero() -> Disc {
-    Disc::point(Complex64::ZERO)
+impl<T: Ring> Dual<T> {
+    /// Unknown `k`.
+    fn unknown(value: T, k: usize) -> Self {
+        Self { value, by: std::array::from_fn(|j| T::of(if j == k { 1.0 } else { 0.0 })) }
+    }
 }
 
-impl Add for Dual {
+impl<T: Ring> Add for Dual<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         let by = std::array::from_fn(|k| self.by[k] + other.by[k]);
@@ -84,7 +146,7 @@ impl Add for Dual {
     }
 }
 
-impl Sub for Dual {
+impl<T: Ring> Sub for Dual<T> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         let by = std::array::from_fn(|k| self.by[k] - other.by[k]);
@@ -92,7 +154,7 @@ impl Sub for Dual {
     }
 }
 
-impl Mul for Dual {
+impl<T: Ring> Mul for Dual<T> {
     type Output = Self;
     #[allow(clippy::suspicious_arithmetic_impl)] // the product rule
     fn mul(self, other: Self) -> Self {
@@ -101,9 +163,15 @@ impl Mul for Dual {
     }
 }
 
-impl Ring for Dual {
-    fn real(middle: DoubleDouble, radius: f64) -> Self {
-        Self { value: WideDisc::real(middle, radius).rounded(), by: [zero(); N] }
+impl<T: Ring> Ring for Dual<T> {
+    fn of(x: f64) -> Self {
+        Self { value: T::of(x), by: [T::of(0.0); N] }
+    }
+    fn wide(x: WideDisc) -> Self {
+        Self { value: T::wide(x), by: [T::of(0.0); N] }
+    }
+    fn scaled(self, x: f64) -> Self {
+        Self { value: self.value.scaled(x), by: self.by.map(|z| z.scaled(x)) }
     }
 }
 
@@ -114,25 +182,26 @@ fn norm<T: Ring>(e: &[T]) -> T {
 
 /// `e.e R(e)`.
 fn matrix<T: Ring>(e: &[T]) -> [[T; 3]; 3] {
-    let two = T::of(2.0);
     let (ww, xx, yy, zz) = (e[0] * e[0], e[1] * e[1], e[2] * e[2], e[3] * e[3]);
     let (wx, wy, wz) = (e[0] * e[1], e[0] * e[2], e[0] * e[3]);
     let (xy, xz, yz) = (e[1] * e[2], e[1] * e[3], e[2] * e[3]);
     [
-        [ww + xx - yy - zz, two * (xy - wz), two * (xz + wy)],
-        [two * (xy + wz), ww - xx + yy - zz, two * (yz - wx)],
-        [two * (xz - wy), two * (yz + wx), ww - xx - yy + zz],
+        [ww + xx - yy - zz, (xy - wz).scaled(2.0), (xz + wy).scaled(2.0)],
+        [(xy + wz).scaled(2.0), ww - xx + yy - zz, (yz - wx).scaled(2.0)],
+        [(xz - wy).scaled(2.0), (yz + wx).scaled(2.0), ww - xx - yy + zz],
     ]
 }
 
-fn dot<T: Ring>(x: &[T; 3], y: &[T; 3]) -> T {
-    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+/// Product with a constant vector.
+fn dot<T: Ring>(x: [T; 3], c: [f64; 3]) -> T {
+    x[0].scaled(c[0]) + x[1].scaled(c[1]) + x[2].scaled(c[2])
 }
 
-fn cross<T: Ring>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
+/// `x` times a constant vector.
+fn cross<T: Ring>(x: [T; 3], c: [f64; 3]) -> [T; 3] {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        x[j] * y[k] - x[k] * y[j]
+        x[j].scaled(c[k]) - x[k].scaled(c[j])
     })
 }
 
@@ -140,27 +209,67 @@ fn cross<T: Ring>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
 pub(crate) struct FarSystem {
     a: [[f64; 3]; 6],
     b: [[f64; 3]; 6],
-    s: [DoubleDouble; 6],
-    s_radius: [f64; 6],
+    /// `a.a + b.b - s`.
+    constant: [WideDisc; 6],
 }
 
-/// A proved common point of the six legs far out: there is exactly one zero in the polydisc.
+/// Proved common points of the six legs far out: so many zeros, counted with multiplicity, in a polydisc.
 #[derive(Debug, Clone)]
-pub(crate) struct FarRoot {
-    discs: [WideDisc; N],
-    /// Lower bound of the largest entry of `R`; infinite at infinity.
+pub(crate) struct FarRoots {
+    discs: [Disc; N],
+    /// One or two.
+    pub(crate) multiplicity: usize,
+    /// Lower bound of the largest entry of `R`.
     pub(crate) rotation: f64,
+    /// Upper bound of the same, infinite where a zero may be at infinity.
+    pub(crate) rotation_at_most: f64,
 }
 
-impl FarRoot {
-    /// The nearest doubles to the middle.
-    pub(crate) fn centre(&self) -> FarPoint {
-        std::array::from_fn(|k| self.discs[k].centre.hi())
-    }
-
-    /// Whether two zeros are proved to be different.
+impl FarRoots {
+    /// Whether the zeros of both are proved to be different.
     pub(crate) fn is_apart(&self, other: &Self) -> bool {
         self.discs.iter().zip(&other.discs).any(|(x, y)| x.is_disjoint(y))
+    }
+
+    /// The conjugate zeros: the equations are real.
+    pub(crate) fn conjugate(&self) -> Self {
+        let discs = self.discs.map(|d| Disc { centre: d.centre.conj(), radius: d.radius });
+        Self { discs, ..*self }
+    }
+}
+
+/// A point of the curve of the legs, the row in the place of `q'`, `Y`, and its column `d`.
+struct Curve {
+    point: Vector,
+    row: [Complex64; N],
+    inverse: Matrix,
+    direction: Vector,
+}
+
+/// `p_0 .. p_3` of the module's text, at `x` along `d`.
+fn quadric<T: Ring>(x: &[T; N], d: &[T; N]) -> [T; 4] {
+    let product = |u: &[T; N], v: &[T; N]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2] + u[3] * v[3];
+    let h = [product(x, x), product(x, d).scaled(2.0), product(d, d)];
+    [
+        x[6] * x[6] - x[7] * h[0],
+        (x[6] * d[6]).scaled(2.0) - x[7] * h[1] - d[7] * h[0],
+        d[6] * d[6] - x[7] * h[2] - d[7] * h[1],
+        T::of(0.0) - d[7] * h[2],
+    ]
+}
+
+impl Curve {
+    /// The parameters at which the last equation vanishes, up to the term of third order; the smaller one first.
+    fn zeros(&self) -> [Complex64; 2] {
+        let [x, d]: [FarPoint; 2] = [self.point.into(), self.direction.into()];
+        let [c, slope, bend, _] = quadric(&x, &d);
+        let root = (slope * slope - bend * c * 4.0).sqrt();
+        let larger = if (slope + root).norm() > (slope - root).norm() { slope + root } else { slope - root };
+        [-c * 2.0 / larger, -larger / (bend * 2.0)]
+    }
+
+    fn at(&self, t: Complex64) -> FarPoint {
+        std::array::from_fn(|k| self.point[k] + self.direction[k] * t)
     }
 }
 
@@ -174,151 +283,215 @@ impl FarSystem {
         let unit = super::system::power_of_two_below(m.size());
         let inverse = unit.recip();
         let (mut a, mut b) = ([[0.0; 3]; 6], [[0.0; 3]; 6]);
+        let mut constant = [WideDisc::of(0.0); 6];
         for (i, leg) in m.legs().iter().enumerate() {
             a[i] = super::system::scale_point(leg.base.coords.into(), inverse)?;
             b[i] = super::system::scale_point(leg.platform.coords.into(), inverse)?;
-        }
-        let square = inverse * inverse;
-        let mut middle = s.middle;
-        for x in &mut middle {
-            let (hi, lo) = (
-                super::system::exact_product(x.hi(), square)?,
-                super::system::exact_product(x.lo(), square)?,
+            let square = inverse * inverse;
+            let [hi, lo] = [s.middle[i].hi(), s.middle[i].lo()];
+            let middle = DoubleDouble::from_sum(
+                super::system::exact_product(hi, square)?,
+                super::system::exact_product(lo, square)?,
             );
-            *x = DoubleDouble::from_sum(hi, lo);
+            let s = WideDisc {
+                centre: num::double_double::ComplexDoubleDouble { re: middle, im: DoubleDouble::ZERO },
+                radius: super::system::scaled_radius(s.radius[i], square),
+            };
+            constant[i] = dot(a[i].map(WideDisc::of), a[i]) + dot(b[i].map(WideDisc::of), b[i]) - s;
         }
-        Some(Self { a, b, s: middle, s_radius: s.radius.map(|r| super::system::scaled_radius(r, square)) })
+        Some(Self { a, b, constant })
     }
 
     fn values<T: Ring>(&self, x: &[T; N]) -> [T; N] {
         let (e, [alpha, beta, gamma, rho]) = (&x[..4], [x[4], x[5], x[6], x[7]]);
-        let (c, d, two) = (C.map(T::of), D.map(T::of), T::of(2.0));
         let (h, m) = (norm(e), matrix(e));
-        let mc: [T; 3] = std::array::from_fn(|i| dot(&m[i], &c));
-        let md: [T; 3] = std::array::from_fn(|j| dot(&[m[0][j], m[1][j], m[2][j]], &d));
-        let (k, across, back) = (dot(&mc, &d), cross(&mc, &d), cross(&c, &md));
-        let y: [T; 3] = std::array::from_fn(|i| alpha * mc[i] + beta * h * d[i] + gamma * across[i]);
-        let q: [T; 3] = std::array::from_fn(|i| alpha * h * c[i] + beta * md[i] + gamma * back[i]);
-        let (cc, dd) = (dot(&c, &c), dot(&d, &d));
-        let square = h * (alpha * alpha * cc + beta * beta * dd + gamma * gamma * cc * dd)
-            + two * alpha * beta * k
-            - rho * k * k;
+        let mc: [T; 3] = std::array::from_fn(|i| dot(m[i], C));
+        let md: [T; 3] = std::array::from_fn(|j| dot([m[0][j], m[1][j], m[2][j]], D));
+        // c x M^T c' is the cross product with the constant on the left
+        let (k, across, back) = (dot(mc, D), cross(mc, D), cross(md, C.map(|z| -z)));
+        let (alpha_h, beta_h) = (alpha * h, beta * h);
+        let y: [T; 3] = std::array::from_fn(|i| alpha * mc[i] + beta_h.scaled(D[i]) + gamma * across[i]);
+        let q: [T; 3] = std::array::from_fn(|i| alpha_h.scaled(C[i]) + beta * md[i] + gamma * back[i]);
+        let [cc, dd] = [C, D].map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        let square = alpha_h * alpha.scaled(cc)
+            + beta_h * beta.scaled(dd)
+            + h * gamma * gamma.scaled(cc * dd)
+            + ((alpha * beta).scaled(2.0) - rho * k) * k;
         std::array::from_fn(|i| match i {
             0..6 => {
-                let (a, b) = (self.a[i].map(T::of), self.b[i].map(T::of));
-                let mb: [T; 3] = std::array::from_fn(|j| dot(&m[j], &b));
-                let constant = dot(&a, &a) + dot(&b, &b) - T::real(self.s[i], self.s_radius[i]);
-                constant * h + square + two * (dot(&b, &q) - dot(&a, &y) - dot(&a, &mb))
+                let (a, b) = (self.a[i], self.b[i]);
+                let mb: [T; 3] = std::array::from_fn(|j| dot(m[j], b) + y[j]);
+                T::wide(self.constant[i]) * h + square + (dot(q, b) - dot(mb, a)).scaled(2.0)
             }
             6 => gamma * gamma - rho * h,
-            _ => (0..4).fold(T::of(-1.0), |sum, j| sum + T::of(PATCH[j]) * e[j]),
+            _ => (0..4).fold(T::of(-1.0), |sum, j| sum + e[j].scaled(PATCH[j])),
         })
     }
 
-    /// Values at a point and the derivatives there, in discs about doubles; derivatives over the polydisc.
-    fn derivatives(&self, x: &[Disc; N]) -> [Dual; N] {
-        let dual = std::array::from_fn(|j| {
-            let by =
-                std::array::from_fn(|k| Disc::point(if j == k { Complex64::ONE } else { Complex64::ZERO }));
-            Dual { value: x[j], by }
-        });
-        self.values(&dual)
+    /// Values and derivatives.
+    fn derivatives<T: Ring>(&self, x: &[T; N]) -> [Dual<T>; N] {
+        self.values(&std::array::from_fn(|k| Dual::unknown(x[k], k)))
     }
 
-    fn jacobian(&self, x: &FarPoint) -> (Vector, Matrix) {
-        let rows = self.derivatives(&x.map(Disc::point));
-        (Vector::from_fn(|i, _| rows[i].value.centre), Matrix::from_fn(|i, j| rows[i].by[j].centre))
-    }
-
-    /// Both zeros near a common point at infinity of a design next to this one: a Newton step onto the linear equations,
-    /// then the quadratic one on the line that they leave.
-    pub(crate) fn starts(&self, x: &FarPoint) -> Option<[FarPoint; 2]> {
-        let mut x = Vector::from_column_slice(x);
-        let mut direction = Vector::zeros();
-        for _ in 0..3 {
-            let (mut f, mut j) = self.jacobian(&x.as_slice().try_into().ok()?);
-            // any row that is not one of the others
-            for k in 0..N {
-                j[(6, k)] = Complex64::from_polar(1.0, 1.0 + 1.7 * (k * k) as f64);
-            }
-            f[6] = Complex64::ZERO;
-            let lu = j.lu();
-            x -= lu.solve(&f)?;
-            let mut one = Vector::zeros();
-            one[6] = Complex64::ONE;
-            direction = lu.solve(&one)?;
-        }
-        let point = |t: Complex64| x + direction * t;
-        let quadric =
-            |y: &Vector| y[6] * y[6] - y[7] * (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]);
-        let c = quadric(&x);
-        let (mut slope, mut bend) = (direction[6] * x[6] * 2.0, direction[6] * direction[6]);
-        for k in 0..4 {
-            slope -= direction[7] * x[k] * x[k] + x[7] * x[k] * direction[k] * 2.0;
-            bend -= x[7] * direction[k] * direction[k] + direction[7] * x[k] * direction[k] * 2.0;
-        }
-        let root = (slope * slope - bend * c * 4.0).sqrt();
-        let larger = if (slope + root).norm() > (slope - root).norm() { slope + root } else { slope - root };
-        let (near, far) = (-c * 2.0 / larger, -larger / (bend * 2.0));
-        let array = |t: Complex64| -> Option<FarPoint> { point(t).as_slice().try_into().ok() };
-        Some([array(near)?, array(far)?])
-    }
-
-    /// The zero that Newton's method finds from a start, if it is proved and far out.
-    pub(crate) fn root_near(&self, start: &FarPoint) -> Option<FarRoot> {
-        let wide = |z: Complex64| WideDisc::about(z, Complex64::ZERO, 0.0).centre;
-        let size = |v: &[Complex64]| v.iter().map(|z| z.norm()).fold(0.0, f64::max);
-        let mut x = start.map(wide);
-        for _ in 0..STEPS {
-            let rounded = x.map(ComplexDoubleDouble::hi);
-            if !(size(&rounded) < 1e9) {
+    /// The point of the curve of the legs that Newton's method finds.
+    fn curve_near(&self, start: &FarPoint) -> Option<Curve> {
+        let mut point = Vector::from_column_slice(start);
+        // any row that is not one of the others
+        let mut row: [Complex64; N] =
+            std::array::from_fn(|k| Complex64::from_polar(1.0, 1.0 + 1.7 * (k * k) as f64));
+        for step in 0..STEPS {
+            let rows = self.derivatives::<Complex64>(&point.as_slice().try_into().ok()?);
+            let jacobian = Matrix::from_fn(|i, j| if i == 6 { row[j] } else { rows[i].by[j] });
+            let f = Vector::from_fn(|i, _| if i == 6 { Complex64::ZERO } else { rows[i].value });
+            let inverse = jacobian.try_inverse()?;
+            let moved = inverse * f;
+            point -= moved;
+            let size = point.iter().map(|z| z.norm()).fold(1.0, f64::max);
+            if !(size < 1e9) {
                 return None;
             }
-            let f = self.values(&x.map(WideDisc::point)).map(|v| v.centre.hi());
-            let (_, j) = self.jacobian(&rounded);
-            let lu = j.lu();
-            let step = lu.solve(&Vector::from_column_slice(&f))?;
-            for k in 0..N {
-                x[k] = x[k] - wide(step[k]);
+            let direction = inverse.column(6).into_owned();
+            // the first row is not that of the direction
+            if step + 1 == STEPS || (step > 0 && moved.norm() < 1e-14 * size) {
+                return Some(Curve { point, row, inverse, direction });
             }
-            if size(step.as_slice()) < SETTLED * (1.0 + size(&rounded)) {
-                return self.prove(&x, &lu.try_inverse()?);
+            if step == 0 {
+                let length = direction.norm();
+                row = std::array::from_fn(|k| direction[k].conj() / length);
             }
         }
         None
     }
 
-    /// Krawczyk's test about a centre, and how far out the zero is.
-    fn prove(&self, centre: &[ComplexDoubleDouble; N], inverse: &Matrix) -> Option<FarRoot> {
-        let f = self.values(&centre.map(WideDisc::point)).map(|v| v.rounded());
-        let product = |row: usize, column: &dyn Fn(usize) -> Disc| {
-            (0..N).fold(zero(), |sum, k| sum + Disc::point(inverse[(row, k)]) * column(k))
-        };
-        let step: [f64; N] = std::array::from_fn(|i| product(i, &|k| f[k]).magnitude());
-        let radius: [f64; N] = step.map(|y| (4.0 * y).max(1e-300));
-        let discs: [WideDisc; N] = std::array::from_fn(|k| WideDisc { centre: centre[k], radius: radius[k] });
-        let over = self.derivatives(&discs.map(|d| d.rounded()));
-        for i in 0..N {
-            let mut image = step[i];
-            for j in 0..N {
-                let one = Disc::point(if i == j { Complex64::ONE } else { Complex64::ZERO });
-                let defect = one - product(i, &|k| over[k].by[j]);
-                image = (image + defect.magnitude() * radius[j]) * UP;
+    /// The zeros near a common point at infinity of a design next to this one, where they are proved and far out.
+    pub(crate) fn roots_near(&self, start: &FarPoint) -> Vec<FarRoots> {
+        let Some(curve) = self.curve_near(start) else { return Vec::new() };
+        let zeros = curve.zeros();
+        let apart = (zeros[1] - zeros[0]).norm() / 2.0;
+        if apart < CLOSE {
+            let middle = curve.at((zeros[0] + zeros[1]) / 2.0);
+            let steps =
+                std::iter::successors(Some((4.0 * apart).max(PAIR_RADII[0])), |r| Some(r * PAIR_RADII[2]));
+            let radii = steps.take_while(|r| *r < PAIR_RADII[1]);
+            if let Some(pair) = self.curve_near(&middle).and_then(|curve| self.prove(&curve, 2, radii)) {
+                return vec![pair];
             }
-            if !(image < radius[i]) {
+        }
+        let single = |t: &Complex64| {
+            let mut curve = self.curve_near(&curve.at(*t))?;
+            for _ in 0..2 {
+                curve = self.curve_near(&curve.at(curve.zeros()[0]))?;
+            }
+            self.prove(&curve, 1, RADII.into_iter())
+        };
+        zeros.iter().filter(|t| t.norm() < REACH).filter_map(single).collect()
+    }
+
+    /// So many zeros, in the first disc of the parameter for which they are proved.
+    fn prove(&self, curve: &Curve, zeros: usize, mut radii: impl Iterator<Item = f64>) -> Option<FarRoots> {
+        let newton = |x: &[WideDisc; N]| -> [Disc; N] {
+            let f = self.values(x).map(|v| v.rounded());
+            std::array::from_fn(|i| {
+                let terms = (0..N).filter(|k| *k != 6).map(|k| Disc::point(curve.inverse[(i, k)]) * f[k]);
+                terms.fold(Disc::of(0.0), |sum, term| sum + term)
+            })
+        };
+        // a step in double-double, so that what is left of it is far below the discs that are tried
+        let rounded = std::array::from_fn(|k| WideDisc::about(curve.point[k], Complex64::ZERO, 0.0));
+        let step = newton(&rounded);
+        let centre: [WideDisc; N] =
+            std::array::from_fn(|k| WideDisc::about(curve.point[k], -step[k].centre, 0.0));
+        let step = newton(&centre).map(|y| y.magnitude());
+        let direction = std::array::from_fn(|k| WideDisc::about(curve.direction[k], Complex64::ZERO, 0.0));
+        let quadric = quadric(&centre, &direction).map(|p| p.rounded());
+        let centre = centre.map(|x| x.rounded());
+        radii.find_map(|tau| {
+            let tube = self.tube(curve, &centre, &step, tau)?;
+            let discs = tube.polydisc(&centre, tau);
+            if !tube.has_zeros(&quadric, zeros, tau, &centre) {
                 return None;
             }
-        }
-        // over the polydisc: the coordinates are those of the closure, and R is large
-        let e = &discs[..4];
-        let (h, m) = (norm(e), matrix(e));
-        let mc: [WideDisc; 3] = std::array::from_fn(|i| dot(&m[i], &C.map(WideDisc::of)));
-        let across = cross(&mc, &D.map(WideDisc::of));
-        if !(dot(&across, &across).mignitude() > 0.0) {
-            return None;
-        }
-        let entry = m.iter().flatten().map(WideDisc::mignitude).fold(0.0, f64::max);
-        let rotation = entry / h.magnitude() * (2.0 - UP);
-        (rotation > FAR).then_some(FarRoot { discs, rotation })
+            let [rotation, rotation_at_most] = sizes(&discs)?;
+            Some(FarRoots { discs, multiplicity: zeros, rotation, rotation_at_most })
+        })
     }
+
+    /// The radii `R` for which Krawczyk's operator maps the tube into itself for all `|t| <= tau`.
+    fn tube(&self, curve: &Curve, centre: &[Disc; N], step: &[f64; N], tau: f64) -> Option<Tube> {
+        let direction = std::array::from_fn(|k| Disc::point(curve.direction[k]).magnitude());
+        let mut tube = Tube { direction, rest: step.map(|y| 2.0 * y + TINY) };
+        for _ in 0..WIDENED {
+            let radius: [f64; N] = std::array::from_fn(|k| tube.radius(k, tau));
+            let rows = self.derivatives::<Disc>(&tube.polydisc(centre, tau));
+            let image: [f64; N] = std::array::from_fn(|i| {
+                (0..N).fold(step[i], |sum, j| {
+                    let one = Disc::of(if i == j { 1.0 } else { 0.0 });
+                    let defect = (0..N).fold(one, |rest, k| {
+                        let entry = if k == 6 { Disc::point(curve.row[j]) } else { rows[k].by[j] };
+                        rest - Disc::point(curve.inverse[(i, k)]) * entry
+                    });
+                    (sum + defect.magnitude() * radius[j]) * UP
+                })
+            });
+            if image.iter().zip(&tube.rest).all(|(new, old)| new < old) {
+                return Some(tube);
+            }
+            tube.rest = std::array::from_fn(|k| 1.5 * image[k].max(tube.rest[k]));
+        }
+        None
+    }
+}
+
+/// All points `c + d t + y`, `|y_k| <= R_k`.
+struct Tube {
+    /// Bounds of `|d_k|`.
+    direction: [f64; N],
+    /// `R`.
+    rest: [f64; N],
+}
+
+impl Tube {
+    /// How far coordinate `k` is from that of the centre for `|t| <= tau`.
+    fn radius(&self, k: usize, tau: f64) -> f64 {
+        (self.direction[k] * tau + self.rest[k]) * UP
+    }
+
+    /// `X` of the module's text.
+    fn polydisc(&self, centre: &[Disc; N], tau: f64) -> [Disc; N] {
+        std::array::from_fn(|k| Disc {
+            centre: centre[k].centre,
+            radius: (centre[k].radius + self.radius(k, tau)) * UP,
+        })
+    }
+
+    /// Whether the last equation has so many zeros on the curve with `|t| < tau`: Rouche's theorem.
+    fn has_zeros(&self, quadric: &[Disc; 4], zeros: usize, tau: f64, centre: &[Disc; N]) -> bool {
+        // bounds of the coordinates of `c + d t`
+        let size: [f64; N] = std::array::from_fn(|k| (centre[k].magnitude() + self.direction[k] * tau) * UP);
+        let r = &self.rest;
+        let turned: f64 = (0..4).map(|k| r[k] * (2.0 * size[k] + r[k])).sum();
+        // `|h|` over the curve without its remainder, from the discs of the coordinates
+        let e: [Disc; 4] = std::array::from_fn(|k| Disc {
+            centre: centre[k].centre,
+            radius: (centre[k].radius + self.direction[k] * tau) * UP,
+        });
+        let h = norm(&e).magnitude();
+        let remainder = r[6] * (2.0 * size[6] + r[6]) + r[7] * h + (size[7] + r[7]) * turned;
+        let power = |k: usize| (0..k).fold(1.0, |x, _| x * tau);
+        let others: f64 = (0..4).filter(|k| *k != zeros).map(|k| quadric[k].magnitude() * power(k)).sum();
+        (others + remainder * UP) * UP < quadric[zeros].mignitude() * power(zeros) * (2.0 - UP)
+    }
+}
+
+/// Bounds of the largest entry of `R` over a polydisc in which the coordinates are those of the closure and `R` is
+/// large.
+fn sizes(discs: &[Disc; N]) -> Option<[f64; 2]> {
+    let e = &discs[..4];
+    let (h, m) = (norm(e), matrix(e));
+    let across = cross(std::array::from_fn(|i| dot(m[i], C)), D);
+    let normal = across[0] * across[0] + across[1] * across[1] + across[2] * across[2];
+    let entry = m.iter().flatten().map(Disc::mignitude).fold(0.0, f64::max);
+    let rotation = entry / h.magnitude() * (2.0 - UP);
+    let largest = m.iter().flatten().map(Disc::magnitude).fold(0.0, f64::max) / h.mignitude() * UP;
+    (normal.mignitude() > 0.0 && rotation > FAR).then_some([rotation, largest])
 }

@@ -104,6 +104,7 @@ pub use cluster::ClusterCertificate;
 pub use coordinates::dual_quaternion;
 pub(crate) use distinct::overlapping_pairs;
 pub use distinct::{Distinctness, RootRelation, distinct, is_of, relation};
+pub(crate) use distinct::{cluster_is_captured_by, is_captured_by};
 pub use refine::RefinedPose;
 pub use system::SquareData;
 

@@ -89,7 +89,11 @@ impl std::fmt::Display for AssessStage {
         match self {
             Self::Searches => f.write_str("looking for the worst poses"),
             Self::Bounds { kind, number, of } => {
-                write!(f, "bounding {} over the workspace, requirement {number} of {of}", kind.code())
+                write!(
+                    f,
+                    "bounding the margin of {} over the workspace, requirement {number} of {of}",
+                    kind.label()
+                )
             }
             Self::SingularPoses => f.write_str("looking for singular poses in the workspace"),
             Self::Conditioning => f.write_str("looking for the worst conditioning"),

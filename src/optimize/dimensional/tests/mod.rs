@@ -448,8 +448,8 @@ fn quick() -> ShapeSearchOptions {
 
 #[test]
 fn height_of_least_stroke_is_the_one_on_paper() {
-    // vertical travel of half width w about a height h, over legs of horizontal reach r: the stroke sqrt(r^2 +
-    // (h+w)^2) - sqrt(r^2 + (h-w)^2) grows with h, so the least length decides.
+    // vertical travel of half width w about a height h, over legs of horizontal reach r. The stroke
+    // sqrt(r^2 + (h+w)^2) - sqrt(r^2 + (h-w)^2) grows with h, so the least length decides.
     let mut p = problem(&[VariableKind::HomeHeight], Objective::Stroke);
     p.requirements.min_joint_distance = None;
     p.space.translation = Vector3::new(0.0, 0.0, 20.0);

@@ -30,6 +30,7 @@ use files::design::DriveTable;
 use fk::Threads;
 use machine::requirements::StartSymmetry;
 use num::Cancel;
+use num::shown::rounded;
 use optimize::dimensional::{self, DimensionalSolution, ShapeSearchOptions};
 use optimize::offsets::{self, OffsetProblem, OffsetReport, OffsetSolution};
 use platform::manipulator::Octahedral;
@@ -348,7 +349,7 @@ impl std::fmt::Display for OptimizeReport {
             OptimizeEvidence::Offsets(found) => match found.report.solution() {
                 Some(s) => {
                     let (value, det) = (s.recheck.objective, s.recheck.det.abs());
-                    write!(f, ": worst inverse condition number {value:.6}, |det A| {det:.6}")
+                    write!(f, ": worst conditioning {}, |det A| {}", rounded(value, 3), rounded(det, 3))
                 }
                 None => Ok(()),
             },
@@ -356,7 +357,9 @@ impl std::fmt::Display for OptimizeReport {
             OptimizeEvidence::Dimensions(found) => {
                 let objectives = found.checked.iter().flat_map(|c| &c.objectives);
                 for (k, (objective, value)) in objectives.enumerate() {
-                    write!(f, "{}{} {value:.6}", if k == 0 { ": " } else { ", " }, objective.code())?;
+                    let before = if k == 0 { ": " } else { ", " };
+                    let name = objective.code().replace('_', " ");
+                    write!(f, "{before}{name} {}", rounded(*value, 3))?;
                 }
                 Ok(())
             }

@@ -8,16 +8,15 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::output::Answer;
-use crate::app::cli::rows::{self, TableName};
-use ::files::design::SeriesKind;
-use ask::Design;
-use ask::Error;
+use crate::app::cli::rows;
+use ask::{Design, Error, PoseFrames};
 use machine::calibration::{
     CalibrateOptions, Calibration, CalibrationError, CalibrationStatus, CarriedFrames, HeldParts, Loss,
     LossUnit, Measurement, MeasurementNoise, NextPose, StartChoice, Unknowns, next_poses, planning_root,
 };
-use platform::geom::{InvalidPose, Pose};
+use platform::geom::Pose;
 use records::{
     CalibrateAnswer, CalibrateOutcome, CalibrationRecord, ComputedPosesRecord, NextPoseRecord, Number,
     ResidualsRecord,
@@ -71,6 +70,8 @@ pub(crate) struct CalibrateArgs {
     /// Write the calibrated design, if all of it is identified and no test refutes it
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
+    #[command(flatten)]
+    convention: FrameArgs,
 }
 
 /// `--loss`.
@@ -165,8 +166,10 @@ pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer,
     args.refuse_without_effect(context)?;
     let options = args.options();
     let Some(path) = &args.measurements else { return plan(args, &design, &options, context) };
-    let (rows, lines) = measurements(path, context)?;
-    let check = args.check.as_deref().map(|path| measurements(path, context)).transpose()?;
+    let mut poses = args.convention.of(&design);
+    let (rows, lines) = measurements(path, &mut poses, context)?;
+    let check =
+        args.check.as_deref().map(|path| measurements(path, &mut poses.clone(), context)).transpose()?;
     let found = design.calibrate(&rows, &options).map_err(|e| failure_of(&e))?;
     let frames = frames(args, &design, &found)?;
     let mut record =
@@ -189,10 +192,11 @@ pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer,
         }
         _ => None,
     };
-    let next_poses = next(args, &found, &candidates, &measured);
+    let next_poses = next((args, &poses), &found, &candidates, &measured);
     let answer = CalibrateAnswer {
         name: design.name.clone(),
         units: design.units.clone(),
+        frames: (&poses.convention).into(),
         outcome,
         reason: reason(&found),
         calibration: Some(record),
@@ -261,27 +265,19 @@ fn failure_of(error: &Error) -> Failure {
     }
 }
 
-/// Measurements with their lines.
-fn measurements(path: &Path, context: &Context) -> Result<(Vec<Measurement>, Vec<usize>), Failure> {
-    let form = "a pose and six lengths a line: x,y,z,roll_deg,pitch_deg,yaw_deg,l1,..,l6 or x,y,z,qw,qx,qy,qz,l1,..,l6";
-    let table = TableName { path, code: BAD_MEASUREMENTS, form };
-    let series = rows::read(SeriesKind::PosesWithLengths, table, context, measurement)?;
-    Ok(series.rows.into_iter().map(|row| (row.value, row.line)).unzip())
-}
-
-fn measurement(text: &str) -> Result<Measurement, String> {
-    let fields: Vec<&str> = text.split(',').collect();
-    if !(12..=13).contains(&fields.len()) {
-        return Err(format!("{} values instead of a pose and six lengths", fields.len()));
-    }
-    let (pose, shown) = fields.split_at(fields.len() - 6);
-    let pose: Pose = pose.join(",").parse().map_err(|e: InvalidPose| e.to_string())?;
-    let mut lengths = [0.0; 6];
-    for (leg, (length, field)) in lengths.iter_mut().zip(shown).enumerate() {
-        let read = field.trim().parse().ok().filter(|x: &f64| x.is_finite());
-        *length = read.ok_or_else(|| format!("length {}, `{field}`, is not a finite number", leg + 1))?;
-    }
-    Ok(Measurement { pose, lengths })
+/// Measurements with the lines they stand on.
+///
+/// `poses` becomes the convention that the names of columns complete.
+fn measurements(
+    path: &Path,
+    poses: &mut PoseFrames,
+    context: &Context,
+) -> Result<(Vec<Measurement>, Vec<usize>), Failure> {
+    let series = rows::poses_with_lengths(path, BAD_MEASUREMENTS, poses, context)?;
+    poses.convention = series.frames;
+    note_frames(poses, context);
+    let measured = |(pose, lengths): (Pose, [f64; 6])| Measurement { pose, lengths };
+    Ok(series.rows.into_iter().map(|row| (measured(row.value), row.line)).unzip())
 }
 
 /// The motions to the design frames, if requested.
@@ -302,7 +298,7 @@ fn frames(
 
 /// The poses to measure next, in the frames of the design and of the measurements.
 fn next(
-    args: &CalibrateArgs,
+    (args, poses): (&CalibrateArgs, &PoseFrames),
     found: &Calibration,
     candidates: &[Pose],
     measured: &[Pose],
@@ -315,13 +311,14 @@ fn next(
         measured,
         args.next.into(),
     );
-    chosen.iter().map(|n| next_record(&candidates[n.candidate], n)).collect()
+    chosen.iter().map(|n| next_record(poses, &candidates[n.candidate], n)).collect()
 }
 
-fn next_record(pose: &Pose, next: &NextPose) -> NextPoseRecord {
+fn next_record(poses: &PoseFrames, pose: &Pose, next: &NextPose) -> NextPoseRecord {
     NextPoseRecord {
         pose: pose.into(),
         rpy_deg: pose.angles().degrees().map(Number),
+        in_frames: (&poses.write(pose)).into(),
         shrinks: Number(next.shrinks),
         greatest_deviation: Number(next.greatest_deviation),
     }
@@ -342,6 +339,7 @@ fn plan(
     if !(options.identified > 0.0 && options.identified.is_finite()) {
         return Err(failure_of(&CalibrationError::BadShare(options.identified).into()));
     }
+    let poses = args.convention.of(design);
     let model = design.leg_model();
     let unknowns = Unknowns::new(&model, options.held);
     if unknowns.count() == 0 {
@@ -355,10 +353,11 @@ fn plan(
     let answer = CalibrateAnswer {
         name: design.name.clone(),
         units: design.units.clone(),
+        frames: (&poses.convention).into(),
         outcome: CalibrateOutcome::Planned,
         reason: "nothing was measured: these are the poses to begin with".into(),
         calibration: None,
-        next_poses: chosen.iter().map(|n| next_record(&candidates[n.candidate], n)).collect(),
+        next_poses: chosen.iter().map(|n| next_record(&poses, &candidates[n.candidate], n)).collect(),
         path: None,
     };
     let text = sheet::answers::calibrate(&answer, false);

@@ -11,10 +11,10 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
 use ask::equivalents::{Original, Origins};
-use ask::{ComparedDesigns, Design, SAMPLES, leg_map};
+use ask::{Design, leg_map};
 use fk::FkOptions;
 use platform::manipulator::Octahedral;
-use records::{DerivationRecord, FamilyAnswer, InstanceRecord, VerifyAnswer};
+use records::{DerivationRecord, FamilyAnswer, InstanceRecord};
 use sheet::Sheet;
 use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 
@@ -41,7 +41,7 @@ pub(crate) struct EquivalentsFamilyArgs {
         allow_hyphen_values = true,
         requires = "pattern"
     )]
-    offsets: Option<Vec<Share>>,
+    offsets: Option<Vec<String>>,
     /// Show the derivation of A, c and det A from coplanar joints step by step, and the check by forward kinematics
     #[arg(long, requires = "offsets")]
     explain: bool,
@@ -143,11 +143,12 @@ fn realise(
     pattern: &Pattern,
     design: &Design,
     original: &Original,
-    shares: &[Share],
+    offsets: &[String],
 ) -> Result<(InstanceRecord, Design, LegMapOutcome), Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
+    let shares = original.shares(pattern, offsets).map_err(|e| refused(&e))?;
     let offsets: Vec<f64> = shares.iter().map(Share::nearest).collect();
-    let (built, map) = original.equivalent_at(pattern, shares).map_err(|e| refused(&e))?;
+    let (built, map) = original.equivalent_at(pattern, &shares).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, &offsets, &built, &map).map_err(|e| refused(&e))?;
     let found = leg_map(design, &built)
         .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?;
@@ -164,10 +165,8 @@ fn explain(
     built: &Design,
     context: &Context,
 ) -> Result<DerivationRecord, Failure> {
-    let steps = original.derivation(pattern, built);
-    let steps = steps.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))?;
     let options = FkOptions::new().seed(context.seed());
-    let compared = ComparedDesigns::of([&original.design, built], SAMPLES, &options);
-    let verification = VerifyAnswer::from(&compared.map_err(|e| failure_of(&e))?);
-    Ok(DerivationRecord::new(&steps, original, verification))
+    let found = DerivationRecord::compared(original, pattern, built, &options);
+    let found = found.map_err(|e| failure_of(&e))?;
+    found.ok_or_else(|| Failure::internal("an edge of the octahedral platform has no length"))
 }

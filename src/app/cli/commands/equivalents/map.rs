@@ -51,7 +51,7 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
 /// The shown lengths of the second design for these shown lengths of the first.
 fn mapped(text: &str, designs: [&Design; 2], map: &LegMapOutcome) -> Result<MappedLengthsRecord, Failure> {
     let [shown, offsets] = designs.map(|d| d.leg_offsets());
-    let given = six(text, &shown)
+    let given = six(text, &shown, &designs[0].units)
         .map_err(|message| Failure::refused("map::bad_lengths", format!("--lengths: {message}")))?;
     let taken = if map.is_regular_within_rounding() {
         let squares = map.closest.apply(&given.distances.squared()).map_err(|why| why.to_string());

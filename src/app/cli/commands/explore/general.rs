@@ -17,6 +17,7 @@ use records::{
     FamiliesFoundRecord, FkRunRecord, MoveSearchAnswer, MovesFoundRecord, NearestAnswer, NearestErrorRecord,
     Number, PoseTotalsRecord, ProvenanceRecord, StageRecord, StageWord, VerifyAnswer, leg_number,
 };
+use sheet::Sheet;
 use verify::VerdictWord;
 
 /// The design with its results, and the files and sentences made of them.
@@ -92,7 +93,7 @@ pub(super) fn written(
     folder.keep(folder::PAGE, page(files, None));
     folder.finish()?;
     answer.paths = folder.paths().collect();
-    let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, None);
+    let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, Sheet::new());
     Ok(Answer::new(exit_of(verdict), ExploreAnswer::General(Box::new(answer)), text))
 }
 

@@ -7,7 +7,6 @@ mod general;
 mod report;
 mod search;
 
-use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -42,6 +41,7 @@ use records::{
     OptimizeFiles, OptimizedRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord, RoundAnswer,
     VerifyAnswer,
 };
+use sheet::Sheet;
 use synthesis::FamilyMember;
 use verify::VerdictWord;
 
@@ -355,12 +355,15 @@ fn written(
     folder.finish()?;
     record.paths = folder.paths().collect();
     let lead = results.found.built().zip(record.assessment.as_ref());
-    let lead = lead.map(|(design, a)| sheet::answers::requirements(&design.name, Some(a)));
-    let notes = notes(&record);
-    let lead = lead.map_or_else(|| notes.clone(), |lead| format!("{notes}{lead}"));
-    let lead = (!lead.is_empty()).then_some(lead);
+    // the platform on holes, where there is one, is the platform that is built
+    let file = [folder::ROUNDED, folder::OPTIMISED];
+    let file = file.iter().find_map(|name| record.paths.iter().find(|path| path.ends_with(name)));
+    let place = file.map_or_else(|| "in the report".to_owned(), |path| format!("equipod assess {path}"));
+    let mut lead =
+        lead.map_or_else(Sheet::new, |(design, a)| sheet::answers::verdict(&design.name, Some(a), &place));
+    lead.add(notes(&record));
     let explanation = [&[record.explanation.clone()][..], &headline(&record)].concat().join("\n");
-    let text = text(&record.name, record.verdict, &explanation, &record.paths, lead.as_deref());
+    let text = text(&record.name, record.verdict, &explanation, &record.paths, lead);
     Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
 }
 
@@ -390,16 +393,17 @@ fn headline(a: &ExploreOctahedralAnswer) -> Vec<String> {
 }
 
 /// Further notes of the answer: symmetry, drives, freedoms.
-fn notes(a: &ExploreOctahedralAnswer) -> String {
-    let mut out = String::new();
+fn notes(a: &ExploreOctahedralAnswer) -> Sheet {
+    let mut out = Sheet::new();
     if let Some(s) = &a.symmetry {
-        let _ = writeln!(out, "{}", s.message);
+        out.line(&s.message);
     }
     if let Some(d) = &a.drive_search {
-        let _ = write!(out, "\n{}", sheet::answers::tried_drives(d));
+        out.space();
+        out.add(sheet::answers::tried_drives(d));
     }
     for f in a.freedoms.iter().flatten() {
-        let _ = writeln!(out, "{}", f.message);
+        out.line(&f.message);
     }
     out
 }
@@ -472,22 +476,14 @@ fn record(r: &Results) -> ExploreOctahedralAnswer {
 }
 
 /// The paths, for programs; before them the requirements and the verdict, for people.
-fn text(
-    name: &str,
-    verdict: ExploreVerdict,
-    explanation: &str,
-    paths: &[String],
-    lead: Option<&str>,
-) -> String {
-    let mut out = String::new();
+fn text(name: &str, verdict: ExploreVerdict, explanation: &str, paths: &[String], lead: Sheet) -> Sheet {
+    let mut out = Sheet::new();
     if output_is_terminal() {
-        if let Some(lead) = lead {
-            let _ = writeln!(out, "{lead}");
-        }
-        let _ = writeln!(out, "{name}: {}\n{explanation}", verdict.name());
+        out.line(format_args!("{name}: {}\n{explanation}", verdict.name().replace('_', " ")));
+        out.add(lead);
     }
     for path in paths {
-        let _ = writeln!(out, "{path}");
+        out.line(path);
     }
     out
 }

@@ -14,7 +14,7 @@ use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::cli::rows::{self, TableName};
-use ask::Design;
+use ask::{Design, PoseFrames};
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use fk::{self, FkOptions, FkSolutions};
 use machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
@@ -44,7 +44,7 @@ fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg
                 .with_help("give six angles in degrees separated by commas, or a CSV file")
         })?;
         let rows = vec![SeriesRow { line: 0, time: None, value }];
-        return Ok(TimeSeries { time_name: None, rows, from_home: false, guesses: Vec::new() });
+        return Ok(TimeSeries::of_rows(rows));
     }
     let form = "six angles in degrees a line: a1,a2,a3,a4,a5,a6";
     rows::read(SeriesKind::Angles, TableName { path: Path::new(text), code: BAD_ANGLES, form }, context, six)
@@ -61,13 +61,20 @@ pub(super) fn run(
         "the rods of a design with cranks have one length; poses are asked for by --angles",
     )?;
     let series = given(args.angles.as_deref(), context)?;
-    let table = PoseTable { wanted: args.csv, all: args.all, time_name: series.time_name.clone() };
+    let frames = args.frames.of(design);
+    let table = PoseTable {
+        wanted: args.csv,
+        all: args.all,
+        time_name: series.time_name.clone(),
+        frames,
+        limits: args.limits,
+    };
     // one line of the command has no number; lines of a table count from 1
     let one = series.rows.len() == 1 && series.rows[0].line == 0;
-    let machine = CrankMachine { design, platform, home: poses::home(design), seed: context.seed() };
+    let machine = CrankMachine { design, platform, frames, seed: context.seed() };
     let (exits, outcomes) = if let Some(start) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
-        let start = poses::parse(start, design, "--near", "fk::bad_pose")?;
+        let start = poses::parse(start, &frames, "--near", "fk::bad_pose")?;
         machine.follow(&series.rows, &start)?
     } else {
         if one {
@@ -100,7 +107,7 @@ pub(super) fn run(
 struct CrankMachine<'a> {
     design: &'a Design,
     platform: &'a RotaryPlatform,
-    home: Pose,
+    frames: PoseFrames,
     seed: u64,
 }
 
@@ -112,7 +119,7 @@ impl CrankMachine<'_> {
             other @ RotaryFkError::Manipulator(_) => Failure::refused(BAD_ANGLES, other.to_string()),
         })?;
         let tips = self.tips(&angles)?;
-        let solved = SolvedRecord::from(&found).with_real_poses(&tips, &self.home);
+        let solved = SolvedRecord::from(&found).with_real_poses(&tips, &self.frames);
         let solved = solved.with_elbows(self.platform, &angles);
         let symmetric_finite = self.platform.symmetric_pose_count(&angles);
         let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
@@ -144,7 +151,7 @@ impl CrankMachine<'_> {
             let tips = self.tips(&angles)?;
             let machine = TrackedMachine {
                 m: &tips,
-                home: self.home,
+                frames: self.frames,
                 characteristic_length: self.design.characteristic_length(),
             };
             let mut record = near::record(&machine, self.platform.rods(), &from, &outcome, self.seed);
@@ -169,7 +176,7 @@ impl CrankMachine<'_> {
             Some(FkRowRecord { outcome: FkRowOutcome::Solved(answer), .. }) if one => FkAnswer::One(answer),
             last => {
                 rows.extend(last);
-                FkAnswer::Rows(FkRowsAnswer { rows })
+                FkAnswer::Rows(FkRowsAnswer { frames: (&self.frames.convention).into(), rows })
             }
         }
     }

@@ -1,14 +1,14 @@
 //! Poses as a table that other programs read without options: one pose on each row, units in the names of the columns.
 
 use crate::app::cli::table::{column_unit, csv_line, number};
-use ask::Design;
+use ask::{Design, PoseFrames};
 use records::{FkAnswer, FkOneAnswer, FkRowOutcome, SideWord, SolutionRecord};
 
 /// Number of cells of a pose between its number and the completeness.
 const BESIDE_COMPLETENESS: usize = 14;
 
 /// The options of `--csv`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct PoseTable {
     /// Whether the table is requested.
     pub(super) wanted: bool,
@@ -16,6 +16,10 @@ pub(super) struct PoseTable {
     pub(super) all: bool,
     /// The column of times of the lengths.
     pub(super) time_name: Option<String>,
+    /// The convention of the poses.
+    pub(super) frames: PoseFrames,
+    /// Only poses that meet the requirements.
+    pub(super) limits: bool,
 }
 
 impl PoseTable {
@@ -53,8 +57,9 @@ impl PoseTable {
         }
         names.extend(["pose", "nearest_home", "mode"].map(String::from));
         names.extend(["x", "y", "z"].map(|axis| format!("{axis}_{unit}")));
-        let angles = ["roll_deg", "pitch_deg", "yaw_deg", "qw", "qx", "qy", "qz"];
-        names.extend(angles.into_iter().chain(["real", "certified", "completeness"]).map(String::from));
+        names.extend(self.frames.convention.angle_names());
+        let quaternion = self.frames.convention.quaternion_order().written(["qw", "qx", "qy", "qz"]);
+        names.extend(quaternion.into_iter().chain(["real", "certified", "completeness"]).map(String::from));
         if self.all {
             for part in ["", "_im"] {
                 names.extend(["x", "y", "z"].map(|axis| format!("p{axis}{part}_{unit}")));
@@ -70,6 +75,9 @@ impl PoseTable {
         let far = |s: &SolutionRecord| s.real_pose.map_or(f64::INFINITY, |p| p.distance_from_home);
         let points = one.solved.solution_set.witness_points().iter().chain(&one.solved.solutions);
         let mut shown: Vec<&SolutionRecord> = points.filter(|s| self.all || s.real != Some(false)).collect();
+        if self.limits {
+            shown.retain(|s| s.real_pose.is_none_or(|pose| pose.allowed != Some(false)));
+        }
         shown.sort_by(|a, b| far(a).total_cmp(&far(b)));
         let completeness = one.solved.completeness.name();
         if shown.is_empty() {
@@ -99,8 +107,9 @@ impl PoseTable {
                 SideWord::Below => "below",
             });
             cells.extend([pose.nearest_home.to_string(), mode.to_string()]);
-            let values = pose.position.iter().chain(&pose.rpy_deg).chain(&pose.quat_wxyz);
-            cells.extend(values.map(|x| number(*x)));
+            let written = &pose.in_frames;
+            let values = written.position.iter().chain(&written.angles).chain(&written.quaternion);
+            cells.extend(values.map(|x| number(x.0)));
         } else {
             cells.push("false".to_string());
             cells.extend(vec![String::new(); 11]);

@@ -33,7 +33,7 @@ pub(super) fn run(
     seed: u64,
     table: &PoseTable,
 ) -> Answer {
-    let machine = TrackedMachine::of(design);
+    let machine = TrackedMachine::of(design, &table.frames);
     let mut tracker = CoupledTracker::new(legs, start);
     near::followed(design, given, table, |drives| one(&machine, &mut tracker, drives, seed))
 }

@@ -44,12 +44,12 @@ pub(in crate::app::cli::commands) fn given(
         return Ok(GivenLengths::One(ShownLengths { shown, distances: own }));
     };
     if text.contains(',') || text.parse::<f64>().is_ok() {
-        return six(text, &offsets).map(GivenLengths::One).map_err(|message| {
+        return six(text, &offsets, &design.units).map(GivenLengths::One).map_err(|message| {
             Failure::refused("fk::bad_lengths", format!("--lengths: {message}"))
                 .with_help("give six lengths separated by commas, or a CSV file")
         });
     }
-    rows(Path::new(text), &offsets, context).map(GivenLengths::Rows)
+    rows(Path::new(text), (&offsets, &design.units), context).map(GivenLengths::Rows)
 }
 
 impl ShownLengths {
@@ -66,31 +66,23 @@ impl ShownLengths {
 }
 
 /// Six comma-separated lengths.
-pub(in crate::app::cli::commands) fn six(text: &str, offsets: &[f64; 6]) -> Result<ShownLengths, String> {
-    ShownLengths::new(separated(text, "six")?, offsets)
-}
-
-/// Comma-separated numbers; `word` is their number in words.
-pub(in crate::app::cli::commands) fn separated<const N: usize>(
+pub(in crate::app::cli::commands) fn six(
     text: &str,
-    word: &str,
-) -> Result<[f64; N], String> {
-    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let fields: [&str; N] =
-        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of {word}", f.len()))?;
-    let mut values = [0.0; N];
-    for (i, field) in fields.iter().enumerate() {
-        values[i] =
-            numbers::one(field).ok_or_else(|| format!("value {}, `{field}`, is not a number", i + 1))?;
-    }
-    Ok(values)
+    offsets: &[f64; 6],
+    units: &str,
+) -> Result<ShownLengths, String> {
+    ShownLengths::new(numbers::lengths(text, "six", units)?, offsets)
 }
 
 /// A table with six lengths on each line.
-fn rows(path: &Path, offsets: &[f64; 6], context: &Context) -> Result<TimeSeries<ShownLengths>, Failure> {
+fn rows(
+    path: &Path,
+    (offsets, units): (&[f64; 6], &str),
+    context: &Context,
+) -> Result<TimeSeries<ShownLengths>, Failure> {
     let form = "six lengths a line: l1,l2,l3,l4,l5,l6";
     rows::read(SeriesKind::Lengths, TableName { path, code: "fk::bad_lengths", form }, context, |text| {
-        six(text, offsets)
+        six(text, offsets, units)
     })
 }
 
@@ -102,16 +94,19 @@ mod tests {
     #[test]
     fn csv_takes_a_header_comments_and_names_all_bad_lines() {
         let good = "l1,l2,l3,l4,l5,l6\n\n# note\n1,2,3,4,5,6\n 6, 5,4,3,2,1.5 \r\n";
-        let found = SeriesKind::Lengths.read(good.as_bytes(), |text| six(text, &[0.0; 6])).unwrap().rows;
+        let found =
+            SeriesKind::Lengths.read(good.as_bytes(), |text| six(text, &[0.0; 6], "mm")).unwrap().rows;
         assert_eq!(found.iter().map(|r| r.line).collect::<Vec<_>>(), [4, 5]);
         assert!((found[1].value.shown[5] - 1.5).abs() < 1e-15);
         let bad = "1,2,3,4,5,6\n1,2,3\n1,2,x,4,5,6\n1,2,3,4,5,-6\n1,2,3,4,5,inf\n";
-        let why =
-            SeriesKind::Lengths.read(bad.as_bytes(), |text| six(text, &[0.0; 6])).unwrap_err().to_string();
-        for line in ["line 2: 3 values", "line 3: value 3, `x`", "line 4: ", "line 5: "] {
+        let why = SeriesKind::Lengths
+            .read(bad.as_bytes(), |text| six(text, &[0.0; 6], "mm"))
+            .unwrap_err()
+            .to_string();
+        for line in ["line 2: 3 values", "line 3: value 3 is not a length: `x`", "line 4: ", "line 5: "] {
             assert!(why.contains(line), "{why}");
         }
-        let header_alone = SeriesKind::Lengths.read(b"a,b\n", |text| six(text, &[0.0; 6]));
+        let header_alone = SeriesKind::Lengths.read(b"a,b\n", |text| six(text, &[0.0; 6], "mm"));
         assert_eq!(header_alone, Err(InvalidSeries::Empty), "a header alone is no data");
     }
 
@@ -139,11 +134,23 @@ mod tests {
     }
 
     #[test]
+    fn lengths_have_units_where_the_design_has_one() {
+        let shown = |text, units| six(text, &[0.0; 6], units).map(|six| six.shown);
+        assert_eq!(
+            shown("1 in,36/19 in,12/5 mm,2,5 ft + 3 in,sqrt(4) cm", "mm"),
+            Ok([25.4, 25.4 * 36.0 / 19.0, 2.4, 2.0, 1600.2, 20.0])
+        );
+        assert_eq!(shown("1 m,1,1,1,1,1", "ft").map(|six| six[0]), Ok(1.0 / 0.3048));
+        assert!(shown("1 m,1,1,1,1,1", "1").unwrap_err().contains("no known length"));
+        assert!(shown("1 parsec,1,1,1,1,1", "mm").unwrap_err().contains("value 1 is not a length"));
+    }
+
+    #[test]
     fn joints_are_as_far_apart_as_a_leg_shows_less_its_offset() {
         let offsets = [0.5, -0.25, 0.0, 9.0, -9.0, 3.0];
-        let given = six("1,1,1,10,-8,4", &offsets).unwrap();
+        let given = six("1,1,1,10,-8,4", &offsets, "mm").unwrap();
         assert_eq!((given.shown[4], given.distances.get()), (-8.0, [0.5, 1.25, 1.0, 1.0, 1.0, 1.0]));
-        let why = six("1,1,1,1,1,1", &offsets).unwrap_err();
+        let why = six("1,1,1,1,1,1", &offsets, "mm").unwrap_err();
         assert!(why.contains("-8") && why.contains("less the offset of the calibration"), "{why}");
     }
 }

@@ -17,12 +17,12 @@ use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
+use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ask::Design;
 use ask::design::parse_with_cranks;
+use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
-use platform::geom::Pose;
 use platform::manipulator::{LegLengths, Manipulator};
 use records::{
     ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
@@ -66,6 +66,11 @@ pub(crate) struct FkArgs {
     /// Add the complex poses to --csv
     #[arg(long, requires = "csv")]
     all: bool,
+    /// List only real poses that meet the requirements of the design; --json says it of each pose
+    #[arg(long)]
+    limits: bool,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// `--method`.
@@ -100,7 +105,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         SixOrFive::Six(design) => *design,
         SixOrFive::Five(five) => {
             let only = "it is for designs of six legs";
-            for option in ["angles", "method", "between", "threads", "near", "csv"] {
+            for option in ["angles", "method", "between", "threads", "near", "csv", "limits"] {
                 context.no_effect(option, only)?;
             }
             return pentapod::fk(&five, args.lengths.as_deref(), context);
@@ -114,16 +119,17 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         drives::refuse_without_start(&design)?;
     }
     let given = lengths::given(args.lengths.as_deref(), &design, context)?;
-    let table = PoseTable { wanted: args.csv, all: args.all, time_name: None };
+    let frames = args.frames.of(&design);
+    let table = PoseTable { wanted: args.csv, all: args.all, time_name: None, frames, limits: args.limits };
     if let Some(text) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
-        let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
+        let start = poses::parse(text, &frames, "--near", "fk::bad_pose")?;
         if let Some(legs) = Context::coupled_of(&design)? {
             return Ok(drives::run(&design, legs, &given, start, context.seed(), &table));
         }
         return Ok(near::run(&design, &given, start, context.seed(), &table));
     }
-    let (m, home) = (design.manipulator(), poses::home(&design));
+    let m = design.manipulator();
     let between = args.between.as_deref().map(|text| pair(text, &design, "fk::unknown_joint")).transpose()?;
     let options = FkOptions::new().seed(context.seed());
     match given {
@@ -143,7 +149,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
                     design.units
                 ));
             }
-            let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
+            let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &frames));
             let squares = l.distances.squared();
             let closure = match between {
                 Some(pair) => Some(fk::closure_between(m, &squares, &solutions, pair)),
@@ -160,7 +166,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             context.no_effect("between", "a polynomial belongs to one set of lengths")?;
             context.no_effect("polynomial", "a polynomial belongs to one set of lengths")?;
             let table = PoseTable { time_name: series.time_name, ..table };
-            let (exit, answer) = many(method, (m, &home), &series.rows, &options, threads(args.threads));
+            let (exit, answer) = many(method, (m, &frames), &series.rows, &options, threads(args.threads));
             Ok(answered(exit, answer, &design, &table))
         }
     }
@@ -182,9 +188,18 @@ pub(super) fn pair(text: &str, design: &Design, code: &'static str) -> Result<(u
 
 /// The answer with its table if requested, or else with its sheet.
 fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) -> Answer {
-    let sheet = || sheet::answers::fk(&design.name, &design.units, &answer).to_string();
-    let text = table.text(design, &answer).unwrap_or_else(sheet);
-    Answer::new(exit, answer, text)
+    let mut answer = answer.with_frames(&table.frames);
+    if table.limits {
+        let required = design.requirements();
+        answer = answer.with_limits(&design.reach(&required));
+    }
+    match table.text(design, &answer) {
+        Some(text) => Answer::new(exit, answer, text),
+        None => {
+            let sheet = sheet::answers::fk(&design.name, &design.units, &answer);
+            Answer::new(exit, answer, sheet)
+        }
+    }
 }
 
 fn threads(asked: Option<u16>) -> Threads {
@@ -194,7 +209,7 @@ fn threads(asked: Option<u16>) -> Threads {
 /// Solves every row independently: a failed row carries an `"error"` and does not stop the others.
 fn many(
     method: Option<Method>,
-    (m, home): (&Manipulator, &Pose),
+    (m, frames): (&Manipulator, &PoseFrames),
     rows: &[lengths::Row],
     options: &FkOptions,
     threads: Threads,
@@ -203,21 +218,21 @@ fn many(
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
     // writing forty poses with all their numbers takes as long as finding them
-    let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, home)));
+    let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, frames)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
     let rows = solved.into_iter().map(|(_, record)| record).collect();
-    (exit, FkAnswer::Rows(FkRowsAnswer { rows }))
+    (exit, FkAnswer::Rows(FkRowsAnswer { frames: (&frames.convention).into(), rows }))
 }
 
 /// Exit code and record of one row.
 fn solved_row(
     row: &lengths::Row,
     result: &BatchResult,
-    (m, home): (&Manipulator, &Pose),
+    (m, frames): (&Manipulator, &PoseFrames),
 ) -> (Exit, FkRowRecord) {
     let (exit, outcome) = match result {
         Ok(s) => {
-            let solved = SolvedRecord::from(s).with_real_poses(m, home);
+            let solved = SolvedRecord::from(s).with_real_poses(m, frames);
             (exit_of(s), FkRowOutcome::Solved(Box::new(solved.into())))
         }
         Err(error) => {

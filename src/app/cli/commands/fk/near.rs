@@ -4,8 +4,7 @@ use super::lengths::{GivenLengths, ShownLengths};
 use super::{PoseTable, answered};
 use crate::app::cli::exit::Exit;
 use crate::app::cli::output::Answer;
-use crate::app::cli::poses;
-use ask::Design;
+use ask::{Design, PoseFrames};
 use fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
 use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet};
 use platform::geom::{ComplexPose, Pose};
@@ -19,15 +18,15 @@ use records::{
 /// angles to lengths.
 pub(super) struct TrackedMachine<'a> {
     pub(super) m: &'a Manipulator,
-    pub(super) home: Pose,
+    pub(super) frames: PoseFrames,
     pub(super) characteristic_length: f64,
 }
 
 impl<'a> TrackedMachine<'a> {
-    pub(super) fn of(design: &'a Design) -> Self {
+    pub(super) fn of(design: &'a Design, frames: &PoseFrames) -> Self {
         Self {
             m: design.manipulator(),
-            home: poses::home(design),
+            frames: *frames,
             characteristic_length: design.characteristic_length(),
         }
     }
@@ -66,7 +65,12 @@ pub(super) fn followed(
                 });
             }
             let table = PoseTable { time_name: series.time_name.clone(), ..*table };
-            answered(exit, FkAnswer::Rows(FkRowsAnswer { rows }), design, &table)
+            answered(
+                exit,
+                FkAnswer::Rows(FkRowsAnswer { frames: (&table.frames.convention).into(), rows }),
+                design,
+                &table,
+            )
         }
     }
 }
@@ -79,7 +83,8 @@ pub(super) fn run(
     seed: u64,
     table: &PoseTable,
 ) -> Answer {
-    let (solver, machine) = (NearSolver::new(design.manipulator()), TrackedMachine::of(design));
+    let (solver, machine) =
+        (NearSolver::new(design.manipulator()), TrackedMachine::of(design, &table.frames));
     let known = design.machine_uncertainty();
     let mut from = start;
     followed(design, given, table, |given| {
@@ -172,7 +177,7 @@ pub(super) fn record_with(
     };
     FkOneAnswer {
         near: Some(NearRecord::new(start, outcome, conditioning(machine, outcome))),
-        ..SolvedRecord::from(&solutions).with_real_poses(m, &machine.home).into()
+        ..SolvedRecord::from(&solutions).with_real_poses(m, &machine.frames).into()
     }
 }
 

@@ -5,7 +5,7 @@ use fk::{
     RejectionReason, SolutionSet,
 };
 use nalgebra::{Rotation3, Vector3};
-use platform::geom::{ComplexPose, Pose};
+use platform::geom::{ComplexPose, Pose, PoseConvention};
 use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
 use serde_json::{Value, json};
 
@@ -74,9 +74,7 @@ fn what_is_not_finite_is_null_with_a_word_of_explanation() {
 fn people_are_told_when_roots_may_be_missing() {
     let answer = FkAnswer::One(Box::new(FkOneAnswer::from(SolvedRecord::from(&solutions(10.0)))));
     let shown = sheet::answers::fk("x", "mm", &answer).to_string();
-    assert!(
-        shown.starts_with("x: 3 finite poses, 1 of them real, 1 undecided (method homotopy)\nINCOMPLETE")
-    );
+    assert!(shown.starts_with("x: 3 poses, 1 of them real, 1 undecided (method homotopy)\nINCOMPLETE"));
 }
 
 #[test]
@@ -89,7 +87,12 @@ fn a_row_without_answer_says_why_in_the_last_column() {
         row(3, FkRowOutcome::Solved(Box::new(solved))),
     ];
     assert_eq!(
-        sheet::answers::fk("x", "mm", &FkAnswer::Rows(FkRowsAnswer { rows })).to_string(),
+        sheet::answers::fk(
+            "x",
+            "mm",
+            &FkAnswer::Rows(FkRowsAnswer { frames: (&PoseConvention::default()).into(), rows })
+        )
+        .to_string(),
         "line  method         finite  real  complete\n   \
          2  -                   -     -  the legs are not octahedral\n   \
          3  homotopy            3     1  ROOTS MAY BE MISSING\n"

@@ -3,7 +3,7 @@
 use crate::app::cli::exit::Exit;
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
-use ask::Design;
+use ask::{Design, PoseFrames};
 use files::design::TimeSeries;
 use machine::rotary::RotaryPlatform;
 use platform::geom::Pose;
@@ -12,6 +12,7 @@ use records::{IkAnswer, RotaryIkRecord, RotaryIkRowsAnswer};
 /// Exit 1 if a rod does not reach at one of the poses.
 pub(super) fn run(
     (design, platform): (&Design, &RotaryPlatform),
+    frames: &PoseFrames,
     series: &TimeSeries<Pose>,
     (one, from_table): (bool, bool),
     with_details: bool,
@@ -19,7 +20,7 @@ pub(super) fn run(
     let records = series.rows.iter().map(|row| RotaryIkRecord {
         line: from_table.then_some(row.line),
         time: row.time,
-        ..RotaryIkRecord::new(design, platform, &row.value)
+        ..RotaryIkRecord::new(design, platform, &row.value, frames)
     });
     let mut records: Vec<RotaryIkRecord> = records.collect();
     let reached = records.iter().all(|r| r.out_of_reach.is_none());
@@ -28,9 +29,10 @@ pub(super) fn run(
         Some(last) if one => IkAnswer::Cranks(Box::new(last)),
         last => {
             let rows = records.into_iter().chain(last).collect();
-            IkAnswer::CrankRows(RotaryIkRowsAnswer { rows })
+            IkAnswer::CrankRows(RotaryIkRowsAnswer { frames: (&frames.convention).into(), rows })
         }
     };
+    let answer = answer.with_frames(&frames.convention);
     Answer::new(if reached { Exit::Yes } else { Exit::No }, answer, text)
 }
 

@@ -7,10 +7,11 @@ use std::path::PathBuf;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
 use crate::app::cli::{poses, rows};
-use ask::Design;
+use ask::{Design, PoseFrames};
 use files::design::{SeriesRow, TimeSeries};
 use machine::requirements::Terms;
 use platform::geom::Pose;
@@ -32,6 +33,8 @@ pub(crate) struct IkArgs {
     /// --json always has them
     #[arg(long)]
     details: bool,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 const BAD_POSE: &str = "ik::bad_pose";
@@ -40,13 +43,19 @@ const BAD_POSE: &str = "ik::bad_pose";
 /// drive lengths beside the distances.
 pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
-    let (series, one) = match &args.poses {
-        Some(path) => (rows::poses(path, BAD_POSE, &poses::home(&design), context)?, false),
-        None => (named(&args.pose, &design)?, args.pose.len() < 2),
+    let frames = args.frames.of(&design);
+    let (mut series, one) = match &args.poses {
+        Some(path) => (rows::poses(path, BAD_POSE, &frames, context)?, false),
+        None => (named(&args.pose, &frames)?, args.pose.len() < 2),
     };
+    if args.poses.is_none() {
+        series.frames = frames.convention;
+    }
+    let frames = PoseFrames { convention: series.frames, ..frames };
+    note_frames(&frames, context);
     let from_table = args.poses.is_some();
     if let Some(platform) = Context::cranks_of(&design)? {
-        return Ok(cranks::run((&design, &platform), &series, (one, from_table), args.details));
+        return Ok(cranks::run((&design, &platform), &frames, &series, (one, from_table), args.details));
     }
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &poses::home(&design));
@@ -57,7 +66,7 @@ pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failur
         let record = IkRecord {
             line: from_table.then_some(row.line),
             time: row.time,
-            ..IkRecord::new(&design, &terms, &row.value, distances)
+            ..IkRecord::new(&design, &terms, (&row.value, &frames), distances)
         };
         let Some(legs) = &coupled else {
             return Ok(match &known {
@@ -75,25 +84,24 @@ pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failur
     let text = table(&design, series.time_name.as_deref(), &records, args.details);
     let answer = match records.pop() {
         Some(last) if one => IkAnswer::One(Box::new(last)),
-        last => IkAnswer::Rows(IkRowsAnswer { rows: records.into_iter().chain(last).collect() }),
+        last => IkAnswer::Rows(IkRowsAnswer {
+            frames: (&frames.convention).into(),
+            rows: records.into_iter().chain(last).collect(),
+        }),
     };
+    let answer = answer.with_frames(&frames.convention);
     Ok(Answer::new(Exit::Yes, answer, text))
 }
 
 /// The poses of the options; home if there are none.
-fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure> {
-    let pose = |text: &String| poses::parse(text, design, "--pose", BAD_POSE);
+fn named(texts: &[String], frames: &PoseFrames) -> Result<TimeSeries<Pose>, Failure> {
+    let pose = |text: &String| poses::parse(text, frames, "--pose", BAD_POSE);
     let mut all = texts.iter().map(pose).collect::<Result<Vec<_>, _>>()?;
     if all.is_empty() {
-        all.push(poses::home(design));
+        all.push(frames.home);
     }
     let row = |(k, value): (usize, Pose)| SeriesRow { line: k + 1, time: None, value };
-    Ok(TimeSeries {
-        time_name: None,
-        rows: all.into_iter().enumerate().map(row).collect(),
-        from_home: false,
-        guesses: Vec::new(),
-    })
+    Ok(TimeSeries::of_rows(all.into_iter().enumerate().map(row).collect()))
 }
 
 /// Distances of the joints at a pose.

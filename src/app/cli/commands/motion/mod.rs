@@ -8,11 +8,11 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::output::Answer;
 use crate::app::cli::{poses, rows};
 use ::files::export::LengthUnit;
-use ask::Design;
-use ask::{MotionMasses, MotionReport, PlatformMotion};
+use ask::{Design, MotionMasses, MotionReport, PlatformMotion, PoseFrames};
 use machine::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
 use machine::requirements::Load;
 use platform::geom::Pose;
@@ -56,6 +56,8 @@ pub(crate) struct MotionArgs {
     /// Write a table of all instants
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// The motions requested by a command.
@@ -69,6 +71,7 @@ pub(in crate::app::cli::commands) struct ChosenMotions<'a> {
     about: &'a str,
     steps: u32,
     samples: u32,
+    frames: FrameArgs,
 }
 
 impl<'a> ChosenMotions<'a> {
@@ -78,13 +81,22 @@ impl<'a> ChosenMotions<'a> {
         sine: &'a [String],
         accelerate: &'a [String],
     ) -> Self {
-        Self { trajectory, sine, accelerate, at_rest: false, about: "home", steps: STEPS, samples: SAMPLES }
+        Self {
+            trajectory,
+            sine,
+            accelerate,
+            at_rest: false,
+            about: "home",
+            steps: STEPS,
+            samples: SAMPLES,
+            frames: FrameArgs::default(),
+        }
     }
 
     fn of(args: &'a MotionArgs) -> Self {
-        let MotionArgs { at_rest, about, steps, samples, .. } = args;
+        let MotionArgs { at_rest, about, steps, samples, frames, .. } = args;
         let chosen = Self::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
-        Self { at_rest: *at_rest, about, steps: *steps, samples: *samples, ..chosen }
+        Self { at_rest: *at_rest, about, steps: *steps, samples: *samples, frames: *frames, ..chosen }
     }
 
     /// Whether no motion is requested.
@@ -99,15 +111,13 @@ impl<'a> ChosenMotions<'a> {
         context: &Context,
     ) -> Result<Vec<(String, PlatformMotion)>, Failure> {
         let mut out = Vec::new();
+        let frames = self.frames.of(design);
         if let Some(path) = self.trajectory {
             let ends = if self.at_rest { PathEnds::AtRest } else { PathEnds::Free };
-            let motion = PlatformMotion::Path(
-                trajectory(path, ends, &poses::home(design), context)?,
-                self.steps as usize,
-            );
+            let motion = PlatformMotion::Path(trajectory(path, ends, &frames, context)?, self.steps as usize);
             out.push((files::shown(path), motion));
         }
-        let about = about(self.about, design)?;
+        let about = about(self.about, &frames)?;
         for text in self.sine {
             let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
             out.push((format!("sine {text}"), PlatformMotion::Manoeuvre(sine, about, self.samples as usize)));
@@ -137,17 +147,19 @@ pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Fa
         let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
         return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
     }
+    note_frames(&args.frames.of(&design), context);
     let masses = masses(args, &design)?;
     let found: Vec<(String, MotionReport)> =
         motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();
     let stiffness = stiffness(args, &design, masses.as_ref())?;
     if let Some(path) = &args.csv {
-        files::write_text(path, &render::csv(&design, &found))?;
+        files::write_text(path, &render::csv(&design, &args.frames.of(&design), &found))?;
     }
     let records: Vec<MotionRunRecord> =
         found.iter().map(|(name, report)| MotionRunRecord::new(&design, name.clone(), report)).collect();
     let answer = MotionAnswer {
         name: design.name.clone(),
+        frames: (&args.frames.of(&design).convention).into(),
         met: records.iter().all(|r| r.met),
         length_unit: design.units.clone(),
         force_unit: design.force_unit().label().into(),
@@ -187,8 +199,8 @@ fn refuse_without_effect(args: &MotionArgs, design: &Design, context: &Context) 
     Ok(())
 }
 
-fn about(text: &str, design: &Design) -> Result<Pose, Failure> {
-    poses::parse(text, design, "--about", "motion::bad_pose")
+fn about(text: &str, frames: &PoseFrames) -> Result<Pose, Failure> {
+    poses::parse(text, frames, "--about", "motion::bad_pose")
 }
 
 /// The stiffness at the requested pose.
@@ -207,10 +219,11 @@ fn stiffness(
             "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
         ));
     }
-    let found = design.stiffness_at(&about(&args.about, design)?, masses).ok_or_else(|| {
-        Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
-            .with_help("add leg_stiffness to [hardware], force units per design unit")
-    })?;
+    let found =
+        design.stiffness_at(&about(&args.about, &args.frames.of(design))?, masses).ok_or_else(|| {
+            Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
+                .with_help("add leg_stiffness to [hardware], force units per design unit")
+        })?;
     Ok(Some(StiffnessRecord::new(&found)))
 }
 
@@ -220,8 +233,13 @@ fn no_manoeuvre(option: &str, why: &InvalidManoeuvre) -> Failure {
 }
 
 /// The motion through the poses of a table.
-fn trajectory(path: &Path, ends: PathEnds, home: &Pose, context: &Context) -> Result<PosePath, Failure> {
-    let series = rows::poses(path, BAD_TRAJECTORY, home, context)?;
+fn trajectory(
+    path: &Path,
+    ends: PathEnds,
+    frames: &PoseFrames,
+    context: &Context,
+) -> Result<PosePath, Failure> {
+    let series = rows::poses(path, BAD_TRAJECTORY, frames, context)?;
     let shown = files::shown(path);
     let Some(name) = &series.time_name else {
         let message = format!("{shown} has no column of times");

@@ -2,16 +2,16 @@
 
 use crate::app::cli::poses;
 use crate::app::cli::table::{column_unit, csv_line, number};
-use ask::Design;
-use ask::MotionReport;
+use ask::{Design, MotionReport, PoseFrames};
 
 /// Every instant of every motion.
-pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String {
+pub(super) fn csv(design: &Design, frames: &PoseFrames, motions: &[(String, MotionReport)]) -> String {
     let unit = column_unit(&design.units);
     let force = design.force_unit().label();
     let mut header: Vec<String> = ["motion", "t_s"].map(String::from).to_vec();
-    header.extend(["x", "y", "z"].map(|axis| format!("{axis}_{unit}")));
-    header.extend(["qw", "qx", "qy", "qz"].map(String::from));
+    let [x, y, z, quaternion @ ..] = poses::csv_names(frames);
+    header.extend([x, y, z].map(|axis| format!("{axis}_{unit}")));
+    header.extend(quaternion.map(String::from));
     let columns = if design.has_cranks() {
         [
             ("crank", "deg".to_string()),
@@ -36,7 +36,7 @@ pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String
     for (name, found) in motions {
         for at in &found.instants {
             let mut cells = vec![name.clone(), number(at.time)];
-            cells.extend(poses::csv_fields(&at.state.pose).split(',').map(str::to_string));
+            cells.extend(poses::csv_fields(frames, &at.state.pose).split(',').map(str::to_string));
             // nothing is known of a crank whose rod does not reach
             let cell = |x: f64| if x.is_nan() { String::new() } else { number(x) };
             cells.extend(at.legs.iter().map(|leg| cell(leg.length)));

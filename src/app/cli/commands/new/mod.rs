@@ -3,7 +3,6 @@
 
 mod prompts;
 
-use std::fmt::Write as _;
 use std::io::{stderr, stdin};
 use std::path::PathBuf;
 
@@ -319,15 +318,13 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
         context.note(&format!("{found}. Choose another height, turn or size."));
     }
     let (file, text) = match output {
-        None => (PresetFile::Given { text: toml.clone() }, toml),
+        None => (PresetFile::Given { text: toml.clone() }, Some(toml)),
         Some(path) => {
             match Format::of_path(path) {
                 Format::Toml => files::write_text(path, &toml)?,
                 Format::Json => files::write_design(path, &design)?,
             }
-            let shown = path.display().to_string();
-            let text = summary(&shown, &design, &home, lengths, singular);
-            (PresetFile::Written { output: shown }, text)
+            (PresetFile::Written { output: path.display().to_string() }, None)
         }
     };
     let answer = NewAnswer {
@@ -341,26 +338,11 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
         guesses,
     };
     let exit = if singular_home.is_none() { Exit::Yes } else { Exit::No };
-    Ok(Answer::new(exit, answer, text))
-}
-
-fn summary(path: &str, design: &Design, home: &Pose, lengths: [f64; 6], singular: bool) -> String {
-    let (p, units) = (home.position, &design.units);
-    let [roll, pitch, yaw] = home.angles().degrees();
-    let mut out = format!("wrote {path}\n");
-    let _ = writeln!(
-        out,
-        "home: x {:.3}, y {:.3}, z {:.3} {units}; roll {roll:.3}, pitch {pitch:.3}, yaw {yaw:.3} degrees",
-        p.x, p.y, p.z
-    );
-    let listed = lengths.map(|l| format!("{l:.3}")).join(", ");
-    let _ = writeln!(
-        out,
-        "{}: {listed} {units}",
-        if design.has_cranks() { "rods" } else { "leg lengths at home" }
-    );
-    if singular {
-        out.push_str("ARCHITECTURALLY SINGULAR: the leg lines are dependent at every pose; `equipod check` explains why\n");
-    }
-    out
+    Ok(match text {
+        Some(text) => Answer::new(exit, answer, text),
+        None => {
+            let sheet = sheet::answers::new_design(&answer, design.has_cranks());
+            Answer::new(exit, answer, sheet)
+        }
+    })
 }

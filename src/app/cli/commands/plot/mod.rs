@@ -20,6 +20,7 @@ use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ::files::plot::singular_slice;
+use platform::geom::PoseConvention;
 use records::{FigureWord, PictureRecord, PlotAnswer};
 
 /// Arguments of `plot`.
@@ -105,7 +106,8 @@ impl Figure {
             Self::SelfMotion(question) => (FigureWord::SelfMotion, motion::drawing(question, context)?),
             Self::SingularPoses { design, pose, slice } => {
                 let design = context.load(design)?;
-                let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
+                let frames = design.pose_frames(PoseConvention::default());
+                let pose = poses::parse(pose, &frames, "--pose", "plot::bad_pose")?;
                 // the picture needs only the shape of the box
                 let options = design.box_options(0, seed);
                 let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);

@@ -20,7 +20,7 @@ pub(super) struct PlotModesArgs {
 pub(super) fn draw(args: &PlotModesArgs, context: &mut Context) -> Result<String, Failure> {
     let mut design = context.load(&args.design)?;
     if let Some(text) = &args.lengths {
-        let six = fk::lengths::six(text, &design.leg_offsets()).map(|given| given.distances);
+        let six = fk::lengths::six(text, &design.leg_offsets(), &design.units).map(|given| given.distances);
         design.lengths = Some(six.map_err(|m| {
             Failure::refused("plot::bad_lengths", format!("--lengths: {m}"))
                 .with_help("give six lengths separated by commas")

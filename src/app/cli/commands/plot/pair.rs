@@ -7,6 +7,7 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
 use files::plot::{PairFigure, platform_pair};
+use platform::geom::PoseConvention;
 use synthesis::Relation;
 use verify::judge;
 
@@ -26,7 +27,8 @@ pub(super) struct PlotPairArgs {
 
 pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String, Failure> {
     let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
-    let pose = poses::parse(&args.pose, &a, "--pose", "plot::bad_pose")?;
+    let pose =
+        poses::parse(&args.pose, &a.pose_frames(PoseConvention::default()), "--pose", "plot::bad_pose")?;
     let found = judge(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
     let between = match found.relation {
         Relation::Equivalent => {

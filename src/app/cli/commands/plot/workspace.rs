@@ -10,7 +10,7 @@ use crate::app::cli::poses;
 use ask::Design;
 use files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
 use machine::requirements::{Limit, Limits, Region};
-use platform::geom::{Pose, turn_between};
+use platform::geom::{Pose, PoseConvention, turn_between};
 
 /// Default half width for rotations, degrees.
 const DEGREES: f64 = 90.0;
@@ -43,7 +43,8 @@ fn half_widths(text: &str) -> Result<[f64; 2], String> {
 pub(super) fn draw(args: &PlotWorkspaceArgs, context: &mut Context) -> Result<String, Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
-    let pose = poses::parse(&args.pose, &design, "--pose", "plot::bad_pose")?;
+    let pose =
+        poses::parse(&args.pose, &design.pose_frames(PoseConvention::default()), "--pose", "plot::bad_pose")?;
     let default = || args.slice.places().map(|k| if k < 3 { m.size() } else { DEGREES });
     let grid = PoseGrid {
         freedoms: args.slice,
@@ -101,7 +102,7 @@ impl LimitKind {
 
     fn words(self) -> String {
         match self {
-            Self::Requirement(kind) => kind.code().replace('_', " "),
+            Self::Requirement(kind) => kind.label().into(),
             Self::Singular => "beyond a singular pose".into(),
         }
     }

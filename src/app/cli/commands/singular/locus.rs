@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use crate::app::cli::context::Context;
+use crate::app::cli::exact_pose;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
-use crate::app::cli::poses;
 use num::surd::Surd;
 use records::SingularLocusAnswer;
 use synthesis::singularity::{PoseFamily, locus_polynomial};
@@ -28,12 +29,16 @@ pub(crate) struct SingularLocusArgs {
     /// half the angle divided by the axis length
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     about: Option<String>,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// Computes the polynomial. Exit 1: all poses of the family are singular.
 pub(crate) fn run(args: &SingularLocusArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let pose = poses::exact(&args.pose, &design, "--pose", "locus::bad_pose")?;
+    let frames = args.frames.of(&design);
+    let pose = exact_pose::read(&args.pose, (&design, &frames), "--pose", "locus::bad_pose")?;
+    note_frames(&frames, context);
     let family = match (&args.along, &args.about) {
         (Some(text), _) => PoseFamily::Line(direction(text, "--along")?),
         (None, Some(text)) => PoseFamily::Rotation(direction(text, "--about")?),

@@ -4,13 +4,14 @@ use std::cmp::Ordering;
 use std::path::PathBuf;
 
 use crate::app::cli::commands::report;
+use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
 use crate::app::cli::swept_table::{Better, SweptTable};
-use num::shown::significant;
+use num::shown::rounded;
 use records::{SweepBestAnswer, SweepBestRecord};
 use sweep::SweepCell;
 
@@ -44,7 +45,7 @@ pub(crate) struct SweepBestArgs {
 }
 
 /// Ranks the rows, makes the designs again from plan and seed, and compares them.
-pub(crate) fn run(args: &SweepBestArgs) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     let sweep = folder.sweep()?;
     let table = SweptTable::open(&args.folder, &args.keep)?;
@@ -97,7 +98,7 @@ pub(crate) fn run(args: &SweepBestArgs) -> Result<Answer, Failure> {
         files::write_text(&path, &text)?;
         texts.push(text);
         let output = path.display().to_string();
-        lines.push(format!("{output}  {} {}\n", args.by, significant(value)));
+        lines.push(format!("{output}  {} {}\n", args.by, rounded(value, context.digits())));
         candidates.push(SweepBestRecord { candidate: k, value: value.into(), output });
         paths.push(path);
     }

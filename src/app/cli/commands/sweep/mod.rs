@@ -41,7 +41,7 @@ impl SweepCommand {
             Self::Status(args) => status::run(args),
             Self::Merge(args) => merge::run(args),
             Self::Verify(args) => verify::run(args, context),
-            Self::Best(args) => best::run(args),
+            Self::Best(args) => best::run(args, context),
             Self::Design(args) => design::run(args),
             Self::Script(args) => script::run(args, context),
         }

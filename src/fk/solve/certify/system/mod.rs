@@ -113,6 +113,13 @@ pub struct SquareData {
     pub(super) radius: [f64; 6],
 }
 
+impl SquareData {
+    /// All numbers within radii of the middles.
+    pub(crate) fn within(middle: [DoubleDouble; 6], radius: [f64; 6]) -> Self {
+        Self { middle, radius }
+    }
+}
+
 impl From<&SquaredLegLengths> for SquareData {
     fn from(s: &SquaredLegLengths) -> Self {
         Self { middle: s.middle(), radius: s.radius() }

@@ -4,14 +4,12 @@ pub(in crate::app::cli::commands) mod render;
 
 use std::path::PathBuf;
 
-use nalgebra::Point3;
-
-use super::tolerances::numbers;
+use super::tolerances::tool_point;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::numbers::number;
+use crate::app::cli::numbers::{Length, length, lengths, number};
 use crate::app::cli::output::Answer;
 use ask::Design;
 use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
@@ -28,11 +26,11 @@ pub(crate) struct BuildRoundArgs {
     /// requirements
     design: PathBuf,
     /// Distance of neighbouring holes of the base, design units; replaces the grids in the design's table holes
-    #[arg(long, value_name = "PITCH", value_parser = number)]
-    grid: Option<f64>,
+    #[arg(long, value_name = "PITCH", value_parser = length)]
+    grid: Option<Length>,
     /// Distance of neighbouring holes of the platform, design units; default: as on the base
-    #[arg(long, value_name = "PITCH", value_parser = number)]
-    grid_platform: Option<f64>,
+    #[arg(long, value_name = "PITCH", value_parser = length)]
+    grid_platform: Option<Length>,
     /// Pattern of the holes; default: from the design, or square
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern: Option<PatternWord>,
@@ -146,7 +144,10 @@ fn with<'a>(found: &'a Rounding, m: &Manipulator) -> Option<RoundingChoice<'a>> 
 
 /// The grids of the design or of `--grid`, changed by further options.
 fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
-    let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
+    let [grid, grid_platform] =
+        [&args.grid, &args.grid_platform].map(|pitch| Length::of_option(pitch.as_ref(), &design.units));
+    let (grid, grid_platform) = (grid?, grid_platform?);
+    let pitches = grid.map(|base| [base, grid_platform.unwrap_or(base)]);
     let mut grids = match (design.holes, pitches) {
         (Some(grids), None) => grids,
         (_, Some(pitches)) => pitches.map(|pitch| Some(Grid::square(pitch))),
@@ -155,7 +156,7 @@ fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Fa
                 .with_help("name the distance of neighbouring holes, --grid 25, or state the grids of both plates in [holes]"));
         }
     };
-    if let (Some(pitch), None) = (args.grid_platform, args.grid) {
+    if let (Some(pitch), None) = (grid_platform, grid) {
         // circles have dimensions other than a pitch
         let lattice = grids[1].filter(|grid| grid.pattern.skew().is_some());
         grids[1] = Some(Grid { pitch, ..lattice.unwrap_or(Grid::square(pitch)) });
@@ -180,7 +181,8 @@ fn grids(args: &BuildRoundArgs, design: &Design) -> Result<[Option<Grid>; 2], Fa
             *grid = Grid { pattern: pattern.into(), circles: HoleCircles::NONE, ..*grid };
         }
         if let (Some(text), option) = origin[k] {
-            grid.origin = numbers(text, option, "round::bad_grid")?;
+            grid.origin = lengths::<2>(text, "two", &design.units)
+                .map_err(|why| Failure::refused("round::bad_grid", format!("{option}: {why}")))?;
         }
         grid.angle_deg = angle[k].unwrap_or(grid.angle_deg);
     }
@@ -199,7 +201,7 @@ fn no_grid_to_change(body: Body) -> Failure {
 pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let grids = grids(args, &design)?;
-    let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);
+    let tool = tool_point(&args.tool, &design.units, "round::bad_tool")?;
     if args.variant != Variant::Rule {
         context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
     }

@@ -10,6 +10,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers::{lengths, one};
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ask::Design;
@@ -131,11 +132,27 @@ fn failure_of(error: &ToleranceError) -> Failure {
     }
 }
 
-/// `--bound` and `--tool`.
-fn asked(bound: &str, tool: &str) -> Result<(ErrorBound, Point3<f64>), Failure> {
-    let [position, rotation_deg] = numbers(bound, "--bound", "tolerances::bad_bound")?;
-    let tool = Point3::from(numbers::<3>(tool, "--tool", "tolerances::bad_tool")?);
-    Ok((ErrorBound { position, rotation_deg }, tool))
+/// `--bound` and `--tool`, lengths in the unit of the design.
+fn asked(bound: &str, tool: &str, units: &str) -> Result<(ErrorBound, Point3<f64>), Failure> {
+    let bad = |why: String| {
+        Failure::refused("tolerances::bad_bound", format!("--bound: {why}"))
+            .with_help("write a length and an angle in degrees, for instance 0.1,0.05")
+    };
+    let (length, angle) =
+        bound.split_once(',').ok_or_else(|| bad(format!("`{bound}` is not a length and an angle")))?;
+    let [position] = lengths::<1>(length, "one", units).map_err(bad)?;
+    let rotation_deg = one(angle).ok_or_else(|| bad(format!("the angle `{angle}` is no number")))?;
+    Ok((ErrorBound { position, rotation_deg }, tool_point(tool, units, "tolerances::bad_tool")?))
+}
+
+/// `--tool`: a point in the platform frame.
+///
+/// # Errors
+/// Exit 2: no three lengths.
+pub(crate) fn tool_point(text: &str, units: &str, code: &'static str) -> Result<Point3<f64>, Failure> {
+    lengths::<3>(text, "three", units)
+        .map(Point3::from)
+        .map_err(|why| Failure::refused(code, format!("--tool: {why}")))
 }
 
 /// The greatest error that every joint may have in any direction, design units, for a bound and a tool point.
@@ -148,7 +165,7 @@ pub(in crate::app::cli::commands) fn joint_radius(
     (bound, tool): (&str, &str),
     seed: u64,
 ) -> Result<f64, Failure> {
-    let (bound, tool) = asked(bound, tool)?;
+    let (bound, tool) = asked(bound, tool, &design.units)?;
     let m = design.manipulator();
     let search = PoseSearch { seed, ..PoseSearch::default() };
     let budget = budget(m, &poses::space(design).0, tool, bound, &search).map_err(|e| failure_of(&e))?;
@@ -163,7 +180,7 @@ pub(in crate::app::cli::commands) fn joint_radius(
 }
 
 fn find(design: &Design, args: &BuildTolerancesArgs, seed: u64) -> Result<ToleranceReports, Failure> {
-    let (bound, tool) = asked(&args.bound, &args.tool)?;
+    let (bound, tool) = asked(&args.bound, &args.tool, &design.units)?;
     let (space, workspace_given) = poses::space(design);
     let search = PoseSearch {
         points: args.points as usize,

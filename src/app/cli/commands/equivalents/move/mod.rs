@@ -1,9 +1,6 @@
 //! `equipod equivalents move`: moves legs along families of replaceable legs, or searches for an equivalent platform.
 
 pub(in crate::app::cli::commands) mod found;
-mod naming;
-mod render;
-mod request;
 mod wishes;
 
 use std::path::PathBuf;
@@ -13,16 +10,10 @@ use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use ::files::design::Share;
-use ask::{Design, NoReplaceableLegs, ReplaceableOptions};
-use naming::{Meant, internal, list_families, resolve};
-use platform::manipulator::Body;
-use records::MoveAnswer;
-use request::{MoveRequest, requests};
+use ask::{Design, InvalidMove, LegMoveRequest, MoveOptions, NoMoves, NoReplaceableLegs, ReplaceableOptions};
+use records::{MoveAnswer, MovesAnswer};
 use synthesis::components::{ComponentOptions, Components, ComponentsError};
-use synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
-use synthesis::{LegMapOutcome, LegMapTolerances, Relation};
-use verify::judge;
+use synthesis::relocate::RelocateError;
 
 /// Arguments of `equivalents move`.
 #[derive(Debug, clap::Args)]
@@ -74,46 +65,24 @@ pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<A
         let message = format!("{option} is a wish for --search");
         return Err(Failure::refused("move::wish_without_search", message).with_help("add --search"));
     }
-    let wanted = requests(args.leg.as_deref(), args.along.as_deref(), args.to.as_deref(), &args.moves)?;
+    let wanted = args.moves()?;
     if wanted.is_empty() {
-        let families = families(&design, options)?;
+        let families = design.families_in_words(&families(&design, options)?);
         let failure = Failure::refused("move::nothing_asked", "no move is asked for");
-        return Err(failure.with_help(list_families(&design, &families)?));
+        return Err(failure.with_help(families.map_err(|e| Failure::internal(e.to_string()))?));
     }
     if wanted.len() < 2 {
         context.no_effect("together", "a single leg is moved")?;
     }
-    let done = if args.together {
-        vec![one_step(&design, &design, &wanted, options)?]
-    } else {
-        sequence(&design, &wanted, options)?
-    };
-    let steps: Vec<Relocation> = done.iter().map(|s| s.relocation.clone()).collect();
-    let mut chain = Chain::of(design.manipulator(), &steps, LegMapTolerances::default())
-        .map_err(|e| Failure::internal(e.to_string()))?;
-    let regular = steps.iter().all(Relocation::is_regular);
-    let last = done.last().and_then(|s| s.design.clone());
-    if let Some(new) = &last {
-        keeps_fixed(&design, new)?;
-        chain.direct = judged(&design, new)?;
+    let asked = MoveOptions { together: args.together, search: options };
+    let found = design.move_legs(&wanted, asked).map_err(|why| refusal(&why))?;
+    let mut answer = MovesAnswer::new(&design, &found);
+    if let (Some(path), Some(new), true) = (&args.output, &found.design, found.is_regular()) {
+        files::write_design(path, new)?;
+        answer.output = Some(path.display().to_string());
     }
-    let built = last.map(|d| finished(d, &design, &chain, regular, args.together));
-    let mut written = None;
-    if let (Some(path), Some(d), true) = (&args.output, &built, regular) {
-        files::write_design(path, d)?;
-        written = Some(path.display().to_string());
-    }
-    let record = render::Record {
-        design: &design,
-        done: &done,
-        chain: &chain,
-        wanted: wanted.len(),
-        together: args.together,
-    };
-    let answer = record.record(built.as_ref(), written.as_deref());
     let text = sheet::answers::moves(&answer);
-    let singular = steps.iter().any(|s| s.map.relation == Relation::Singular);
-    let exit = match (regular, singular) {
+    let exit = match (found.is_regular(), found.is_singular()) {
         (true, _) => Exit::Yes,
         (false, true) => Exit::No,
         (false, false) => Exit::Inconclusive,
@@ -135,139 +104,61 @@ pub(in crate::app::cli::commands) fn refuse_fixed(
         .with_help("remove `fixed`, or move legs by name: --move LEG:FAMILY:T"))
 }
 
-/// Checks that every fixed joint is still the end of a leg.
-fn keeps_fixed(given: &Design, new: &Design) -> Result<(), Failure> {
-    let size = given.manipulator().size();
-    for body in Body::BOTH {
-        let joints = given.manipulator().joints(body);
-        let ends = new.manipulator().legs().map(|leg| body.of((leg.base, leg.platform)));
-        for (k, fixed) in given.fixed_joints(body).into_iter().enumerate() {
-            let in_use = given.manipulator().pairs().iter().any(|(a, b)| body.of((*a, *b)) == k);
-            if fixed && in_use && ends.iter().all(|end| (end - joints[k]).norm() > STAYS * size) {
-                let name = &given.joint_names(body)[k];
-                let message =
-                    format!("the joint {name} is `fixed` in [optimize], and no leg would end there");
-                return Err(Failure::refused("move::fixed", message)
-                    .with_help("move another leg, or remove the joint from `fixed`"));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// An end within this share of the size of the design is at the joint.
-const STAYS: f64 = 1e-9;
-
 /// The families of a design.
 fn families(design: &Design, options: ComponentOptions) -> Result<Components, Failure> {
     let legs = design.replaceable_legs(&ReplaceableOptions::all(options));
-    legs.map(|l| l.found).map_err(|why| match why {
+    legs.map(|l| l.found).map_err(|why| no_families(&why))
+}
+
+fn no_families(why: &NoReplaceableLegs) -> Failure {
+    match why {
         NoReplaceableLegs::Search(ComponentsError::Tolerance(_)) => {
             Failure::refused("move::bad_tolerance", why.to_string())
         }
         _ => Failure::internal(why.to_string()),
-    })
+    }
 }
 
-/// Moves made at once, with the names of the families used.
-#[derive(Debug)]
-struct MovedAtOnce {
-    relocation: Relocation,
-    /// For each move, the type of its family and the joints that span it.
-    families: Vec<(String, Option<String>)>,
-    /// For each move, its parameters as written.
-    written: Vec<Vec<String>>,
-    /// The new design, if the legs make a platform.
-    design: Option<Design>,
+impl EquivalentsMoveArgs {
+    /// All moves asked for, in order.
+    fn moves(&self) -> Result<Vec<LegMoveRequest>, Failure> {
+        let parts = self.leg.as_deref().zip(self.along.as_deref()).zip(self.to.as_deref());
+        let in_parts = parts.map(|((leg, along), to)| LegMoveRequest::of(leg, along, to));
+        let in_words = self.moves.iter().map(|text| text.parse());
+        in_parts.into_iter().chain(in_words).collect::<Result<_, _>>().map_err(|why| match why {
+            InvalidMove::Leg(_) => Failure::refused("move::no_such_leg", why.to_string()),
+            InvalidMove::Form(_) | InvalidMove::Parameter(_) => {
+                Failure::refused("move::bad_move", why.to_string()).with_help(FORM)
+            }
+        })
+    }
 }
 
-/// The moves one after another, up to the first singular one.
-fn sequence(
-    design: &Design,
-    wanted: &[MoveRequest],
-    options: ComponentOptions,
-) -> Result<Vec<MovedAtOnce>, Failure> {
-    let mut done: Vec<MovedAtOnce> = Vec::new();
-    for request in wanted {
-        let current = done.last().and_then(|s| s.design.as_ref()).unwrap_or(design);
-        let step = one_step(design, current, std::slice::from_ref(request), options)?;
-        let regular = step.relocation.is_regular();
-        done.push(step);
-        if !regular {
-            break;
+const FORM: &str = "a move is LEG:FAMILY:T[,U,..], for instance 1:3:0.25 or 1:P1:P4-P5:1/4";
+
+/// The refusal of moves, with the families that there are.
+fn refusal(why: &NoMoves) -> Failure {
+    let refused = |code: &'static str, help: &str| Failure::refused(code, why.to_string()).with_help(help);
+    match why {
+        NoMoves::Families(why) => no_families(why),
+        NoMoves::NotAFamily(_) => refused(
+            "move::no_such_family",
+            "name the joints that span it: P1:P4-P5 is the legs from P1 to the line through P4 and P5",
+        ),
+        NoMoves::NoSuchFamily { families, .. } => refused("move::no_such_family", families),
+        NoMoves::Ambiguous { .. } => refused("move::ambiguous_family", "give the number of one of them"),
+        NoMoves::Fixed(_) => refused("move::fixed", "move another leg, or remove the joint from `fixed`"),
+        NoMoves::Linalg(_) => Failure::internal(why.to_string()),
+        NoMoves::Move { why, families } => {
+            let code = match why {
+                RelocateError::NoSuchFamily { .. } => "move::no_such_family",
+                RelocateError::ParameterCount { .. } => "move::parameter_count",
+                RelocateError::NoLeg { .. } => "move::no_leg",
+                RelocateError::NotCarried { .. } => "move::not_carried",
+                RelocateError::Twice(_) => "move::leg_twice",
+                _ => return Failure::internal(why.to_string()),
+            };
+            refused(code, families)
         }
     }
-    Ok(done)
-}
-
-/// Moves of legs of `current` made at once; names of joints refer to `given` if it has them.
-fn one_step(
-    given: &Design,
-    current: &Design,
-    wanted: &[MoveRequest],
-    options: ComponentOptions,
-) -> Result<MovedAtOnce, Failure> {
-    let found = families(current, options)?;
-    let mut moves: Vec<LegMove> = Vec::new();
-    for r in wanted {
-        let Meant { index, formulas } = resolve(&r.along, given, current, &found)?;
-        let parameters = r.parameters.iter().map(Share::nearest).collect();
-        moves.push(LegMove { leg: r.leg, family: index, parameters, formulas });
-    }
-    let mut relocation = relocate(current.manipulator(), &found, &moves, LegMapTolerances::default())
-        .map_err(|e| refusal(&e, current, &found))?;
-    let mut names = Vec::new();
-    for step in &moves {
-        let type_name = found.components[step.family].type_name();
-        let name = current.family_name(&found, step.family).map_err(|e| internal(&e))?;
-        names.push((type_name, name));
-    }
-    let shares: Vec<Share> = wanted.iter().flat_map(|r| r.parameters.clone()).collect();
-    let design = current.with_legs_of(&relocation.assembled, &shares);
-    if let Some(new) = &design {
-        relocation.map = judged(current, new)?;
-    }
-    let written = wanted.iter().map(|r| r.parameters.iter().map(Share::to_string).collect()).collect();
-    Ok(MovedAtOnce { relocation, families: names, written, design })
-}
-
-/// The relation of two designs, decided on their joints.
-fn judged(from: &Design, to: &Design) -> Result<LegMapOutcome, Failure> {
-    judge(from.manipulator(), to.manipulator()).map_err(|e| Failure::internal(e.to_string()))
-}
-
-/// The refusal of an impossible move, with the possible ones.
-fn refusal(e: &RelocateError, design: &Design, found: &Components) -> Failure {
-    let code = match e {
-        RelocateError::NoSuchFamily { .. } => "move::no_such_family",
-        RelocateError::ParameterCount { .. } => "move::parameter_count",
-        RelocateError::NoLeg { .. } => "move::no_leg",
-        RelocateError::NotCarried { .. } => "move::not_carried",
-        RelocateError::Twice(_) => "move::leg_twice",
-        _ => return Failure::internal(e.to_string()),
-    };
-    match list_families(design, found) {
-        Ok(list) => Failure::refused(code, e.to_string()).with_help(list),
-        Err(failure) => failure,
-    }
-}
-
-/// The last design with the results of the whole chain.
-fn finished(built: Design, given: &Design, chain: &Chain, regular: bool, together: bool) -> Design {
-    let mut out = built;
-    out.name = format!("{}, legs moved", given.name);
-    out.description = Some(format!(
-        "Equivalent to \"{}\" by equipod {} (legs moved {}): det A = {}",
-        given.name,
-        env!("CARGO_PKG_VERSION"),
-        if together { "together" } else { "one after another" },
-        chain.direct.determinant
-    ));
-    if !regular {
-        out.description = Some(format!("Singular: made from \"{}\" by moves with det A = 0", given.name));
-    }
-    // the lengths of the new legs at the same pose
-    let lengths = given.lengths.and_then(|l| chain.direct.closest.apply(&l.squared()).ok());
-    out.lengths = lengths.map(|s| s.lengths());
-    out
 }

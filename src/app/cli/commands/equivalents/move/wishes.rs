@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use crate::app::cli::failure::Failure;
-use crate::app::cli::numbers;
+use crate::app::cli::numbers::{self, Length};
 use ask::{Design, MoveWishes};
 use platform::manipulator::{Body, LegIndex};
 use synthesis::relocate::search::{Hole, MoveSearchOptions};
@@ -18,8 +18,8 @@ pub(in crate::app::cli::commands) struct WishArgs {
     #[arg(long)]
     no_crossing: bool,
     /// Search: least clearance of two legs, design units; default: the leg diameter of the design, or 0
-    #[arg(long, value_name = "D", value_parser = numbers::number, requires = "no_crossing")]
-    clearance: Option<f64>,
+    #[arg(long, value_name = "D", value_parser = numbers::length, requires = "no_crossing")]
+    clearance: Option<Length>,
     /// Search: a joint of the body lies here, base:X,Y,Z or platform:X,Y,Z; repeat the option for several
     #[arg(long, value_name = "BODY:X,Y,Z")]
     hole: Vec<String>,
@@ -28,8 +28,8 @@ pub(in crate::app::cli::commands) struct WishArgs {
     joint: Vec<String>,
     /// Search: least distance of two joints of one body, design units; default: the least distance in the design, or a
     /// hundredth of its size
-    #[arg(long, value_name = "D", value_parser = numbers::number)]
-    spacing: Option<f64>,
+    #[arg(long, value_name = "D", value_parser = numbers::length)]
+    spacing: Option<Length>,
     /// Search: least inverse condition number of the Jacobian; default: a tenth of the design's own
     #[arg(long, value_name = "X")]
     conditioning: Option<f64>,
@@ -72,7 +72,7 @@ impl WishArgs {
         }
         let mut holes = Vec::new();
         for text in &self.hole {
-            holes.push(hole(text)?);
+            holes.push(hole(text, &design.units)?);
         }
         for text in &self.joint {
             holes.push(joint(text, design)?);
@@ -80,9 +80,9 @@ impl WishArgs {
         Ok(MoveWishes {
             no_shared_joints: self.no_shared_joints,
             no_crossing: self.no_crossing,
-            clearance: self.clearance,
+            clearance: Length::of_option(self.clearance.as_ref(), &design.units)?,
             holes,
-            spacing: self.spacing,
+            spacing: Length::of_option(self.spacing.as_ref(), &design.units)?,
             conditioning: self.conditioning,
             reach: self.reach,
             workspace: self.workspace,
@@ -95,24 +95,20 @@ impl WishArgs {
     }
 }
 
-fn point(text: &str, whole: &str) -> Result<Point3<f64>, Failure> {
-    match numbers::parse(text) {
-        Some([x, y, z]) => Ok(Point3::new(x, y, z)),
-        None => Err(Failure::refused(
-            "move::bad_hole",
-            format!("`{whole}`: `{text}` is not three finite numbers"),
-        )
-        .with_help("--hole base:X,Y,Z or --joint NAME=X,Y,Z, in the frame of the body")),
-    }
+fn point(text: &str, whole: &str, units: &str) -> Result<Point3<f64>, Failure> {
+    numbers::lengths::<3>(text, "three", units).map(Point3::from).map_err(|why| {
+        Failure::refused("move::bad_hole", format!("`{whole}`: {why}"))
+            .with_help("--hole base:X,Y,Z or --joint NAME=X,Y,Z, in the frame of the body")
+    })
 }
 
-fn hole(text: &str) -> Result<Hole, Failure> {
+fn hole(text: &str, units: &str) -> Result<Hole, Failure> {
     let named = text.split_once(':').and_then(|(body, place)| Some((body.parse().ok()?, place)));
     let Some((body, place)) = named else {
         return Err(Failure::refused("move::bad_hole", format!("`{text}` names no body"))
             .with_help("base:X,Y,Z or platform:X,Y,Z"));
     };
-    Ok(Hole { body, point: point(place, text)?, legs: Vec::new() })
+    Ok(Hole { body, point: point(place, text, units)?, legs: Vec::new() })
 }
 
 /// Parses `NAME=X,Y,Z`: one of the legs at joint NAME has to end there.
@@ -135,5 +131,5 @@ fn joint(text: &str, design: &Design) -> Result<Hole, Failure> {
                 .with_help(format!("joints: {}", known.join(", "))));
         }
     };
-    Ok(Hole { body, point: point(place, text)?, legs })
+    Ok(Hole { body, point: point(place, text, &design.units)?, legs })
 }

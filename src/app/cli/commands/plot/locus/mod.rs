@@ -9,10 +9,11 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::output::{Answer, AnswerText};
 use ask::{Design, LocusOptions, LocusReport, NoLocus};
 use platform::manipulator::LegIndex;
 use records::LocusAnswer;
+use sheet::Sheet;
 
 /// Arguments of `plot locus`.
 #[derive(Debug, clap::Args)]
@@ -59,9 +60,12 @@ pub(super) fn run(
     let text = match output {
         Some(path) => {
             files::write_text(path, &picture)?;
-            format!("{}\n{}", path.display(), sheet::answers::locus(&design.name, &record))
+            let mut sheet = Sheet::new();
+            sheet.line(path.display());
+            sheet.add(sheet::answers::locus(&design.name, &record));
+            AnswerText::Sheet(sheet)
         }
-        None => picture,
+        None => picture.into(),
     };
     if let Some(path) = &args.csv {
         files::write_text(path, &render::csv(&record))?;

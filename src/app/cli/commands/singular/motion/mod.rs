@@ -9,6 +9,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ::files::plot::{MotionFigure, motion};
@@ -46,6 +47,8 @@ pub(crate) struct CurveQuestion {
     /// Largest rotation of the tangent from point to point, radians
     #[arg(long, value_name = "RAD", default_value_t = 0.05, value_parser = turn)]
     turn: f64,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 fn turn(text: &str) -> Result<f64, String> {
@@ -57,7 +60,7 @@ fn turn(text: &str) -> Result<f64, String> {
 pub(crate) fn run(args: &SingularMotionArgs, context: &mut Context) -> Result<Answer, Failure> {
     let (design, found) = trace(&args.question, context)?;
     if let Some(path) = &args.csv {
-        files::write_text(path, &render::csv(&found))?;
+        files::write_text(path, &render::csv(&found, &args.question.frames.of(&design)))?;
     }
     if let Some(path) = &args.svg {
         files::write_text(path, &picture(&design, &found)?)?;
@@ -98,10 +101,10 @@ fn failure(why: &NoSelfMotion) -> Failure {
 fn start(args: &CurveQuestion, design: &Design) -> Result<MotionStart, Failure> {
     if let Some(text) = &args.lengths {
         let bad = |message: String| Failure::refused("motion::bad_lengths", format!("--lengths: {message}"));
-        let lengths = six(text, &design.leg_offsets()).map_err(bad)?;
+        let lengths = six(text, &design.leg_offsets(), &design.units).map_err(bad)?;
         return Ok(MotionStart::Lengths(lengths.distances.squared()));
     }
-    poses::parse(&args.pose, design, "--pose", "motion::bad_pose").map(MotionStart::Pose)
+    poses::parse(&args.pose, &args.frames.of(design), "--pose", "motion::bad_pose").map(MotionStart::Pose)
 }
 
 /// The longest curve, animated.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ask::{Design, MotionOrigin, SelfMotionReport};
+use ask::{Design, MotionOrigin, PoseFrames, SelfMotionReport};
 use fk::CompletenessWord;
 use records::{
     CriticalPointsRecord, IsolatedRecord, MotionCurveRecord, MotionEvidenceWord, Number,
@@ -51,11 +51,12 @@ fn further(found: &SelfMotionReport) -> usize {
 }
 
 /// The table, one line for each pose.
-pub(super) fn csv(found: &SelfMotionReport) -> String {
-    let mut out = String::from("curve,point,arc,px,py,pz,qw,qx,qy,qz,length_error,gap\n");
+pub(super) fn csv(found: &SelfMotionReport, frames: &PoseFrames) -> String {
+    let [_, _, _, a, b, c, d] = poses::csv_names(frames);
+    let mut out = format!("curve,point,arc,px,py,pz,{a},{b},{c},{d},length_error,gap\n");
     for (k, curve) in found.motion.curves.iter().enumerate() {
         for (i, point) in curve.points.iter().enumerate() {
-            let pose = poses::csv_fields(&point.pose);
+            let pose = poses::csv_fields(frames, &point.pose);
             let (arc, error, gap) = (point.arc, point.length_error, point.gap);
             let _ = writeln!(out, "{},{},{arc},{pose},{error},{gap}", k + 1, i + 1);
         }

@@ -9,7 +9,9 @@ use std::path::PathBuf;
 use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::freedoms::Freedoms;
+use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use ::files::plot::singular_slice;
@@ -61,6 +63,8 @@ pub(crate) struct SingularPosesArgs {
     /// Number of random poses in the search for such paths, for each sign of det J
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
     samples: usize,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// The results, for [`render`].
@@ -75,11 +79,16 @@ struct SingularPoses {
 /// Evaluates the poses, proves the box, draws the slice.
 pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let pose = poses::parse(&args.pose, &design, "--pose", "poses::bad_pose")?;
+    let frames = args.frames.of(&design);
+    let pose = poses::parse(&args.pose, &frames, "--pose", "poses::bad_pose")?;
+    note_frames(&frames, context);
     let lengths = match &args.lengths {
-        Some(text) => Some(six(text, "--lengths").and_then(|l| {
-            LegLengths::try_new(l).map_err(|e| Failure::refused("poses::bad_lengths", e.to_string()))
-        })?),
+        Some(text) => {
+            let lengths = numbers::lengths(text, "six", &design.units)
+                .map_err(|why| Failure::refused("poses::bad_numbers", format!("--lengths: {why}")))?;
+            let lengths = LegLengths::try_new(lengths);
+            Some(lengths.map_err(|e| Failure::refused("poses::bad_lengths", e.to_string()))?)
+        }
         None => None,
     };
     let half_widths = args.shape.as_deref().map(half_widths).transpose()?;
@@ -100,15 +109,11 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
     Ok(render::answer(&design, &found))
 }
 
-fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {
-    crate::app::cli::numbers::parse(text).ok_or_else(|| {
-        Failure::refused("poses::bad_numbers", format!("{option}: `{text}` is not six finite numbers"))
-    })
-}
-
 /// The half widths of `--box`.
 fn half_widths(text: &str) -> Result<[[f64; 3]; 2], Failure> {
-    let v = six(text, "--box")?;
+    let v: [f64; 6] = numbers::parse(text).ok_or_else(|| {
+        Failure::refused("poses::bad_numbers", format!("--box: `{text}` is not six finite numbers"))
+    })?;
     if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
         let message = "--box: half widths are not negative, and not all zero";
         return Err(Failure::refused("poses::bad_numbers", message));

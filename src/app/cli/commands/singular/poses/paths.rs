@@ -7,7 +7,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
 use crate::app::cli::poses;
 use ::files::plot::{AlongFigure, AlongPart, sign_along};
-use ask::{Design, SignPath, SignsBetween, SingularPosesReport};
+use ask::{Design, PoseFrames, SignPath, SignsBetween, SingularPosesReport};
 use platform::geom::Pose;
 use records::{
     Number, PoseQuaternionRecord, SignPairRecord, SignPairsRecord, SignPartRecord, SignPathRecord, WayRecord,
@@ -29,13 +29,14 @@ pub(super) fn path(
     let numbers =
         text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
     let ends = numbers.ok_or_else(|| refuse(format!("--path: `{text}` is not two numbers")))?;
-    let via = args.via.iter().map(|text| poses::parse(text, design, "--via", "poses::bad_pose"));
+    let frames = args.frames.of(design);
+    let via = args.via.iter().map(|text| poses::parse(text, &frames, "--via", "poses::bad_pose"));
     let via: Vec<Pose> = via.collect::<Result<_, _>>()?;
     let path = report.path(design, ends, &via).map_err(|k| {
         refuse(format!("--path: there is no assembly mode {k}, there are {}", report.modes.len()))
     })?;
     if let Some(file) = &args.csv {
-        files::write_text(file, &csv(&path))?;
+        files::write_text(file, &csv(&path, &frames))?;
     }
     if let Some(file) = &args.path_svg {
         files::write_text(file, &sign_along(&figure(&path, design)))?;
@@ -43,10 +44,10 @@ pub(super) fn path(
     Ok(Some(path))
 }
 
-fn csv(path: &SignPath) -> String {
-    let mut out = String::from("part,u,x,y,z,qw,qx,qy,qz,det\n");
+fn csv(path: &SignPath, frames: &PoseFrames) -> String {
+    let mut out = format!("part,u,{},det\n", poses::csv_names(frames).join(","));
     for (part, u, pose, det) in &path.values {
-        let _ = writeln!(out, "{},{u},{},{det}", part + 1, poses::csv_fields(pose));
+        let _ = writeln!(out, "{},{u},{},{det}", part + 1, poses::csv_fields(frames, pose));
     }
     out
 }

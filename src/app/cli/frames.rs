@@ -1,0 +1,66 @@
+//! The options that say how poses are written.
+
+use ask::{Design, PoseFrames};
+use nalgebra::Vector3;
+use platform::geom::{AngleUnit, ListedFrom, PoseConvention, QuaternionOrder, RotationOrder, UpAxis};
+
+use super::context::Context;
+use super::numbers;
+
+/// How poses of a command are written, those that it takes and those that it answers; `[frames]` of the design where an
+/// option is absent.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+#[command(next_help_heading = "Convention of poses, as [frames] of the design where absent")]
+pub(crate) struct FrameArgs {
+    /// Order of the turns of three angles, written in this order: `fixed-xyz` (R = Rz Ry Rx, as roll, pitch, yaw),
+    /// `moving-xyz` (R = Rx Ry Rz), any other axes, `rpy`, `pi`, `rubin`, or `vector` for a rotation vector
+    #[arg(long, value_name = "ORDER")]
+    rotation_order: Option<RotationOrder>,
+    /// Point of the platform whose position poses state, platform frame
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
+    pivot: Option<Vector3<f64>>,
+    /// What poses are measured from: `base` or `home`
+    #[arg(long, value_name = "FRAME", value_parser = |word: &str| one(word, &[ListedFrom::Base, ListedFrom::Home], ListedFrom::name))]
+    relative_to: Option<ListedFrom>,
+    /// Axis that points up: `z` or `y`
+    #[arg(long, value_name = "AXIS", value_parser = |word: &str| one(word, &UpAxis::BOTH, UpAxis::name))]
+    up: Option<UpAxis>,
+    /// Unit of angles: `deg` or `rad`
+    #[arg(long, value_name = "UNIT", value_parser = |word: &str| one(word, &AngleUnit::BOTH, AngleUnit::name))]
+    angle_unit: Option<AngleUnit>,
+    /// Order of quaternions: `wxyz` or `xyzw`
+    #[arg(long, value_name = "ORDER", value_parser = |word: &str| one(word, &QuaternionOrder::BOTH, QuaternionOrder::name))]
+    quaternion: Option<QuaternionOrder>,
+}
+
+fn one<T: Copy>(word: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, String> {
+    all.iter().copied().find(|value| name(*value) == word).ok_or_else(|| {
+        let words: Vec<String> = all.iter().map(|value| format!("`{}`", name(*value))).collect();
+        format!("write {}", words.join(" or "))
+    })
+}
+
+fn point(text: &str) -> Result<Vector3<f64>, String> {
+    numbers::parse(text).map(|point: [f64; 3]| point.into()).ok_or_else(|| "give three numbers x,y,z".into())
+}
+
+/// Tells people how poses were read where this is not the usual way.
+pub(crate) fn note_frames(frames: &PoseFrames, context: &Context) {
+    if !frames.convention.is_usual() {
+        context.note(&frames.convention.sentences());
+    }
+}
+
+impl FrameArgs {
+    /// The convention of poses of a design.
+    pub(crate) fn of(&self, design: &Design) -> PoseFrames {
+        design.pose_frames(PoseConvention {
+            rotation_order: self.rotation_order,
+            angles: self.angle_unit,
+            quaternion: self.quaternion,
+            pivot: self.pivot,
+            relative_to: self.relative_to,
+            up: self.up,
+        })
+    }
+}

@@ -1,0 +1,337 @@
+//! Answers about one pose: forces, small motions, stiffness, a leg that is stuck, the nearest singular pose.
+
+use nalgebra::{Matrix6, Vector3};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{
+    LimitRecord, Number, OutOfReachRecord, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord,
+};
+use ask::{AtPoseOptions, AtPoseReport, Design, DrivesAt, HeldWrench, PoseFrames, StuckLeg};
+use machine::requirements::LeastStiffness;
+use platform::geom::Pose;
+use synthesis::singularity::{NearestSingularPose, SingularEvidence};
+
+/// The answer of `at`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct AtPoseAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// Of lengths.
+    pub length_unit: String,
+    /// Of forces; torques are in it times the unit of length.
+    pub force_unit: String,
+    /// The convention in which poses were read, and of `in_frames`.
+    pub frames: PoseConventionRecord,
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
+    /// The point of the platform that wrenches, shifts and stiffness are about, platform frame of `frames`.
+    pub point: [Number; 3],
+    /// The body whose axes all vectors have: `base` or `platform`.
+    pub axes: String,
+    /// The lengths that the legs show; null: the legs are rods on cranks.
+    pub lengths: Option<[f64; 6]>,
+    /// The angles of the cranks, where a design has some and all rods reach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angles_deg: Option<[f64; 6]>,
+    /// The first rod that does not reach, where one does not; nothing else is then known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub out_of_reach: Option<OutOfReachRecord>,
+    /// Every requirement is met, and det J has the sign that it has at home.
+    pub allowed: bool,
+    /// Requirements that are violated, the worst first.
+    pub violated: Vec<LimitRecord>,
+    /// What shows that the pose is singular; null: it is not.
+    pub singular: Option<SingularEvidence>,
+    /// Smallest over largest singular value of the Jacobian of legs or rods with the characteristic length: 1 at best.
+    pub inverse_condition: Option<Number>,
+    /// The forces that hold the loads of the design and the wrench of `--wrench`, at rest.
+    pub held: Vec<HeldWrenchRecord>,
+    /// The wrench that the forces of `--forces` hold; null: none were given.
+    pub wrench: Option<WrenchRecord>,
+    /// A six-axis load cell: rows of the matrix that maps forces of the legs (torques of the cranks) to the wrench that
+    /// they hold, force before torque; null where a rod does not reach or a crank is singular.
+    pub wrench_matrix: Option<[[Number; 6]; 6]>,
+    /// Stiffness at the point; null: the design does not say that of its legs.
+    pub stiffness: Option<PointStiffnessRecord>,
+    /// The motion of the point for a step of the drives; null at a singular pose.
+    pub resolution: Option<ResolutionRecord>,
+    /// What is left when the leg of `--leg` is stuck, or free; null: none was named.
+    pub stuck: Option<StuckLegRecord>,
+    /// The nearest singular pose found; null: it was not asked for, or no way met one.
+    pub nearest_singular: Option<NearestSingularPoseRecord>,
+}
+
+/// A force and a torque.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct WrenchRecord {
+    /// Force units.
+    pub force: [Number; 3],
+    /// About the point, force units times design units.
+    pub torque: [Number; 3],
+}
+
+/// A wrench on the platform and what holds it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct HeldWrenchRecord {
+    /// The name of the load; null: the wrench of `--wrench`.
+    pub load: Option<String>,
+    /// What acts on the platform.
+    pub wrench: WrenchRecord,
+    /// Forces of the legs, positive where they push the platform, or torques of the cranks about their axes; null at a
+    /// singular pose.
+    pub forces: Option<[Number; 6]>,
+}
+
+/// Stiffness at a point of the platform.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct PointStiffnessRecord {
+    /// Force and torque for a shift of the point and a small turn: force units, design units and radians.
+    #[serde(rename = "K")]
+    pub matrix: [[Number; 6]; 6],
+    /// Its inverse: shift and turn for a force and a torque; null at a singular pose.
+    pub compliance: Option<[[Number; 6]; 6]>,
+    /// Least stiffness against a force through the point, force units per design unit; 0 at a singular pose.
+    pub linear: Number,
+    /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+    pub angular: Number,
+}
+
+/// How the point moves for a step of the drives.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ResolutionRecord {
+    /// The step: design units of legs, degrees of cranks.
+    pub step: f64,
+    /// Of the step.
+    pub step_unit: String,
+    /// The motion for a step of each drive alone, in leg order.
+    pub drives: Vec<SmallMotionRecord>,
+    /// Greatest change of each coordinate when every drive is off by up to a step: sums of the sizes.
+    pub all: SmallMotionRecord,
+}
+
+/// A small motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct SmallMotionRecord {
+    /// Of the point, design units.
+    pub shift: [Number; 3],
+    /// Rotation vector, degrees.
+    pub turn_deg: [Number; 3],
+}
+
+/// What is left when a leg is stuck, or free.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct StuckLegRecord {
+    /// The leg, from 1.
+    pub leg: usize,
+    /// How far its drive has to move for each of the six numbers of the pose alone: design units of legs, degrees of
+    /// cranks, per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still
+    /// be changed alone; five independent changes are left.
+    pub rates: [Number; 6],
+    /// The motion that is lost, and the only one left when the leg is free and the others hold; null at a singular
+    /// pose.
+    pub screw: Option<ScrewRecord>,
+    /// Poses of that motion with smaller lengths of the leg, up to its limit, a tenth of its length, or the first
+    /// singular pose; none for cranks.
+    pub shorter: Vec<LegWayRecord>,
+    /// The same with greater lengths.
+    pub longer: Vec<LegWayRecord>,
+}
+
+/// A turn about an axis with a shift along it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct ScrewRecord {
+    /// Unit vector of the axis; of the shift where nothing turns.
+    pub direction: [Number; 3],
+    /// The point of the axis nearest to the point asked about, from there, design units.
+    pub point: [Number; 3],
+    /// Shift along the axis, design units per radian; null: a shift without a turn.
+    pub pitch: Option<Number>,
+}
+
+/// A pose with all lengths but one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct LegWayRecord {
+    /// The distance of the joints of the leg.
+    pub length: f64,
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
+}
+
+/// A singular pose near the one asked about.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct NearestSingularPoseRecord {
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+    /// The pose in the convention of `frames`.
+    pub in_frames: PoseInFrames,
+    /// `sqrt(|p - p'|^2 + (L angle)^2)`, design units.
+    pub distance: f64,
+    /// The `L` of the distance, design units a radian.
+    pub characteristic_length: f64,
+    /// Whether no small step on singular poses leads nearer: then it is locally nearest.
+    pub stationary: bool,
+    /// A pose with det J = 0 is proved to be within this distance; null: not proved.
+    pub proved_within: Option<f64>,
+}
+
+fn three(v: &Vector3<f64>) -> [Number; 3] {
+    [v.x, v.y, v.z].map(Number)
+}
+
+fn six_by_six(m: &Matrix6<f64>) -> [[Number; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| Number(m[(i, j)])))
+}
+
+impl WrenchRecord {
+    fn new(six: &[f64; 6]) -> Self {
+        let [a, b, c, d, e, f] = six.map(Number);
+        Self { force: [a, b, c], torque: [d, e, f] }
+    }
+}
+
+impl SmallMotionRecord {
+    fn new(twist: [f64; 6], step: f64) -> Self {
+        let [a, b, c, d, e, f] = twist.map(|x| x * step);
+        Self { shift: [a, b, c].map(Number), turn_deg: [d, e, f].map(|x| Number(x.to_degrees())) }
+    }
+}
+
+impl AtPoseAnswer {
+    /// What was found at a pose.
+    #[must_use]
+    pub fn new(
+        design: &Design,
+        frames: &PoseFrames,
+        (asked, step): (&AtPoseOptions, f64),
+        found: &AtPoseReport,
+    ) -> Self {
+        let required = design.requirements();
+        let reach = design.reach(&required);
+        let violated = reach.violated(&asked.pose);
+        let point = frames.convention.axes().transpose() * asked.point;
+        let held = |held: &HeldWrench| HeldWrenchRecord {
+            load: held.load.clone(),
+            wrench: WrenchRecord::new(&held.wrench),
+            forces: held.efforts.map(|efforts| efforts.map(Number)),
+        };
+        let turns = matches!(found.drives, DrivesAt::Angles(_));
+        Self {
+            name: design.name.clone(),
+            length_unit: design.units.clone(),
+            force_unit: design.force_unit().label().into(),
+            frames: (&frames.convention).into(),
+            pose: (&asked.pose).into(),
+            in_frames: (&frames.write(&asked.pose)).into(),
+            point: three(&point),
+            axes: asked.axes.name().into(),
+            lengths: match found.drives {
+                DrivesAt::Lengths(lengths) => Some(lengths),
+                _ => None,
+            },
+            angles_deg: match found.drives {
+                DrivesAt::Angles(angles) => Some(angles.map(f64::to_degrees)),
+                _ => None,
+            },
+            out_of_reach: match &found.drives {
+                DrivesAt::OutOfReach(missing) => {
+                    Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by })
+                }
+                _ => None,
+            },
+            allowed: violated.is_empty(),
+            violated: violated
+                .iter()
+                .map(|(limit, margin)| LimitRecord::new(design, *limit, *margin))
+                .collect(),
+            singular: found.singular,
+            inverse_condition: found.inverse_condition.map(Number),
+            held: found.held.iter().map(held).collect(),
+            wrench: found.wrench.as_ref().map(WrenchRecord::new),
+            wrench_matrix: found.wrenches.as_ref().map(six_by_six),
+            stiffness: found
+                .stiffness
+                .as_ref()
+                .map(|(matrix, least)| PointStiffnessRecord::new(matrix, *least)),
+            resolution: found.motions.as_ref().map(|motions| {
+                let (by, unit) = if turns { (step.to_radians(), "deg") } else { (step, &*design.units) };
+                ResolutionRecord::new(motions, by, step, unit)
+            }),
+            stuck: found.stuck.as_ref().map(|stuck| StuckLegRecord::new(frames, stuck, turns)),
+            nearest_singular: found
+                .nearest_singular
+                .as_ref()
+                .map(|near| NearestSingularPoseRecord::new(design, frames, near)),
+        }
+    }
+
+    /// Whether the drives hold the platform at the pose.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.singular.is_none() && self.out_of_reach.is_none() && self.resolution.is_some()
+    }
+}
+
+impl PointStiffnessRecord {
+    fn new(matrix: &Matrix6<f64>, least: Option<LeastStiffness>) -> Self {
+        let of = |value: fn(&LeastStiffness) -> f64| Number(least.as_ref().map_or(0.0, value));
+        Self {
+            matrix: six_by_six(matrix),
+            compliance: least.and_then(|_| matrix.try_inverse()).as_ref().map(six_by_six),
+            linear: of(|s| s.linear),
+            angular: of(|s| s.angular),
+        }
+    }
+}
+
+impl ResolutionRecord {
+    fn new(motions: &Matrix6<f64>, by: f64, step: f64, unit: &str) -> Self {
+        let twist = |drive: usize| std::array::from_fn(|k| motions[(k, drive)]);
+        let sum = std::array::from_fn(|k| motions.row(k).iter().map(|x| x.abs()).sum());
+        Self {
+            step,
+            step_unit: unit.into(),
+            drives: (0..6).map(|drive| SmallMotionRecord::new(twist(drive), by)).collect(),
+            all: SmallMotionRecord::new(sum, by),
+        }
+    }
+}
+
+impl StuckLegRecord {
+    fn new(frames: &PoseFrames, stuck: &StuckLeg, turns: bool) -> Self {
+        // of an angle a unit is a degree or a radian
+        let unit = frames.convention.angle_unit().of_radians(1.0);
+        let of_drive = |x: f64| if turns { x.to_degrees() } else { x };
+        let way = |(length, pose): &(f64, Pose)| LegWayRecord {
+            length: *length,
+            in_frames: (&frames.write(pose)).into(),
+        };
+        let [shorter, longer] = stuck.ways.each_ref().map(|way_of| way_of.iter().map(way).collect());
+        Self {
+            leg: stuck.leg + 1,
+            rates: std::array::from_fn(|k| Number(of_drive(stuck.rates[k]) / if k < 3 { 1.0 } else { unit })),
+            screw: stuck.screw.map(|screw| ScrewRecord {
+                direction: three(&screw.direction),
+                point: three(&screw.point),
+                pitch: screw.pitch.map(Number),
+            }),
+            shorter,
+            longer,
+        }
+    }
+}
+
+impl NearestSingularPoseRecord {
+    fn new(design: &Design, frames: &PoseFrames, found: &NearestSingularPose) -> Self {
+        Self {
+            pose: (&found.pose).into(),
+            in_frames: (&frames.write(&found.pose)).into(),
+            distance: found.distance,
+            characteristic_length: design.characteristic_length(),
+            stationary: found.is_stationary,
+            proved_within: found.proved_within,
+        }
+    }
+}

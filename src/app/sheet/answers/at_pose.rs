@@ -1,0 +1,186 @@
+//! Forces, small motions and stiffness at one pose.
+
+use crate::{Sheet, Table, left, listed, right};
+use num::shown::{fixed, significant as short};
+use records::{
+    AtPoseAnswer, HeldWrenchRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
+    SmallMotionRecord, StuckLegRecord,
+};
+
+/// The answer of `at`.
+#[must_use]
+pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    say!(out, "{} at {}", answer.name, pose(&answer.in_frames));
+    out.line(&answer.frames.sentence);
+    let point = answer.point.map(|x| x.0);
+    say!(
+        out,
+        "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
+        answer.axes,
+        listed(point, 4)
+    );
+    if let Some(missing) = &answer.out_of_reach {
+        say!(out, "The rod of leg {} does not reach.", missing.leg);
+        return out;
+    }
+    match (&answer.lengths, &answer.angles_deg) {
+        (Some(lengths), _) => say!(out, "lengths ({}): {}", answer.length_unit, listed(*lengths, 4)),
+        (None, Some(angles)) => say!(out, "angles of the cranks (deg): {}", listed(*angles, 4)),
+        (None, None) => {}
+    }
+    for limit in &answer.violated {
+        let unit = limit.unit.as_deref().unwrap_or("of det J at home");
+        say!(out, "NOT ALLOWED: {} is missed by {} {unit}", limit.code(), short(-limit.margin.0));
+    }
+    match answer.singular {
+        Some(evidence) => say!(out, "SINGULAR: {evidence}"),
+        None => {
+            if let Some(x) = answer.inverse_condition {
+                say!(out, "inverse condition {}", short(x.0));
+            }
+        }
+    }
+    forces(&mut out, answer);
+    if let Some(found) = &answer.stiffness {
+        say!(
+            out,
+            "\nLeast stiffness at the point: {} {}/{} against a force, {} {} {}/rad against a torque.",
+            short(found.linear.0),
+            answer.force_unit,
+            answer.length_unit,
+            short(found.angular.0),
+            answer.force_unit,
+            answer.length_unit
+        );
+    }
+    if let Some(found) = &answer.resolution {
+        resolution(&mut out, found, &answer.length_unit);
+    }
+    if let Some(found) = &answer.stuck {
+        stuck(&mut out, answer, found);
+    }
+    if let Some(found) = &answer.nearest_singular {
+        nearest(&mut out, answer, found);
+    }
+    out
+}
+
+fn pose(found: &PoseInFrames) -> String {
+    let numbers = found.position.iter().chain(&found.angles).map(|x| fixed(x.0, 4));
+    let many = if found.angles_unique { "" } else { " (angles not unique)" };
+    numbers.collect::<Vec<_>>().join(", ") + many
+}
+
+fn row(name: &str, numbers: &[Number], unit: &str) -> Vec<String> {
+    let numbers = numbers.iter().map(|x| short(x.0));
+    [name.to_owned()].into_iter().chain(numbers).chain([unit.to_owned()]).collect()
+}
+
+fn columns(first: &str, names: [&str; 6]) -> Table {
+    let six = names.into_iter().map(|name| right(name, 11));
+    Table::new([left(first, 20)].into_iter().chain(six).chain([left("unit", 0).gap(2)]))
+}
+
+fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
+    let turns = answer.angles_deg.is_some();
+    let torque = format!("{} {}", answer.force_unit, answer.length_unit);
+    if !answer.held.is_empty() {
+        let what =
+            if turns { "Torques of the cranks" } else { "Forces of the legs, positive where they push," };
+        say!(out, "\n{what} that hold a wrench on the platform:");
+        let mut table = columns("wrench", ["1", "2", "3", "4", "5", "6"]);
+        for HeldWrenchRecord { load, forces, .. } in &answer.held {
+            let name = load.as_deref().unwrap_or("--wrench");
+            let unit = if turns { &torque } else { &answer.force_unit };
+            match forces {
+                Some(forces) => table.row(row(name, forces, unit)),
+                None => table.row([name, "-", "-", "-", "-", "-", "-", ""]),
+            }
+        }
+        out.table(table);
+    }
+    if let Some(wrench) = &answer.wrench {
+        let [force, moment] = [wrench.force, wrench.torque].map(|v| listed(v.map(|x| x.0), 4));
+        say!(
+            out,
+            "\nThe forces of --forces hold force {force} {} and torque {moment} {torque}.",
+            answer.force_unit
+        );
+    }
+}
+
+fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
+    say!(out, "\nMotion of the point for a step of {} {}:", short(found.step), found.step_unit);
+    let mut table = columns("step of", ["dx", "dy", "dz", "turn x", "turn y", "turn z"]);
+    let unit = format!("{length}, deg");
+    let mut line = |name: &str, motion: &SmallMotionRecord| {
+        let numbers: Vec<Number> = motion.shift.iter().chain(&motion.turn_deg).copied().collect();
+        table.row(row(name, &numbers, &unit));
+    };
+    for (leg, motion) in found.drives.iter().enumerate() {
+        line(&format!("leg {}", leg + 1), motion);
+    }
+    line("all, at most +-", &found.all);
+    out.table(table);
+}
+
+fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
+    say!(
+        out,
+        "\nLeg {}, stuck: five motions are left. Its drive would have to move for one number of the pose alone by:",
+        found.leg
+    );
+    let words = ["x", "y", "z", "a", "b", "c"];
+    let rates = words.iter().zip(&found.rates).map(|(word, rate)| format!("{word} {}", short(rate.0)));
+    out.line(rates.collect::<Vec<_>>().join(", "));
+    if let Some(screw) = &found.screw {
+        let [direction, point] = [screw.direction, screw.point].map(|v| listed(v.map(|x| x.0), 4));
+        match screw.pitch {
+            Some(pitch) => say!(
+                out,
+                "Leg {}, free with the others locked: the platform turns about {direction} through {point}, shifting by {} {} a radian.",
+                found.leg,
+                short(pitch.0),
+                answer.length_unit
+            ),
+            None => say!(
+                out,
+                "Leg {}, free with the others locked: the platform shifts along {direction}.",
+                found.leg
+            ),
+        }
+    }
+    for way in [&found.shorter, &found.longer] {
+        if let Some(last) = way.last() {
+            say!(
+                out,
+                "  with the leg {} {} long it is at {}",
+                short(last.length),
+                answer.length_unit,
+                pose(&last.in_frames)
+            );
+        }
+    }
+}
+
+fn nearest(out: &mut Sheet, answer: &AtPoseAnswer, found: &NearestSingularPoseRecord) {
+    let which = if found.stationary {
+        "The nearest singular pose, locally,"
+    } else {
+        "The nearest singular pose found"
+    };
+    let proof = match found.proved_within {
+        Some(within) => format!("det J = 0 is proved within {} {} of it", short(within), answer.length_unit),
+        None => "det J = 0 is not proved near it".to_owned(),
+    };
+    say!(
+        out,
+        "\n{which} is {}, {} {} away (a radian counts as {} {}); {proof}.",
+        pose(&found.in_frames),
+        short(found.distance),
+        answer.length_unit,
+        short(found.characteristic_length),
+        answer.length_unit
+    );
+}

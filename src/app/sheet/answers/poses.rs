@@ -1,0 +1,49 @@
+//! Poses as people read and type them: position, roll, pitch and yaw.
+
+use crate::figure::figure;
+use platform::geom::Pose;
+use records::PoseQuaternionRecord;
+
+/// The numbers of a pose in their order.
+pub(super) const POSE: &str = "x,y,z,roll,pitch,yaw";
+/// A number of a pose below this share of the greatest one of its kind is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The pose by its numbers with commas, as `--pose` takes it; angles are degrees.
+pub(super) fn pose<'a, R>(record: &'a R) -> String
+where
+    Pose: From<&'a R>,
+{
+    numbers(&record.into()).map(figure).join(",")
+}
+
+/// The pose where there is one; a requirement without one does not depend on the pose.
+pub(super) fn place(pose_or_any: Option<&PoseQuaternionRecord>) -> String {
+    pose_or_any.map_or_else(|| "any".to_owned(), pose)
+}
+
+/// Position, then roll, pitch and yaw in degrees; numbers that are rounding are zero.
+pub(super) fn numbers(pose: &Pose) -> [f64; 6] {
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let [x, y, z] = without_rounding(pose.position.into(), 0.0);
+    let [roll, pitch, yaw] = without_rounding([roll, pitch, yaw].map(f64::to_degrees), 360.0);
+    [x, y, z, roll, pitch, yaw]
+}
+
+fn without_rounding(numbers: [f64; 3], least_scale: f64) -> [f64; 3] {
+    let scale = numbers.iter().fold(least_scale, |most, x| most.max(x.abs()));
+    numbers.map(|x| if x.abs() <= ROUNDING * scale { 0.0 } else { x })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_is_six_numbers_without_rounding() {
+        let turned = Pose::new([1e-14, -2.5, 210.0], nalgebra::Rotation3::from_euler_angles(0.1, 0.0, -0.2));
+        let mut sheet = crate::Sheet::new();
+        sheet.line(pose(&PoseQuaternionRecord::from(&turned)));
+        assert_eq!(sheet.to_string(), "0,-2.5,210,5.73,0,-11.5\n");
+    }
+}
