@@ -68,7 +68,7 @@ fn solve_with(
     Ok(found)
 }
 
-/// The computations of faer: `eliminations` factorisations, and an eigenproblem for each that kept its rank.
+/// The computations of faer: a factorisation for each elimination, and an eigenproblem for each that kept its rank.
 fn library_calls(layout: &TemplateLayout, eliminations: u64, eigenproblems: usize) -> Vec<LibraryCalls> {
     let call = |computation, size, calls| LibraryCalls { library: "faer", computation, size, calls };
     let factors = usize::try_from(eliminations).unwrap_or(usize::MAX);

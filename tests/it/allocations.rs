@@ -1,4 +1,4 @@
-//! What is made for control loops allocates nothing; what is not, allocates for its results.
+//! Functions for control loops allocate nothing; the others allocate for their results.
 
 use allocation_counter::measure;
 use equipod::methods::bench::{Class, LengthsFrom, Problem, problem};

@@ -99,8 +99,8 @@ fn topologies_are_complete() {
     }
 }
 
-/// Problems with poses where `|R|` is between `10^5` and `3 . 10^9`, one of them beside an end at infinity: lost or
-/// given with too few digits by earlier versions.
+/// Problems with poses where `|R|` is between `10^5` and `3 . 10^9`, one of them beside an end at infinity. Earlier
+/// versions lost these poses or gave too few digits.
 #[test]
 fn poses_far_out_are_found_and_certified() {
     for (class, first) in [
@@ -200,7 +200,7 @@ fn a_perturbed_root_is_spurious_and_its_certificate_false() {
     assert!(report.false_certificates >= 3);
 }
 
-/// A pose `1e5` times as large as a rotation, in doubles about `1e-6` off the root; its enclosure is wider and true
+/// A pose `1e5` times as large as a rotation, in doubles about `1e-6` off the root. Its enclosure is wider and true
 /// (checked with 60 digits).
 #[test]
 fn a_certificate_far_out_is_not_called_false() {

@@ -102,8 +102,8 @@ fn a_design_that_requires_nothing_is_told_so() {
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("assess::nothing_required")));
 }
 
-/// Version 0.1.0 said that the platform joints swing 0.2 degrees less than they may; a pose that its searches missed is
-/// 0.2 degrees beyond the limit.
+/// Version 0.1.0 gave an angle of the platform joints that was 0.2 degrees too small. A pose that its searches missed
+/// is 0.2 degrees beyond the limit.
 #[test]
 fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let path = "tests/fixtures/adversarial/REP_assess.toml";
@@ -133,7 +133,7 @@ fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     assert!(bound >= 0.0 && bound <= swing["margin"].as_f64().unwrap());
 }
 
-/// What is not proved is neither met nor violated.
+/// A requirement without a proof is neither met nor violated.
 #[test]
 fn without_cells_the_design_is_not_called_met() {
     let folder = tempfile::tempdir().unwrap();
@@ -174,7 +174,7 @@ fn poses_listed_from_home_move_with_it() {
     assert!((margin(high, from_home) - margin(low, from_home)).abs() > 1.0);
 }
 
-/// Over a wide workspace the cells do not decide the stiffness: the answer is undecided, with the least value found and
+/// Over a wide workspace the cells do not decide the stiffness. The answer is undecided, with the least value found and
 /// a bound below it, and nothing is called met.
 #[test]
 fn a_stiffness_that_cells_do_not_decide_is_not_called_met() {

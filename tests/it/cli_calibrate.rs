@@ -107,8 +107,8 @@ fn measurements_give_joints_offsets_and_a_design_with_their_uncertainty() {
     assert!(read("platform.json").contains("\"offset\":"));
 }
 
-/// A pose of a calibrated machine has the same covariance in the answers of `ik` and `fk --near`, and from what is
-/// exported; a design without a calibration has none.
+/// A pose of a calibrated machine has the same covariance in the answers of `ik` and `fk --near`, and from the exported
+/// files. A design without a calibration has none.
 #[test]
 fn poses_and_exports_of_a_calibrated_machine_say_how_uncertain_it_is() {
     let folder = tempfile::tempdir().unwrap();
@@ -138,8 +138,8 @@ fn poses_and_exports_of_a_calibrated_machine_say_how_uncertain_it_is() {
     }
     assert!(answer(&["ik", DESIGN, pose]).get("uncertainty").is_none());
 
-    // numbers of the exported document against the definition: derivatives of the pose by differences of Newton's
-    // method are those of J^-1 and the directions of the legs
+    // The numbers of the exported document are compared with the definition. Derivatives of the pose by differences of
+    // Newton's method are those of J^-1 and the directions of the legs.
     let files = path("files");
     assert!(equipod(&["export", &out, "--to", "c,csv,json,hal,matlab,mjcf", "-o", &files]).status.success());
     let read = |name: &str| {
@@ -387,9 +387,9 @@ const REAL: [[[f64; 3]; 6]; 2] = [
     ],
 ];
 
-/// Simulated measurements of that machine, with six or three of 240 lengths wrong by 5 mm, from its nominal design:
-/// every robust loss names the wrong poses, and finds the machine as far as the other poses see it. Without the six
-/// poses one change in 42 is less certain than a hundredth of the size, which the losses that give them no weight say.
+/// Simulated measurements of that machine from its nominal design, with six or three of 240 lengths wrong by 5 mm.
+/// Every robust loss names the wrong poses, and finds the machine as far as the other poses see it. Without the six
+/// poses one change in 42 is less certain than a hundredth of the size. The losses that give them no weight say so.
 #[test]
 fn gross_lengths_are_named_and_the_machine_is_found_all_the_same() {
     let folder = tempfile::tempdir().unwrap();

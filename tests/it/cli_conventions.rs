@@ -8,8 +8,8 @@ use super::cli_frame::{document, equipod};
 
 /// The angles of its six joints on circles of 700 and 600 mm.
 const MACHINE: [&str; 2] = ["-10,10,110,130,230,250", "-50,50,70,170,190,290"];
-/// What a controller of Physik Instrumente means by 0,0,650 with U, V, W of 5, 3, 10 degrees, computed by hand from
-/// `R = Rx(U) Ry(V) Rz(W)`.
+/// The lengths for 0,0,650 with U, V, W of 5, 3, 10 degrees in the convention of Physik Instrumente. They are computed
+/// by hand from `R = Rx(U) Ry(V) Rz(W)`.
 const PI_LENGTHS: [f64; 6] = [686.967, 878.529, 779.224, 881.419, 747.514, 810.898];
 
 /// A folder with the machine, and more tables at the end of its file.

@@ -260,8 +260,8 @@ fn the_design_is_not_overwritten() {
     );
 }
 
-/// A result that stands where the user has a file, or in the place of a result that the user has changed, is refused by
-/// name before anything is computed.
+/// A result that would replace a file of the user, or a result changed by the user, is refused by name before anything
+/// is computed.
 #[test]
 fn files_of_the_user_are_not_replaced_and_those_of_an_earlier_run_are() {
     let temp = tempfile::tempdir().unwrap();
@@ -531,8 +531,8 @@ fn holes_of_a_design_that_is_not_octahedral_are_refused() {
     assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &Value::from("explore::holes")));
 }
 
-/// The first result once had three base joints a whole side beyond the corners, a base 2.6 times as wide, and 3.5e-8 mm
-/// left between platform joints.
+/// The first result once had three base joints a whole side beyond the corners. Its base was 2.6 times as wide, with
+/// 3.5e-8 mm left between platform joints.
 #[test]
 #[ignore = "evidence"]
 fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {

@@ -1,7 +1,7 @@
-//! What a run does to files that are there: inputs stay as they are, whatever they are called.
+//! Existing files during a run: inputs stay as they are, whatever they are called.
 //!
-//! That every option with an output refuses an input among the arguments is tested beside the code, over the list of
-//! commands; here are the files that only a run finds out.
+//! A test beside the code, over the list of commands, shows that every option with an output refuses an input among the
+//! arguments. Here are the files that only a run finds out.
 
 use std::path::{Path, PathBuf};
 

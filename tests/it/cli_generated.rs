@@ -1,5 +1,5 @@
-//! What the program writes about itself: completions, manual pages, schemas, the tables of its manual; colours and
-//! closed pipes.
+//! The files that the program writes about itself: completions, manual pages, schemas, the tables of its manual. Also
+//! colours and closed pipes.
 
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};

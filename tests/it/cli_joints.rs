@@ -1,5 +1,5 @@
-//! Kinds of joints in design files: angles of universal joints in `assess`, lengths of drives in `ik` and `fk --near`,
-//! and what refuses joints that are not ideal.
+//! Kinds of joints in design files. Angles of universal joints are in `assess`, lengths of drives in `ik` and
+//! `fk --near`. Some commands refuse joints that are not ideal.
 
 use serde_json::Value;
 
@@ -66,7 +66,7 @@ fn per_leg(second: f64, ball: f64, flexure: f64) -> String {
 }
 
 /// A joint with a housing of its own decides the distance from its neighbours, and has its own line in the list of
-/// parts; boxes that are no housings are refused at the place.
+/// parts. Boxes that are no housings are refused at the place.
 #[test]
 fn joints_per_leg_have_housings_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
@@ -100,7 +100,7 @@ fn joints_per_leg_have_housings_of_their_own() {
     assert!(answer["error"]["violations"][0]["line"].as_u64().is_some(), "{answer}");
 }
 
-/// Each leg has the limits of its own joint: the least margin of a row is at a leg that has such a joint, and a limit
+/// Each leg has the limits of its own joint. The least margin of a row is at a leg that has such a joint, and a limit
 /// of other legs changes nothing.
 #[test]
 fn joints_per_leg_are_judged_leg_by_leg() {

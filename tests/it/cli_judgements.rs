@@ -1,5 +1,5 @@
-//! Judgements that a script can ask for: is the workspace safe, how well is a pose conditioned, is a platform singular,
-//! are all poses of a path found.
+//! Judgements that a script can ask for. Is the workspace safe? How well is a pose conditioned? Is a platform singular?
+//! Are all poses of a path found?
 
 use std::fmt::Write as _;
 use std::path::Path;

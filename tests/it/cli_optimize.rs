@@ -309,7 +309,7 @@ fn offsets_of(d: &Value) -> Vec<f64> {
     (0..6).map(|k| d["offsets"][k].as_f64().unwrap()).collect()
 }
 
-/// What the offsets of both bodies differ by among the three of each.
+/// The largest difference among the three offsets of a body, over both bodies.
 fn unevenness(t: &[f64]) -> f64 {
     (0..4).map(|k| (t[k] - t[k + 2]).abs()).fold(0.0, f64::max)
 }
@@ -482,7 +482,7 @@ fn without_prices_the_objective_decides_between_drives_and_a_limit_of_time_keeps
     assert_eq!(drive(&d, "short")["outcome"], "not_tried");
 }
 
-/// Where there is no front because nothing meets the requirements, the freedoms are tried as for a single platform.
+/// The freedoms are tried as for a single platform when no design meets the requirements, so that there is no front.
 #[test]
 #[ignore = "evidence"]
 fn a_front_that_does_not_exist_names_the_freedom_that_resolves_it() {
@@ -559,8 +559,8 @@ fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
     assert!(worst(&old) < 0.95 * objective, "{} {objective}", worst(&old));
 }
 
-/// Version 0.1.0 called the first three infeasible, though each has offsets that meet all limits in exact arithmetic,
-/// and "proved" a bound of 0.22362 for the last, where offsets reach 0.24124.
+/// Version 0.1.0 called the first three infeasible, though each has offsets that meet all limits in exact arithmetic.
+/// It "proved" a bound of 0.22362 for the last, where offsets reach 0.24124.
 #[test]
 #[ignore = "evidence"]
 fn problems_that_leave_next_to_nothing_are_never_infeasible_and_bounds_hold() {
@@ -703,8 +703,8 @@ variables = {variables}
     )
 }
 
-/// Legs that would run into the plate of the platform: without the plate the best platform does, with it the one found
-/// does not, and `assess` says so of both.
+/// Legs that would run into the plate of the platform. The best platform without the plate has such legs, and the one
+/// found with it does not. `assess` says so of both.
 #[test]
 #[ignore = "evidence"]
 fn legs_keep_clear_of_the_plates_where_the_best_platform_would_not() {
@@ -739,8 +739,8 @@ fn legs_keep_clear_of_the_plates_where_the_best_platform_would_not() {
     assert_eq!(assess(folder.path(), "all/optimised.toml").status.code(), Some(0));
 }
 
-/// Bolts at a right angle to the corners of the plate end too near to its outline wherever the joints are: a wider
-/// plate resolves it, by what is missing.
+/// Bolts at a right angle to the corners of the plate end too near to its outline wherever the joints are. A wider
+/// plate resolves it, by the missing amount.
 #[test]
 #[ignore = "evidence"]
 fn a_wider_plate_is_a_freedom_that_is_tried() {
@@ -813,9 +813,9 @@ fn a_design_names_its_table_of_drives() {
     );
 }
 
-/// Bolts of a base plate at a right angle to the corners: sharp corners leave them too little room. A workspace and an
-/// envelope that are wider than deep ask for a base with sharp corners; without the plate the best platform has them,
-/// and `assess` finds the holes too near to the outline. With the plate the one found has blunter corners, just within
+/// Bolts of a base plate at a right angle to the corners: sharp corners leave them too little space. A workspace and an
+/// envelope that are wider than deep ask for a base with sharp corners. The best platform without the plate has them,
+/// and `assess` finds the holes too near to the outline. The one found with the plate has blunter corners, just within
 /// the limit, and `assess` proves it.
 #[test]
 #[ignore = "evidence"]

@@ -1,4 +1,4 @@
-//! What every document says of what it was made from.
+//! Every document names the inputs that it was made from.
 
 use equipod::records::sha256;
 use serde_json::{Value, json};

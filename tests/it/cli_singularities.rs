@@ -188,7 +188,7 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
     assert!(crossing > 600 && crossing < 780, "{crossing}");
 }
 
-/// Version 0.1.0 proved a box of Cayley parameters up to t = 1.0002 and called it the workspace: this pose of the
+/// Version 0.1.0 proved a box of Cayley parameters up to t = 1.0002 and called it the workspace. This pose of the
 /// workspace, at t = 0.9995, has the other sign of det J.
 #[test]
 fn the_proved_box_is_one_of_rotation_vectors() {

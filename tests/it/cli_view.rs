@@ -1,4 +1,4 @@
-//! `equipod view` as a process: one file, refusals. What the page does is tested in a browser, `tests/page`.
+//! `equipod view` as a process: one file, refusals. `tests/page` tests the page in a browser.
 
 use super::cli_frame::{document, equipod};
 

@@ -146,8 +146,8 @@ fn a_self_motion_without_dependent_leg_vectors_is_flagged_and_not_called_a_root(
     }
 }
 
-/// Trilaterable platform whose triple joint lies in the plane of its three base joints: with exact integers the
-/// two places of the joint coincide, and every pose is double.
+/// Trilaterable platform whose triple joint lies in the plane of its three base joints. With exact integers the two
+/// places of the joint coincide, and every pose is double.
 #[test]
 fn exact_double_roots_are_proved_and_counted_twice() {
     let base = [[3.0, 4.0], [-5.0, 0.0], [0.0, -5.0], [7.0, 1.0], [-4.0, 6.0], [2.0, -6.0]];

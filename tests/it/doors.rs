@@ -1,4 +1,4 @@
-//! Every command that answers a question gives the answer of the others: designs of all kinds are drawn, and each is
+//! Every command that answers a question gives the answer of the others. Designs of all kinds are drawn, and each is
 //! put to all of them.
 
 use std::fmt::Write as _;
@@ -138,8 +138,8 @@ fn drawn(n: u64) -> Option<Drawn> {
     }
 }
 
-/// The exit code and the answer of a command: neither a panic, nor an internal failure, nor a refusal where the design
-/// cannot be the reason, is one.
+/// The exit code and the answer of a command. A panic, an internal failure, and a refusal that the design cannot cause
+/// are no answers.
 fn answered(args: &[&str]) -> (i32, Value) {
     let (code, answer) = asked(args);
     let may_refuse = ["family", "components"].contains(&args[1]);
@@ -212,8 +212,8 @@ fn swept(design: &str) -> Value {
     Value::Null
 }
 
-/// What the page records of the design: that it is singular, as the platform shown first or as the equivalent that the
-/// page starts with.
+/// The record of the page about the design: whether it is singular. The design is the platform shown first or the
+/// equivalent that the page starts with.
 fn on_the_page(design: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html");

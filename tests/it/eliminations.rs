@@ -68,8 +68,8 @@ fn finds_forty(method: &dyn ForwardKinematics, names: &[&str]) {
     assert!(good, "\n{report}");
 }
 
-/// Whether the method answers; then it must say that roots may be missing, unless it has them all and the bound of
-/// the class proves it, and report no pose that is none.
+/// Whether the method answers. Then it must report no false pose. It must say that roots may be missing, unless it has
+/// them all and the bound of the class proves it.
 fn answers_honestly(method: &dyn ForwardKinematics, r: &Reference) -> bool {
     let (m, s) = (&r.manipulator, r.lengths.squared());
     match method.solve(m, &s, &FkOptions::default()) {

@@ -102,8 +102,8 @@ fn a_design_of_mixed_scales_is_related_to_itself_regularly() {
     }
 }
 
-/// Whole coordinates of flat bodies, and in any number of places a number far beyond or below them; four legs at one
-/// point where it is to be singular.
+/// Whole coordinates of flat bodies, with numbers far beyond or below them in some places. Four legs meet at one point
+/// when the platform has to be singular.
 fn extreme(rng: &mut Rng, others: &[f64], singular: bool) -> Manipulator {
     let places = 1 + (rng.next_u64() % 6) as usize;
     let mut legs: [Leg; 6] = std::array::from_fn(|_| {

@@ -1,4 +1,4 @@
-//! What the examples print is what their headers quote.
+//! The output of the examples is the text that their headers quote.
 
 macro_rules! examples {
     ($($name:ident = $path:literal),* $(,)?) => {

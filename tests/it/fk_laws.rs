@@ -14,7 +14,7 @@ struct Problem {
     found: FkSolutions,
 }
 
-/// Which designs a method is tried on.
+/// The designs that a method is tried on.
 #[derive(Clone, Copy)]
 enum Kind {
     Octahedral,

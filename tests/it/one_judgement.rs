@@ -1,4 +1,4 @@
-//! One judgement for each question: the commands that ask whether a design is singular, or two are equivalent, say the
+//! One judgement for each question. All commands that ask whether a design is singular, or two are equivalent, give the
 //! same word, with the same level and exit code.
 
 use equipod::methods::manipulator::Level;
@@ -13,13 +13,13 @@ fn fixture(name: &str) -> String {
     format!("tests/fixtures/verdicts/{name}.toml")
 }
 
-/// What `check` says of a design: the exit code, whether it is singular, the level.
+/// The answer of `check` about a design: the exit code, whether it is singular, the level.
 fn checked(name: &str) -> (Option<i32>, Value, Value, Value) {
     let (code, mut doc) = asked(&["check", &fixture(name)]);
     (code, doc["architecturally_singular"].take(), doc["level"].take(), doc)
 }
 
-/// What `equivalents map` and `verify` say of two designs: exit code, word and level, which are one for both.
+/// The common answer of `equivalents map` and `verify` about two designs: exit code, word and level.
 fn compared(a: &str, b: &str) -> (Option<i32>, String, Value) {
     let (a, b) = (fixture(a), fixture(b));
     let (code, map) = asked(&["equivalents", "map", &a, &b]);
@@ -239,8 +239,8 @@ P6 = { radius = "4*sqrt(2)", angle_deg = 270 }
 "#,
 ];
 
-/// Offsets in twentieths for the points of a pattern; on request such that `det A = 0`, where the pattern can be
-/// singular without two joints in one place.
+/// Offsets in twentieths for the points of a pattern. On request `det A = 0`, when the pattern can be singular without
+/// two joints in one place.
 fn offsets(pattern: &Pattern, singular: bool, rng: &mut Rng) -> Vec<f64> {
     let mut draw = || 1 + (rng.next_u64() % 18).cast_signed();
     let list = pattern.offsets();

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::octahedral::at_home;
 
-/// What makes it a search under requirements.
+/// The lines that turn a problem into a search under requirements.
 const REQUIRED: &str = "[hardware]
 leg_length = [9.0, 18.0]
 [optimize]
@@ -44,7 +44,7 @@ fn refused(d: &Value) -> bool {
         && error["message"].as_str().is_some_and(|m| m.contains("has no effect"))
 }
 
-/// What an option has to do.
+/// The required effect of an option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Effect {
     /// The answer is another one.

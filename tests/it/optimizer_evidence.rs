@@ -30,8 +30,9 @@ fn problem(extension: f64) -> OffsetProblem {
     offset_problem(&parse(&text, Format::Toml).unwrap().0, extension).unwrap()
 }
 
-/// Version 0.1.0 called those named `inf` infeasible, though each has offsets that meet all limits in exact arithmetic,
-/// and "proved" a bound of 0.22362 for the other, where offsets reach 0.24124. `cli_optimize` has the whole searches.
+/// Version 0.1.0 called the problems named `inf` infeasible, though each has offsets that meet all limits in exact
+/// arithmetic. It "proved" a bound of 0.22362 for the other, where offsets reach 0.24124. `cli_optimize` has the whole
+/// searches.
 #[test]
 fn problems_once_called_infeasible_are_not_and_a_bound_once_wrong_holds() {
     let few = OffsetSearchOptions {

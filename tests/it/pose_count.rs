@@ -36,8 +36,8 @@ fn at_home(m: &Manipulator, p: [f64; 3]) -> SquaredLegLengths {
     Pose { rotation: Rotation3::identity(), position: p.into() }.squared_lengths(m).unwrap()
 }
 
-/// What every answer has to hold to: complete only with as many certified poses as are counted, and never more than
-/// that.
+/// Checks the rule for every answer: it is complete only with as many certified poses as are counted, and never has
+/// more.
 fn holds_to_its_count(found: &FkSolutions) {
     let Some(count) = &found.pose_count else {
         assert!(matches!(found.completeness, Completeness::Proved { .. }), "{:?}", found.completeness);

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::papers::shows as is_line;
 
-/// What a page tells its reader to do.
+/// A step that a page tells its reader to take.
 #[derive(Debug, PartialEq)]
 enum Step {
     /// A block ` ```toml ` or ` ```csv ` whose first line is `# FILE` (the file is made) or `# at the end of FILE`.
@@ -28,8 +28,8 @@ fn command_step(line: &str) -> Step {
     Step::Run { command, code: code.trim().parse().unwrap(), shows: String::new(), lines: Vec::new() }
 }
 
-/// Text blocks, command lines of blocks ` ```sh `, commands behind `$` in blocks ` ```console ` with the lines that they
-/// print, and rows `| number | goal | command | exit code | words |` of tables.
+/// Text blocks, command lines of blocks ` ```sh `, commands behind `$` in blocks ` ```console ` with the lines that
+/// they print, and rows `| number | goal | command | exit code | words |` of tables.
 fn steps(page: &str) -> Vec<Step> {
     let mut out = Vec::new();
     let mut lines = page.lines();
@@ -108,8 +108,8 @@ fn faults_of(steps: Vec<Step>, folder: &Path) -> Vec<String> {
     faults
 }
 
-/// Runs a command line in a folder, judges its answer, and returns its exit code and what it shows: the answer as data,
-/// unless words for people are asked for.
+/// Runs a command line in a folder, judges its answer, and returns its exit code and output. The output is the answer
+/// as data, unless words for people are asked for.
 fn run(command: &str, words_wanted: bool, folder: &Path, faults: &mut Vec<String>) -> (Option<i32>, String) {
     // quotes are for a shell
     let words: Vec<String> = command.split(' ').map(|w| w.trim_matches('\'').to_owned()).collect();
@@ -133,8 +133,8 @@ fn equipod_in(folder: &Path, words: &[String]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_equipod")).current_dir(folder).args(words).output().unwrap()
 }
 
-/// The answer of a command against what `assess` says of the designs that the answer is about: those that are new, else
-/// those that were read.
+/// Compares the answer of a command with the judgement of `assess` on the designs that the answer is about. These are
+/// the new designs, or else those that were read.
 fn judged(words: &[String], folder: &Path) -> (Output, Vec<String>) {
     let before = designs(folder);
     let mut all = words[1..].to_vec();
@@ -155,7 +155,7 @@ fn judged(words: &[String], folder: &Path) -> (Output, Vec<String>) {
     (out, contradictions(&answer, &judged))
 }
 
-/// Designs of a folder and of those below it by their paths, with their texts. What `explore` names the original is the
+/// Designs of a folder and of those below it by their paths, with their texts. The original named by `explore` is the
 /// design that it has read.
 fn designs(folder: &Path) -> BTreeMap<String, String> {
     let mut out = BTreeMap::new();
@@ -197,7 +197,7 @@ fn calls_good(answer: &Value) -> bool {
     met(answer) || found || each("candidates") || each("designs")
 }
 
-/// What `assess` has said of the designs with these texts: many commands are about the same one.
+/// The judgements of `assess` on the designs with these texts: many commands are about the same one.
 static SAID: Mutex<BTreeMap<String, bool>> = Mutex::new(BTreeMap::new());
 
 /// Whether `assess` does not call a design good; one that requires nothing cannot be bad.
@@ -213,8 +213,8 @@ fn is_refused(design: &str, folder: &Path) -> bool {
     refused
 }
 
-/// Where an answer calls designs good that `assess` refuses: the only one or all of them, or a candidate whose file has
-/// its number.
+/// Cases of an answer that calls designs good which `assess` refuses. It calls the only one or all of them good, or a
+/// candidate whose file has its number.
 fn contradictions(answer: &Value, judged: &[(String, bool)]) -> Vec<String> {
     let mut out = Vec::new();
     if calls_good(answer) && !judged.is_empty() && judged.iter().all(|(_, good)| !good) {
@@ -376,8 +376,8 @@ const LEFT_OUT: [(&str, &str); 14] = [
     ("equipod explore designs/rbt-octahedral.toml -o DIR", "docs/cli.md has the same"),
 ];
 
-/// Commands that a page asks its reader to type: lines of blocks for a shell, indented lines, and what stands in a
-/// sentence with a shipped design.
+/// Commands that a page asks its reader to type: lines of blocks for a shell, indented lines, and commands in sentences
+/// with a shipped design.
 fn examples(page: &str) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     let mut block: Option<bool> = None;

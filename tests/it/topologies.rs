@@ -46,8 +46,8 @@ fn planes_change_nothing_about_shared_joints() {
     }
 }
 
-/// Joints a rounding error apart make a
-/// general platform, whose further poses are far out or hard to find, and no proof may be given for fewer than forty.
+/// Joints a rounding error apart make a general platform. Its further poses are far out or hard to find, and no proof
+/// may be given for fewer than forty.
 #[test]
 fn joints_that_do_not_quite_coincide_get_no_proof_from_the_topology() {
     let shared = catalogue().into_iter().filter(|t| t.topology().shared_joints() > 0);

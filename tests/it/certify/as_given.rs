@@ -22,7 +22,7 @@ fn real_of_eight(found: &FkSolutions) -> Option<usize> {
     (proved && decided && found.roots.len() == 8).then(|| found.assembly_modes().count())
 }
 
-/// Version 0.1.0 proved that none of the eight poses is real, of the rounded squares; of the lengths as written all
+/// For the rounded squares version 0.1.0 proved that none of the eight poses is real. For the lengths as written all
 /// eight are (checked with balls of 600 bits).
 #[test]
 fn reality_is_that_of_the_lengths_as_written() {
@@ -33,8 +33,9 @@ fn reality_is_that_of_the_lengths_as_written() {
     assert_eq!(real_of_eight(&solve(design.manipulator(), &rounded(&lengths))), Some(0));
 }
 
-/// A platform whose corners carry three, two and one legs, at a pose at which the second corner lies in the plane of
-/// what holds it: every pose is double, and the rounding of the lengths makes two real or two complex poses of each.
+/// A platform whose corners carry three, two and one legs. At its pose the second corner lies in the plane of the legs
+/// and joints that hold it, and every pose is double. The rounding of the lengths makes two real or two complex poses
+/// of each.
 fn shallow(rng: &mut Rng) -> Option<(Manipulator, LegLengths)> {
     let mut whole = |low: f64, high: f64| rng.uniform(low, high).round();
     let third = Point3::new(whole(-4.0, 4.0), whole(-4.0, 4.0), 0.0);

@@ -1,5 +1,5 @@
-//! What other commands make of cranks: files for other programs, comparisons, and refusals where legs have to change
-//! their lengths.
+//! Other commands on platforms with cranks: files for other programs, comparisons, and refusals when legs have to
+//! change their lengths.
 
 use equipod::methods::design::{Code, Design, Format, PRESETS, parse, parse_with_cranks};
 use nalgebra::Vector3;

@@ -1,4 +1,4 @@
-//! What a design file says of cranks: values, copies, units, and slips that are refused.
+//! Cranks in a design file: values, copies, units, and slips that are refused.
 
 use equipod::methods::design::{Code, Format, parse_with_cranks};
 use equipod::methods::rotary::Elbow;

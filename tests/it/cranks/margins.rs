@@ -114,8 +114,7 @@ fn margins_of_cranks_are_those_of_their_kinematics() {
     assert!(least(TermKind::CrankTransmission) < -20.0 && least(TermKind::CrankTorque) == f64::NEG_INFINITY);
 }
 
-/// What is proved of a workspace holds at poses that the proof did not look at, and what is violated is shown by its
-/// pose.
+/// Proved margins of a workspace hold at poses that the proof did not examine, and each violation is shown by its pose.
 #[test]
 fn proved_margins_of_cranks_hold_over_the_workspace() {
     let design = limited();

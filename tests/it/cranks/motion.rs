@@ -1,4 +1,4 @@
-//! How far cranks may move, and what their drives do on the way.
+//! The free motion of platforms with cranks, and the work of their drives on the way.
 
 use equipod::methods::design::{Format, parse_with_cranks};
 use equipod::methods::geom::Pose;
@@ -8,7 +8,7 @@ use nalgebra::Rotation3;
 use super::{HEAD, asked, limited};
 use crate::cli_frame::equipod;
 
-/// How far the head may move, against a walk in small steps by other code.
+/// The free motion of the head, against a walk in small steps by other code.
 #[test]
 fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
     let (code, doc) = asked(&["limits", HEAD, "--at", "2,-3,180,4,-2,5"]);

@@ -1,11 +1,10 @@
-//! Every reader of user input against files that are nearly right: designs, tables of lengths and of poses, answers
-//! read back, folders of results, requests of the page.
+//! Every reader of user input against files that are nearly right: designs, tables of lengths and of poses. Also
+//! answers read back, folders of results, requests of the page.
 //!
-//! Whatever stands in a file, the program ends by itself with 0, 1, 2 or 3 and one JSON document, which has an error
-//! record when the code is 2. Exit 4 would be a panic. It takes at most 1 GiB of memory and, in a build with
-//! optimisation, two seconds of processor time to read or refuse a file, ten where it computes with what it has read:
-//! lengths of 1e19 are numbers that can be asked about. The system ends it beyond that, which is a fault.
-//!
+//! Whatever a file contains, the program ends by itself with 0, 1, 2 or 3 and one JSON document. The document has an
+//! error record when the code is 2. Exit 4 would be a panic. The program takes at most 1 GiB of memory. In a build with
+//! optimisation it takes two seconds of processor time to read or refuse a file. It takes ten when it computes with the
+//! input: lengths of 1e19 are valid numbers. Beyond that the system ends it, which is a fault.
 //! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed,
 //! `EQUIPOD_FUZZ_CASES` that many times as many cases. Ten thousand inputs:
 //!
@@ -65,7 +64,7 @@ fn first_fault(
     })
 }
 
-/// What is wrong with how the program ended.
+/// The fault in the end of the program, if there is one.
 fn judge(out: &Output) -> Result<(), String> {
     let fault = |what: &str| {
         let shown = |bytes: &[u8]| String::from_utf8_lossy(bytes).chars().take(400).collect::<String>();
@@ -347,7 +346,7 @@ fn planted_faults_are_found() {
     assert_eq!(missed, Vec::<&str>::new());
 }
 
-/// What takes longer or more memory does not end well.
+/// Runs that take too much time or memory do not end well.
 #[cfg(target_os = "linux")]
 #[test]
 fn runs_beyond_their_limits_are_ended() {
@@ -357,7 +356,7 @@ fn runs_beyond_their_limits_are_ended() {
     assert!(!small.status.success(), "{small:?}");
 }
 
-/// What the judge of a run has to refuse.
+/// The ends of a run that the judge has to refuse.
 #[cfg(unix)]
 #[test]
 fn the_judge_refuses_panics_kills_and_wrong_documents() {

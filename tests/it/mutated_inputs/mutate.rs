@@ -28,7 +28,7 @@ impl Draw {
     }
 }
 
-/// What breaks readers of text: other encodings, unfinished brackets and strings, control characters, markup.
+/// Fragments that break readers of text: other encodings, unfinished brackets and strings, control characters, markup.
 const FRAGMENTS: [&[u8]; 24] = [
     b"\0",
     b"\xff\xfe",
@@ -56,7 +56,7 @@ const FRAGMENTS: [&[u8]; 24] = [
     b"<script>",
 ];
 
-/// What breaks readers of numbers.
+/// Fragments that break readers of numbers.
 const NUMBERS: [&[u8]; 16] = [
     b"nan",
     b"inf",

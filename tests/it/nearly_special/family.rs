@@ -1,5 +1,5 @@
-//! Designs that rounding, or a small displacement, takes off a special one: as they are written they are platforms of
-//! the general class, with poses far out or close together where the special design has none or has multiple ones.
+//! Designs that rounding, or a small displacement, takes off a special one. As they are written they are platforms of
+//! the general class. They have poses far out or close together, where the special design has none or multiple ones.
 
 use equipod::methods::geom::{Pose, random_rotation};
 use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
@@ -30,7 +30,7 @@ pub(crate) const KINDS: [Kind; 6] = [
 #[derive(Debug, Clone)]
 pub(crate) struct Member {
     pub(crate) planar: bool,
-    /// How far the joints are off the special design, by its size.
+    /// Distance of the joints from the special design, by its size.
     pub(crate) offset: f64,
     pub(crate) m: Manipulator,
     pub(crate) s: SquaredLegLengths,

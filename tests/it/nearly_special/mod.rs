@@ -24,7 +24,7 @@ fn solve(m: &Manipulator, s: &SquaredLegLengths) -> FkSolutions {
     Homotopy.solve(m, s, &FkOptions::default()).unwrap()
 }
 
-/// What must hold of every answer; whether it has all 40 poses.
+/// Checks the conditions on every answer; returns whether it has all 40 poses.
 fn sound(name: &str, found: &FkSolutions) -> bool {
     assert!(
         found.roots.iter().all(|r| r.certified() && r.multiplicity == 1),
