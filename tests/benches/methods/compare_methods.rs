@@ -1,7 +1,8 @@
 //! Times and completeness of the forward-kinematics methods on random problems, drawn as in Martyushev, sec. 5.
 //!
 //! `cargo bench --package equipod-benches --bench compare_methods -- [COUNT] [SEED]` prints one Markdown table for each
-//! class: first joints at the origins, the other coordinates uniform in [-2, 2], squared lengths uniform in [0.5, 3].
+//! class. First joints are at the origins, the other coordinates uniform in [-2, 2], squared lengths uniform in [0.5,
+//! 3].
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
 use std::error::Error;
@@ -40,7 +41,7 @@ fn draw(class: Class, rng: &mut Rng) -> Result<Problem, Box<dyn Error>> {
     Ok((Manipulator::from_legs(legs)?, SquaredLegLengths::try_new(s)?))
 }
 
-/// What is measured for one method on many problems.
+/// The measurements of one method on many problems.
 #[derive(Default)]
 struct Tally {
     steps: Vec<Vec<Duration>>,

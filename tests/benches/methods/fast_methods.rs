@@ -1,8 +1,8 @@
 //! Medians of the two methods made for control loops. Run with `cargo bench --package equipod-benches --bench
 //! fast_methods`.
 //!
-//! Each problem is solved in batches; a batch's mean is one sample, the best of its samples is the problem's time,
-//! and the median over the problems is printed. One thread.
+//! Each problem is solved in batches. A batch's mean is one sample, and the best of its samples is the problem's time.
+//! The median over the problems is printed. One thread.
 
 use std::hint::black_box;
 use std::time::Instant;

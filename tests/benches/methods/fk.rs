@@ -69,7 +69,7 @@ fn certify_40_roots(bencher: Bencher) {
     });
 }
 
-/// What the batches of `ik` from Python are compared by: leg lengths of 1,000 matrices, each checked.
+/// The yardstick of the batches of `ik` from Python: leg lengths of 1,000 matrices, each checked.
 #[divan::bench]
 fn lengths_of_1000_matrices(bencher: Bencher) {
     let all = problems(Class::Octahedral);

@@ -1,8 +1,9 @@
-//! What a design costs that is solved again and again: preparation, and a solve with certificates, on one thread.
+//! The cost of a design that is solved again and again: preparation, and a solve with certificates, on one thread.
 //!
-//! Run with `cargo bench --package equipod-benches --bench prepared -- [method=METHOD] [lengths=N] [CLASS |
-//! translations ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in
-//! units of `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
+//! Run with
+//! `cargo bench --package equipod-benches --bench prepared -- [method=METHOD] [lengths=N] [CLASS | translations ...]`.
+//! Times of a solve are medians over designs and lengths, each solved once. They are in microseconds and in units of
+//! `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -59,8 +60,8 @@ fn quantile(times: &mut [f64], q: f64) -> f64 {
     found.map_or(f64::NAN, |(_, time)| *time)
 }
 
-/// Whether both have as many certified poses, and each has those of the other; two that are closer than the comparison
-/// sees are near to either.
+/// Whether both have as many certified poses, and each has those of the other. Two poses closer than the tolerance of
+/// the comparison are near to either.
 fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
     let has = |one: &FkSolutions, other: &FkSolutions| {
         one.roots.iter().all(|r| {
@@ -71,7 +72,7 @@ fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
     a.roots.len() == b.roots.len() && has(a, b) && has(b, a)
 }
 
-/// What is measured: a class, or octahedral designs of parallel triangles at pure translations.
+/// The measured problems: a class, or octahedral designs of parallel triangles at pure translations.
 #[derive(Clone, Copy)]
 enum Row {
     Of(Class),

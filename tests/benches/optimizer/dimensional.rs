@@ -29,7 +29,7 @@ const CLOSE: f64 = 0.03;
 /// Points for each start of a search for the worst pose of an objective.
 const POINTS_A_SEARCH: usize = 60;
 
-/// How many terms an objective is the sum of, each of them the least over the poses; 0: not known to this judge.
+/// The number of terms in the sum of an objective, each the least over the poses; 0: not known to this judge.
 pub(crate) fn components(o: Objective) -> usize {
     match o {
         Objective::WorstConditioning | Objective::LegForce | Objective::Stiffness => 1,
@@ -290,8 +290,8 @@ impl DimensionalJudge {
         (sum, found)
     }
 
-    /// The least margin over all poses in shares, by a search for every leg and pair that comes close to its limit, and
-    /// the points where something is violated.
+    /// The least margin over all poses in shares, and the points with a violation. It searches for every leg and pair
+    /// that comes close to its limit.
     fn least_margin(&self, built: &Built, points: usize) -> (f64, Vec<Vector6<f64>>) {
         let space = self.space(built.home);
         let mut rng = Rng::new(0x6c6d);
@@ -382,7 +382,7 @@ impl Judge for DimensionalJudge {
         self.build(x).map_or(nothing, |built| self.judge(&built))
     }
 
-    /// Looks between the held poses. What is violated there, or worse, is held from then on.
+    /// Looks between the held poses. Poses that violate a requirement, or are worse, are held from then on.
     fn confirm(&self, x: &[f64]) -> Option<f64> {
         let built = self.build(x)?;
         let (value, worst) = self.worst(&built, self.objective(), CHECKED);

@@ -1,5 +1,5 @@
-//! CMA-ES with restarts: two regimes of population sizes as in BIPOP (Hansen 2009), two ways to treat requirements, and
-//! runs that start from the best answer so far.
+//! CMA-ES with restarts: two regimes of population sizes as in BIPOP (Hansen 2009), and two ways to treat requirements.
+//! Some runs start from the best answer so far.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -22,7 +22,7 @@ const GIVEN: usize = 4;
 /// Weight of the squared distance from the box; inside there is none.
 const OUTSIDE: f64 = 1e-3;
 
-/// How a run treats requirements.
+/// The treatment of requirements in a run.
 #[derive(Debug, Clone, Copy)]
 enum Handling {
     /// Every feasible point is before every other one; those are ranked by their violation.

@@ -13,10 +13,10 @@ use nalgebra::Point3;
 
 use crate::Failure;
 
-/// Of the area of the equilateral triangle over the longest edge, at least: no slivers.
+/// Least area over that of the equilateral triangle with the longest edge: no slivers.
 const FULLNESS: f64 = 0.3;
 
-/// What was proved of one pair.
+/// The proof about one pair.
 #[derive(Debug, Clone, Copy)]
 struct Proved {
     number: u64,

@@ -1,4 +1,4 @@
-//! What a set of variables is worth, by code that the optimiser does not use.
+//! The value of a set of variables, by code that the optimiser does not use.
 
 use equipod::methods::design::Design;
 use equipod::methods::geom::Pose;
@@ -14,7 +14,7 @@ use super::verdict::Judged;
 pub(crate) trait Judge: Sync {
     /// Least and greatest value of every variable.
     fn bounds(&self) -> &[(f64, f64)];
-    /// How far the worst requirement is missed, without unit; 0 when all are met.
+    /// Violation of the worst requirement, without unit; 0 when all are met.
     fn violation(&self, x: &[f64]) -> f64;
     /// The objective.
     fn value(&self, x: &[f64]) -> f64;

@@ -1,19 +1,23 @@
 //! The optimiser against 100,000 random feasible designs and against CMA-ES with 100 times its processor time.
 //!
 //! ```text
-//! tests/optimizer/run [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--walk-seconds 1800] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
+//! tests/optimizer/run [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600]
+//!     [--walk-seconds 1800] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
 //! tests/optimizer/run --timing
 //! tests/optimizer/run --gaps 100 [--threads 2] [--seed 1]
 //! ```
 //!
 //! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of
-//! `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone, once with the
-//! joints up to one edge length out and once inside the edges. Random search draws from the box of the variables for
-//! `--seconds` of processor time; where fewer than `--random` feasible designs come to light, walks inside the feasible
-//! set, from the feasible designs that either rival found, go on to that number or for `--walk-seconds`. Prints a
-//! Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of
-//! other problems that stand there already are kept). Exit 1 when the optimiser loses. `--timing`: the time of problems
-//! with 200 poses instead. `--gaps`: the gaps proved on so many random pairs of triangles.
+//! `equipod optimize`. Octahedral ones are taken without their requirements too. Then the offsets alone vary, once with
+//! joints up to one edge length out and once inside the edges.
+//!
+//! Random search draws from the box of the variables for `--seconds` of processor time. When it finds fewer than
+//! `--random` feasible designs, walks inside the feasible set go on. They start from the feasible designs that either
+//! rival found, and end at that number or after `--walk-seconds`.
+//!
+//! Prints a Markdown table. With `--out` writes it, the rows as CSV and a picture of the convergence for each problem.
+//! Rows of other problems that are there already are kept. Exit 1 when the optimiser loses. `--timing`: the time of
+//! problems with 200 poses instead. `--gaps`: the gaps proved on so many random pairs of triangles.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints tables")]
 
 mod cap;
@@ -51,7 +55,7 @@ type Failure = Box<dyn Error>;
 /// The folder of the project, seen from that of the package `tests/optimizer`.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
-/// What the command line says.
+/// The arguments of the command line.
 #[derive(Debug)]
 struct Arguments {
     random: usize,
@@ -67,7 +71,7 @@ struct Arguments {
     gaps: Option<u64>,
 }
 
-/// Which problems of a design.
+/// The problems to take of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Only {
     All,

@@ -1,4 +1,4 @@
-//! What `equipod optimize` is asked by a design with requirements.
+//! The question that a design with requirements asks of `equipod optimize`.
 
 use equipod::methods::design::{Combination, Design, SearchTable};
 use equipod::methods::dimensional::{DimensionalProblem, Mode, Triangles, Variables};
@@ -16,9 +16,8 @@ fn asks_for_more(design: &Design) -> bool {
     design.search != SearchTable::default() || design.requirements() != plain
 }
 
-/// The problem that `equipod optimize DESIGN` solves; of a Pareto front the first objective alone. `None` where the
-/// design asks for the offsets only, where there is no such problem, or when it has variables that the judge does not
-/// build.
+/// The problem that `equipod optimize DESIGN` solves; of a Pareto front the first objective alone. `None` when the
+/// design asks for the offsets only, there is no such problem, or it has variables that the judge does not build.
 pub(crate) fn problem(design: &Design) -> Option<DimensionalProblem> {
     let (m, search) = (design.manipulator(), &design.search);
     let kinds = if search.variables.is_empty() { &[VariableKind::Offsets] } else { &search.variables[..] };

@@ -34,8 +34,8 @@ pub(crate) fn random_search(
     })
 }
 
-/// Threads that evaluate their share of the wanted designs each and tell how many points they asked for; they are given
-/// their number, their share and the record.
+/// Runs threads that evaluate their share of the wanted designs each and return the number of points they asked for.
+/// Each gets its number, its share and the record.
 fn shared(
     judge: &dyn Judge,
     wanted: usize,
@@ -59,8 +59,8 @@ const STEPS: usize = 500;
 /// A chord is given up when so short a share of it is left.
 const SHORTEST: f64 = 1e-9;
 
-/// Feasible designs without rejection of nearly all: hit-and-run walks, whose points tend to the uniform distribution
-/// on the feasible set around their start (Smith 1984; chords shrunk as by Neal 2003).
+/// Feasible designs without rejection of nearly all, by hit-and-run walks. Their points tend to the uniform
+/// distribution on the feasible set around their start (Smith 1984; chords shrunk as by Neal 2003).
 ///
 /// The walks take turns with feasible starts until `wanted` designs were evaluated, or `seconds` of processor time are
 /// over. Nothing without starts.

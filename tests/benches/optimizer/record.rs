@@ -101,7 +101,7 @@ impl Record {
         self.best.lock().map(|b| b.x.clone()).unwrap_or_default()
     }
 
-    /// What came out, judged once more.
+    /// The result, judged once more.
     pub(crate) fn finish(self, judge: &dyn Judge) -> Rival {
         let spent = self.clock.spent();
         let evaluations = self.evaluations();

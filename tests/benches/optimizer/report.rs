@@ -13,9 +13,9 @@ use crate::{Answer, Failure};
 #[derive(Debug)]
 pub(crate) struct Row {
     pub(crate) name: String,
-    /// What is made large; costs are negative.
+    /// The quantity to be maximised; costs are negative.
     pub(crate) quantity: String,
-    /// How many poses, or that they fill a region.
+    /// The number of poses, or that they fill a region.
     pub(crate) poses: String,
     /// Processor time of CMA-ES over that of the optimiser.
     pub(crate) factor: f64,

@@ -1,9 +1,9 @@
 //! All poses of the reference problems, with their certificates, in a form that `../compare.py` compares across
 //! processors.
 //!
-//! A line `problem NAME key=value ..` for each problem, then a line `root key=value .. | re im radius` with twelve
-//! discs (`R` row by row, then `p`) for each root; without a certificate the radius is `-`. Numbers are written so that
-//! they read back to the same double.
+//! A line `problem NAME key=value ..` begins each problem. A line `root key=value .. | re im radius` with twelve discs
+//! (`R` row by row, then `p`) follows for each root; without a certificate the radius is `-`. Numbers are written so
+//! that they read back to the same double.
 
 use std::error::Error;
 use std::fmt::Write;
