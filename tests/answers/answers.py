@@ -213,7 +213,7 @@ def small(design):
 
 
 def searched(search, hardware=None, ahead=1.75):
-    """What is required and searched at a home pose `ahead` of the origin."""
+    """A change of a design: the requirements and the search at a home pose `ahead` of the origin."""
 
     def change(design):
         design["home"] = {"position": [3.0, ahead, 12.0], "rpy_deg": [0.0, 0.0, 0.0]}
@@ -308,7 +308,8 @@ class Files:
 
 
 def answers(program, root, folder):
-    """Of each call its words, the exit code that it should have, that it has, the schema of its answer, and the answer; then what `explore` writes."""
+    """For each call its words, the exit code that it should have, the one that it has, the schema of its answer, and
+    the answer. The files of `explore` follow."""
     files = Files(program, root, folder)
     for call in CALLS.strip().splitlines():
         code, name, *arguments = call.split()

@@ -1,13 +1,15 @@
 """Measures a simulated machine, and compares a calibration with the truth.
 
     equipod export DESIGN --to json -o FOLDER
-    python tests/calibration/simulate.py measure FOLDER/platform.json OUT.csv [--truth TRUTH.json] [--poses N] [--seed S] [--shift MM] [--turn DEG] [--outliers N]
+    python tests/calibration/simulate.py measure FOLDER/platform.json OUT.csv [--truth TRUTH.json] [--poses N] [--seed S]
+        [--shift MM] [--turn DEG] [--outliers N]
     equipod calibrate DESIGN OUT.csv .. --json > ANSWER.json
     python tests/calibration/simulate.py compare TRUTH.json ANSWER.json
 
-The machine is the design with every coordinate of its joints off by 0.3 mm (standard deviation) and encoders that count from 1.5 mm away. Poses are drawn around
-home, up to --shift along each axis and --turn about each, and measured with errors of 0.01 mm in each coordinate and 0.002 degrees about each axis, lengths with
-errors of 0.005 mm. Of equipod the joints and the home pose are taken: lengths are computed here from the definition.
+The machine is the design with every coordinate of its joints off by 0.3 mm (standard deviation) and encoders that count
+from 1.5 mm away. Poses are drawn around home, up to --shift along each axis and --turn about each. They are measured
+with errors of 0.01 mm in each coordinate and 0.002 degrees about each axis, lengths with errors of 0.005 mm. The joints
+and the home pose come from equipod; lengths are computed here from the definition.
 """
 
 import argparse

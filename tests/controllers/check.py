@@ -208,7 +208,7 @@ def board(folder, wrong, name, table):
 
 
 def operations(folder):
-    """What each part of the tracker takes: sums, products, quotients, roots."""
+    """Counts the operations of each part of the tracker: sums, products, quotients, roots."""
     if not has("g++"):
         return
     place = folder / "counted"
@@ -239,8 +239,9 @@ def known_rows(program, design, folder):
 
 
 def table_of_operations(folder, name, rows):
-    """The kinematics module with a table of operations, against a stand-in for LinuxCNC's headers, and against the true ones where KINS_HEADERS names their
-    folders, with colons between them. The module of 2.9 has to suit the stand-in too."""
+    """The kinematics module with a table of operations, against a stand-in for LinuxCNC's headers. KINS_HEADERS names
+    the folders of the true headers, with colons between them, for a second check. The module of 2.9 has to suit the
+    stand-in too."""
     if not has("gcc"):
         return
     options = ["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
@@ -276,7 +277,8 @@ def table_of_operations(folder, name, rows):
 
 
 def linuxcnc(program, top, coupled):
-    """The kinematics module with the headers and the HAL of LinuxCNC, where they are: of a design without shared joints and of one whose joints are not ideal."""
+    """The kinematics module with the headers and the HAL of LinuxCNC, if they are installed. The designs are one
+    without shared joints and one whose joints are not ideal."""
     root = os.environ.get("LINUXCNC_ROOT", "/")
     if not pathlib.Path(root, "usr/include/linuxcnc/kinematics.h").exists():
         print("  LinuxCNC's headers are not installed: its kinematics module was not compiled")

@@ -1,11 +1,14 @@
 #!/usr/bin/python3
-"""A part program in a whole LinuxCNC whose kinematics are `equipodkins` of a design, with simulated drives. Poses are computed by the octahedral formulas where the design has them.
+"""A part program in a whole LinuxCNC with simulated drives, whose kinematics are `equipodkins` of a design. Poses are
+computed by the octahedral formulas if the design has them.
 
     /usr/bin/python3 tests/controllers/program.py PROGRAM DESIGN [FOLDER]
 
-The module is compiled and installed by halcompile and removed at the end. The drives follow their commands with a lag, so that the pose that LinuxCNC shows
-is the forward kinematics of lengths that no inverse kinematics has computed. At every sample the lengths of the shown pose, by `equipod ik`, are compared with those
-of the drives. It needs Debian's linuxcnc-uspace and linuxcnc-uspace-dev, whose Python module is for the Python of the system, and the right to install a module.
+The module is compiled and installed by halcompile and removed at the end. The drives follow their commands with a lag.
+So the pose that LinuxCNC shows is the forward kinematics of lengths that no inverse kinematics has computed. At every
+sample the lengths of the shown pose, by `equipod ik`, are compared with those of the drives. It needs Debian's
+linuxcnc-uspace and linuxcnc-uspace-dev, whose Python module is for the Python of the system, and the right to install a
+module.
 
 Exit 0: checked; 1: a check failed; 77: there is no LinuxCNC.
 """
@@ -136,7 +139,8 @@ def display(folder):
     resting, moved = 0, False
 
     def sampled():
-        """Whether the program has moved the machine and all is at rest for sixty looks: the interpreter is done before the motion that it has queued begins."""
+        """Whether the program has moved the machine and all is at rest for sixty samples. The interpreter is done
+        before the motion that it has queued begins."""
         nonlocal resting, moved
         rows.append([list(status.actual_position[:6]), list(status.joint_actual_position[:6]), list(status.position[:6])])
         done = status.interp_state == linuxcnc.INTERP_IDLE and status.exec_state == linuxcnc.EXEC_DONE and status.queue == 0 and status.inpos

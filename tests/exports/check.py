@@ -27,9 +27,10 @@ from swing import check_swing
 from texts import check_csv, check_hal, check_json, check_matlab
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# design, options, time for a move over the square root of the size: shared joints and separate ones, flat bodies and not, limits of lengths, a unit
-# that has to be named. Without a time no pose is asked for: lengths do not hold the platform of rbt-midline (architecturally singular), and the default
-# workspace of innocenti-6-4 holds singular poses (`equipod singular poses` proves it). general-6-6 settles slowly.
+# Design, options, time for a move over the square root of the size. The designs have shared joints and separate ones,
+# flat bodies and others, limits of lengths, and a unit that has to be named. Designs without a time are asked for no
+# pose. Lengths do not hold the platform of rbt-midline (architecturally singular). The default workspace of
+# innocenti-6-4 holds singular poses (`equipod singular poses` proves it). general-6-6 settles slowly.
 DESIGNS = [
     ("rbt-octahedral", [], 2.0),
     ("rbt-midline", [], None),

@@ -1,4 +1,4 @@
-"""What all checks share: the tally, planted faults, tables, and what plates should be by the joints alone."""
+"""The common parts of all checks: the tally, planted faults, tables, and plates computed from the joints alone."""
 
 import csv
 import math

@@ -1,4 +1,5 @@
-"""MuJoCo with a platform on cranks: the actuators hold the angles of `equipod ik`, the platform comes to the pose they were asked for, and the swing of the rods is limited at both ends."""
+"""A platform on cranks in MuJoCo. The actuators hold the angles of `equipod ik`, the platform comes to the pose of
+these angles, and the swing of the rods is limited at both ends."""
 
 import json
 import math
@@ -18,7 +19,7 @@ def angles_and_poses(program, design):
 
 
 def complaint(path, wanted):
-    """What is wrong with the model at its home, or at one of the poses that its actuators are sent to."""
+    """The fault of the model at its home, or at one of the poses that its actuators are sent to."""
     import mujoco
     import numpy as np
     model = mujoco.MjModel.from_xml_path(str(path))
@@ -47,7 +48,8 @@ LIMITS = {"tip": 25.0, "platform": 35.0}
 
 
 def swings(model, data, crank_axes, rod_axes):
-    """Of each rod the angle out of the plane in which its crank turns, and the angle from its direction at home in the platform frame, from the frames of the bodies."""
+    """Two angles of each rod, from the frames of the bodies: the angle out of the plane in which its crank turns, and
+    the angle from its direction at home in the platform frame."""
     import numpy as np
     turn = data.body("platform").xmat.reshape(3, 3)
     out = []
@@ -60,7 +62,7 @@ def swings(model, data, crank_axes, rod_axes):
 
 
 def swing_complaint(path):
-    """What is wrong with the limits of the swing: at random states they act beyond the angles of the design and not below."""
+    """The fault of the limits of the swing: at random states they act beyond the angles of the design and not below."""
     import mujoco
     import numpy as np
     model = mujoco.MjModel.from_xml_path(str(path))

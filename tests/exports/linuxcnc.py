@@ -100,7 +100,8 @@ def angles(q):
 
 
 def contraction(b, c):
-    """By what the forward kinematics reduces an error near a pose: it takes rates E of the angles for an angular velocity, so by the spectral radius of 1 - E."""
+    """The factor by which the forward kinematics reduces an error near a pose. It takes rates E of the angles for an
+    angular velocity, so that the factor is the spectral radius of 1 - E."""
     y, z = math.cos(math.radians(b)), math.cos(math.radians(c))
     root = cmath.sqrt((z * (1 + y)) ** 2 - 4 * y)
     return max(abs(1 - (z * (1 + y) + sign * root) / 2) for sign in (-1, 1))

@@ -33,7 +33,7 @@ class Mechanism:
         self.load(path)
 
     def fault(self, limits):
-        """What is wrong at home: velocities, loops and actuators, the least and greatest length of each leg, gaps."""
+        """The fault at home: velocities, loops and actuators, the least and greatest length of each leg, gaps."""
         if self.counts() != self.COUNTS[: len(self.counts())]:
             return f"velocities, loops, actuators: {self.counts()}"
         ranges = [[round(float(h + x) / self.size, 12) for x in ends] for h, ends in zip(self.home, self.ranges()) if self.np.isfinite(ends).all()]
@@ -42,7 +42,8 @@ class Mechanism:
         return "" if self.closed() else f"at home the loops are {self.gap():.1e} m open"
 
     def gap(self):
-        """Greatest distance of the end of a rod from where it belongs: by the table of joints, and by the program's own anchors where it tells them."""
+        """Greatest distance of the end of a rod from its place. The place comes from the table of joints, and from the
+        program's own anchors if it has them."""
         at, turn = self.placed("platform")
         gaps = [self.placed(rod)[0] - at - turn @ head for rod, head in self.heads.items()]
         return max(float(self.np.linalg.norm(g)) for g in [*gaps, *self.openings()])
@@ -57,7 +58,8 @@ class Mechanism:
         return self.placed("platform")
 
     def follow(self, lengths, time):
-        """Smoothly to these lengths in `time`, then at rest until nothing moves any more, for at most `time + 3`; times over the square root of the size."""
+        """Moves smoothly to these lengths in `time`, then rests until nothing moves any more, for at most `time + 3`.
+        Times are over the square root of the size."""
         unit = self.step / math.sqrt(self.size)
         start, end = self.now, self.np.array(lengths)
         count = max(1, round(time / unit))

@@ -17,7 +17,7 @@ def poses_of(path, count):
 
 
 def complaint(model, pose):
-    """What is wrong with `model`, whose platform should be at `pose`, or anywhere (None)."""
+    """The fault of `model`, whose platform should be at `pose`, or anywhere (None)."""
     if not model.closed():
         return f"loops are {model.gap():.1e} m open"
     if pose is None:
@@ -103,7 +103,8 @@ def check_equivalent(program, folder, original):
         run(program, "export", design, "--to", "mjcf,csv,json", "-o", folder / key, "--gravity-compensation")
     poses = list(poses_of(folder / "octahedral/lengths-trajectory.csv", 1000))
     def along(kind, a):
-        """Largest difference of the two platforms, of the first from ours, and gap, over the size, on the way; to the first that is too large."""
+        """Three largest errors on the way, over the size: difference of the two platforms, difference of the first from
+        ours, gap. It stops at the first that is too large."""
         pair = [kind(folder / key / "platform.xml") for key in ("octahedral", "free")]
         alike = right = gap = 0.0
         for pose in poses:

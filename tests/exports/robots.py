@@ -19,7 +19,8 @@ def pose_at(doc, move):
 
 
 def tree_complaint(program, design, doc):
-    """What is wrong with the URDF: closures that are open at home, or slides that differ from `equipod ik` once Newton's method has closed the loops."""
+    """The fault of the URDF: closures that are open at home, or slides that differ from `equipod ik` after Newton's
+    method has closed the loops."""
     import numpy as np
     import pinocchio as pin
 
@@ -66,7 +67,8 @@ def tree_complaint(program, design, doc):
 
 
 def sdf_complaint(doc):
-    """What is wrong with the SDF as Drake reads it: links, joints, their ends at home. Drake simulates trees, so that the joints that close loops are cut."""
+    """The fault of the SDF as Drake reads it: links, joints, their ends at home. Drake simulates trees, so that the
+    joints that close loops are cut."""
     import logging
     import re
     import numpy as np

@@ -93,7 +93,8 @@ def tree(path):
 
 
 def tree_fault(path, doc):
-    """What is wrong with the assembly: base and platform with plate and joints, six legs with cylinder and rod, equal ones of one part."""
+    """The fault of the assembly: base and platform with plate and joints, six legs with cylinder and rod, equal legs of
+    one part."""
     whole = tree(path)
     if whole is None or [p[0] for p in whole] != ["base", "platform"] + [f"leg {k}" for k in range(1, 7)]:
         return f"parts of the whole: {whole and [p[0] for p in whole]}"
@@ -133,7 +134,8 @@ def moved_by(solid, v):
 
 
 def telescope_fault(solids, doc, joints, limits):
-    """Rods run in the bores of their cylinders: over the stroke no rod cuts into its cylinder, and where the file does not say otherwise it does not leave it either."""
+    """The fault of rods in the bores of their cylinders. Over the stroke no rod cuts into its cylinder, and none leaves
+    it unless the file says so."""
     for leg, (cylinder, rod), d in zip(doc["legs"], [solids[k:k + 2] for k in range(0, 12, 2)], directions(doc, joints)):
         listed = [p["lengths"][leg["leg"] - 1] for p in doc["workspace"] + doc["trajectory"]] + [leg["home_length"]]
         least, greatest = limits or (min(listed), max(listed))
@@ -161,7 +163,8 @@ def distance_to_axis(p, axis):
 
 
 def expected_legs(doc, joints):
-    """Ends and volume of cylinder and rod of each leg: the rod ends at the ball of the platform, the floor of the bore is as thick as its wall."""
+    """Ends and volume of cylinder and rod of each leg. The rod ends at the ball of the platform, and the floor of the
+    bore is as thick as its wall."""
     at = {(b, j["name"]): placed(doc, b, j["at"]) for b, j in joints}
     rb, rp = (doc[b]["ball_diameter"] / 2 for b in ("base", "platform"))
     for leg, d in zip(doc["legs"], directions(doc, joints)):

@@ -1,4 +1,5 @@
-"""MuJoCo: the swing of the balls at the platform is limited as the design says, leg by leg, and the payload is seen and touches nothing."""
+"""The swing of the platform's balls in MuJoCo is limited as the design says, leg by leg. The payload is visible and
+touches nothing."""
 
 import math
 import tomllib

@@ -1,4 +1,4 @@
-"""What the page shows is what the command line says."""
+"""The numbers of the page are those of the command line."""
 
 from program import DESIGNS
 

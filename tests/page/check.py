@@ -144,7 +144,7 @@ def required(chromium, program, folder, pictures):
 
 
 def first(chromium, program, folder, pictures):
-    """What is seen first is a platform without shared joints that meets the requirements of the file."""
+    """The first view is a platform without shared joints that meets the requirements of the file."""
     for name in ("rbt-octahedral", "worked/linuxcnc-octahedral"):
         path = program.page(DESIGNS / f"{name}.toml", folder / "first.html")
         with Opened(chromium, path) as shown:
@@ -184,7 +184,7 @@ def lengths(chromium, program, folder, pictures):
 
 
 def whole(chromium, program, folder, pictures):
-    """What the page says of the workspace is what `assess` says: met, violated away from home, a singular pose, nothing required."""
+    """The page and `assess` agree on the workspace: met, violated away from home, a singular pose, nothing required."""
     cases = [(DESIGNS / "presets" / "mdx-chair-v3.toml", None), (limits.short_legs(folder), False), (limits.wide(folder), False)]
     for path, met in cases:
         page = program.page(path, folder / "whole.html")
@@ -263,7 +263,8 @@ def slow(chromium, program, folder, pictures):
 
 
 def foreign(chromium, program, folder, pictures):
-    """Files of others in a report, and names of others in a page, are text and pictures: no script of theirs runs, and the policy would not let it."""
+    """Files of others in a report, and names of others in a page, are text and pictures. None of their scripts runs,
+    and the policy would stop them."""
     hostile.report(chromium, program, folder)
     hostile.names(chromium, program, folder)
 

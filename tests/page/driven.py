@@ -1,6 +1,8 @@
-"""What the browsers that are driven by their own protocols have in common: a tab, and the main parts of the page checked in it.
+"""The common part of the browsers that are driven by their own protocols: a tab, and the main parts of the page checked
+in it.
 
-`firefox.py` and `webkit.py` say how a tab is reached; the checks are the same, and so are the answers that they compare with.
+`firefox.py` and `webkit.py` say how a tab is reached. The checks are the same, and so are the answers that they compare
+with.
 """
 
 import json
@@ -88,7 +90,7 @@ def start(tab, program, folder):
 
 
 def surfaces(tab, program, folder):
-    """What takes a worker: platforms shaded over two offsets, the singular surfaces in space."""
+    """The parts that need a worker: platforms shaded over two offsets, the singular surfaces in space."""
     tab.open((folder / "octahedral.html").as_uri())
     tab.until("document.getElementById('feasible-words').textContent.includes('inside the green line')")
     tab.run("(document.getElementById('space-details').open = true)")

@@ -39,7 +39,8 @@ def opened(chromium, path):
 
 
 def report(chromium, program, folder):
-    """A folder of hostile pictures, designs and results; then the same page with a script in it, which the policy stops, and without policy, which shows that it runs."""
+    """A folder of hostile pictures, designs and results. Then the same page with a script in it: the policy stops it,
+    and it runs without the policy."""
     results = folder / "results"
     results.mkdir()
     design = (DESIGNS / "rbt-octahedral.toml").read_text()

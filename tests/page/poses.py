@@ -137,7 +137,7 @@ def of_the_equivalent(shown):
 
 
 def no_leg_hidden(shown, canvases):
-    """Of each leg much is seen, in its own colour or through a plate, which lets 58 % of it through."""
+    """Much of each leg is visible, in its own colour or through a plate, which lets 58 % of it through."""
     for name in canvases:
         counts = shown.page.evaluate("""(id) => {
           const canvas = document.getElementById(id);

@@ -32,7 +32,8 @@ class Program:
 
 
 def unguarded(html):
-    """The page with a policy that takes any inline script and style: for pages with planted faults, whose script or style is not the one the policy names."""
+    """The page with a policy that takes any inline script and style. It serves pages with planted faults, whose script
+    or style is not the one that the policy names."""
     guarded = re.compile(r"(script|style)-src( 'sha256-[^']*')+")
     assert {m.group(1) for m in guarded.finditer(html)} == {"script", "style"}, "the page has no policy"
     return guarded.sub(r"\1-src 'unsafe-inline'", html)

@@ -1,4 +1,5 @@
-"""What is drawn over the offsets and about the platform in space: platforms that violate a requirement, and singular surfaces."""
+"""The drawings over the offsets and about the platform in space: platforms that violate a requirement, and singular
+surfaces."""
 
 
 def words(shown):
@@ -59,7 +60,8 @@ def in_space(shown):
 
 
 def singular_positions(shown, program, folder):
-    """Where the page draws singular positions there are some: with the orientation of home none is in the workspace of a design that is proved regular."""
+    """The page draws singular positions only where there are some. With the orientation of home none is in the
+    workspace of a design that is proved regular."""
     page = shown.page
     plain = page.evaluate("document.getElementById('view-first').toDataURL()")
     page.check("#locus")

@@ -29,7 +29,8 @@ class WebKit(Tab):
         self.complaints = []
         made = self.ask("POST", "session", {"capabilities": {"alwaysMatch": {"pageLoadStrategy": "normal", "timeouts": {"script": 180000}}}})
         self.address = f"{address}/session/{made['sessionId']}"
-        # the driver tells of no errors of a page: the page writes them down itself once it is loaded; without its start there is no data-ready
+        # The driver does not report errors of a page. So the page writes them down itself once it is loaded; without
+        # its start there is no data-ready.
         self.watch = "window.complaints = []; addEventListener('error', (e) => window.complaints.push(e.message)); addEventListener('unhandledrejection', (e) => window.complaints.push(String(e.reason)));"
 
     def ask(self, method, path, body=None):

@@ -1,11 +1,12 @@
-"""Whether two runs of portable-roots found the same roots with the same certificates.
+"""Compares two runs of portable-roots: do they find the same roots with the same certificates?
 
     compare.py [--identical] EXPECTED OTHER
     compare.py --self-test EXPECTED
 
-Two certificates are of the same root only if all their discs meet: each proves that its root lies in its own discs, and is the only one near. So every disc of a root has to meet
-that of its partner, partners are unique, and what is said of the problem (how many roots, certified, real, unproved, whether all are accounted for, the count of poses) is equal.
-Roots without a certificate are compared to `ROUNDING`. --identical: not a bit differs.
+Two certificates are of the same root only if all their discs meet. Each proves that its root lies in its own discs, and
+is the only one near. So every disc of a root has to meet that of its partner, and partners are unique. The statements
+about the problem are equal: the numbers of roots, certified, real and unproved ones, whether all are accounted for, the
+count of poses. Roots without a certificate are compared to `ROUNDING`. --identical: not a bit differs.
 """
 
 import sys

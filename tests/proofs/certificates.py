@@ -1,20 +1,29 @@
 """Certificates of roots in the answers of `fk`, one by one in ball arithmetic of 600 bits.
 
-The statement of a record of kind `study`: with the joints as the doubles they are and the squared lengths as the exact squares of the lengths, the system
+A record of kind `study` makes a statement about the joints as the doubles they are, and the squared lengths as the
+exact squares of the lengths. The system
 
     |g + e b_i - a_i e|^2 = s_i e.e (i = 1..6),   e.g = 0,   e_patch = 1,        g in `unit`,
 
-has a root within `radius` of `centre + centre_low` (largest modulus of a coordinate), no other within `uniqueness_radius`, its R and p lie in `enclosure`, and it is
-real or not as `reality` says. Of kind `octahedral`: P4, P5, P6 are on circles about P1 P2, P2 P3, P3 P1, and with the angles on these counted from the direction of the centre there is a
-pose within `radius` (largest modulus of an angle) and no other within `uniqueness_radius`. In both kinds R and p of the solution are the
-certified ones to 2^-26; far out, where the enclosure is wider (2^-10 at most), the pose is its middle.
+has a root within `radius` of `centre + centre_low` (largest modulus of a coordinate), and no other within
+`uniqueness_radius`. Its R and p lie in `enclosure`, and it is real or not as `reality` says.
 
-How it is checked. Newton's method from the centre, then Krawczyk's test in balls about its end, proves a root and says where it is. Uniqueness: F(x) - F(y) = J((x + y) / 2) (x - y) for
-quadrics, and for the angles the second derivatives over the ball bound what J(c) leaves; with Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
+A record of kind `octahedral` is about P4, P5, P6 on circles about P1 P2, P2 P3, P3 P1. The angles on these are counted
+from the direction of the centre. There is a pose within `radius` (largest modulus of an angle) and no other within
+`uniqueness_radius`.
 
-Of kind `cluster`: exactly `multiplicity` roots, counted with multiplicity, lie within `radius` of the centre, R and p of all of them in `enclosure`, and no others within `uniqueness_radius`. How it is
-checked: bordered equations of this file's own and the expansion of their solution, a Newton map that contracts for all t in a disc, the smallest that does, and Rouche's theorem for the term of that order on its
-circle; for other roots the same on the circle that the stated radius needs.
+In both kinds R and p of the solution are the certified ones to 2^-26. Far out, where the enclosure is wider (2^-10 at
+most), the pose is its middle.
+
+The check: Newton's method from the centre, then Krawczyk's test in balls about its end, proves a root and its place.
+Uniqueness follows for quadrics from F(x) - F(y) = J((x + y) / 2) (x - y). For the angles the second derivatives over
+the ball bound the change of J from J(c). With Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
+
+A record of kind `cluster` states that exactly `multiplicity` roots, counted with multiplicity, lie within `radius` of
+the centre. R and p of all of them lie in `enclosure`, and no others lie within `uniqueness_radius`. The check uses
+bordered equations of this file's own and the expansion of their solution. A Newton map contracts for all t in a disc,
+the smallest for which it does. Rouche's theorem follows for the term of that order on its circle. For other roots the
+same is checked on the circle that the stated radius needs.
 """
 
 import json
@@ -73,7 +82,7 @@ def ball(z, radius):
 
 
 class Refuted(Exception):
-    """What is wrong with a record."""
+    """The fault of a record."""
 
 
 def need(truth, what):
@@ -85,7 +94,7 @@ def need(truth, what):
 
 
 def newton(f, jacobian, start):
-    """Where Newton's method leads, midpoints only."""
+    """The end of Newton's method, midpoints only."""
     x = [middle(z) for z in start]
     for _ in range(60):
         try:
@@ -226,7 +235,8 @@ def check_study(legs, lengths, solution, record):
     box = proved_box(system.values, system.jacobian, x, arb(2) ** -300)
     away = largest([z - c for z, c in zip(box, centre)])
     need(bool(away <= radius), f"the root is {away.str(5)} from the centre, not {radius.str(5)}")
-    # x, y roots within `alone`: J at their middle, which is within alone of the centre, has to be regular; one of them is this one
+    # x, y are roots within `alone`, one of them this one; J has to be regular at their middle, which is within
+    # `alone` of the centre
     y = middle_inverse(system.jacobian(centre))
     bound = system.curvature(y) * (alone + away)
     defect = y * system.jacobian(centre)
@@ -406,7 +416,8 @@ class Corners:
     def bend(self, n, u, reach):
         """Half a bound of the second derivatives of side n by these, within `reach` of u = h + i z.
 
-        The corner is m + u f + v g with isotropic f = (a - i n) / 2, g = (a + i n) / 2 and v = rho / u, and u and v grow by exp(reach) at most.
+        The corner is m + u f + v g with isotropic f = (a - i n) / 2, g = (a + i n) / 2 and v = rho / u. Both u and v
+        grow by exp(reach) at most.
         """
         k, l = n, (n + 1) % 3
         grow = reach.exp()

@@ -1,4 +1,4 @@
-"""What all topics share: the program, exact numbers, random designs."""
+"""The common parts of all topics: the program, exact numbers, random designs."""
 
 import json
 import random

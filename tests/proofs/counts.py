@@ -1,8 +1,9 @@
 """Numbers of finite poses and dimensions of sets of poses, recounted modulo another prime.
 
-A pose is M = R, y = p, x = -R^T p, r = |p|^2; legs are linear there. All multiples up to degree 3, or 4, of the quadrics of SE(3), in the unknowns that the legs leave, are brought to
-reduced echelon form by FLINT (leading terms of high degree first); rows of lower degree are multiplied by the unknowns, until nothing changes. The monomials that lead no row are counted. (The program works in
-quotient spaces instead and never writes down this matrix.)
+A pose is M = R, y = p, x = -R^T p, r = |p|^2; legs are linear there. The matrix has all multiples up to degree 3, or 4,
+of the quadrics of SE(3) in the unknowns that the legs leave. FLINT brings it to reduced echelon form, with leading
+terms of high degree first. Rows of lower degree are multiplied by the unknowns, until nothing changes. The monomials
+that lead no row are counted. (The program works in quotient spaces instead and never writes down this matrix.)
 """
 
 import itertools
@@ -123,7 +124,7 @@ def left_over_by(highest, linear):
 
 
 def complaint(legs, lengths, said, rng):
-    """What is wrong with the record `pose_count` of a design, or None."""
+    """The fault of the record `pose_count` of a design, or None."""
     linear = [leg(a, b, l) for (a, b), l in zip(legs, lengths)]
     section = lambda: [rng.randrange(P) for _ in range(17)]
     if said["finite"] is not None:

@@ -1,7 +1,12 @@
 """Random designs with leg lengths, from a seed: the classes on which certificates are checked.
 
-general: six separate joints on each body. octahedral: two triangles. hexapod: symmetric, joints rounded to doubles. near-double: lengths at a singular pose, off by 1e-14 to 1e-6. double, triple: joints and lengths in whole
-numbers at a singular pose that counts so often. far: platform similar to the base up to 2^-12 to 2^-30 of its size, with poses far out. scaled: general, in other units and far from the origin.
+* general: six separate joints on each body.
+* octahedral: two triangles.
+* hexapod: symmetric, joints rounded to doubles.
+* near-double: lengths at a singular pose, off by 1e-14 to 1e-6.
+* double, triple: joints and lengths in whole numbers at a singular pose that counts so often.
+* far: platform similar to the base up to 2^-12 to 2^-30 of its size, with poses far out.
+* scaled: general, in other units and far from the origin.
 """
 
 import math
@@ -99,8 +104,9 @@ def far(rng):
 
 
 def multiple(rng, triple):
-    """Joints in whole numbers, and lengths whose squares are exact up to their own rounding, at a pose that is singular: every leg is perpendicular to one velocity of its joint. With a mirror plane that turns the velocity
-    round the pose counts three times."""
+    """Joints in whole numbers at a singular pose, and lengths whose squares are exact up to their own rounding. Every
+    leg is perpendicular to one velocity of its joint. With a mirror plane that reverses the velocity the pose counts
+    three times."""
     whole = lambda most: [rng.randint(-most, most) for _ in range(3)]
     cross = lambda a, b: [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     velocity, turn, position = whole(4), whole(4), [u + v for u, v in zip(whole(3), (0, 0, 9))]

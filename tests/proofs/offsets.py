@@ -1,11 +1,17 @@
 """Global bounds and infeasibility of `optimize` (offsets), against offsets drawn here.
 
-The statements: no offsets `t` within the limits have a worst inverse condition number above `global_bound.upper`; where `status` is `infeasible`, no offsets are within the limits at all; `optimal` means that
-the gap to the bound is at most the `tolerance`. Limits (docs/theory/offset-optimisation.md): `-e <= t_i <= 1 + e`, `abs(prod(1 - t_i) - prod(t_i)) >= min_abs_det`, any two of the six joints of a body at least
-`min_joint_distance` apart. They are decided in exact rationals; conditioning comes from eigenvalues of `J^T J` in doubles, a point that exceeds the bound by rounding (1e-9) is no fault.
+The statements: no offsets `t` within the limits have a worst inverse condition number above `global_bound.upper`. No
+offsets at all are within the limits if `status` is `infeasible`. `optimal` means that the gap to the bound is at most
+the `tolerance`.
 
-How it is checked. Random triangles, some 1e-6 the size of the other; a third of the problems is made so that offsets known here meet distance and determinant with nothing to spare, which 0.1.0 called infeasible. Offsets are
-drawn all over the box, at its corners, near the answer and near the known ones, and climb by random steps. Such a check refutes and does not prove.
+The limits (docs/theory/offset-optimisation.md): `-e <= t_i <= 1 + e`, `abs(prod(1 - t_i) - prod(t_i)) >= min_abs_det`,
+any two of the six joints of a body at least `min_joint_distance` apart. They are decided in exact rationals.
+Conditioning comes from eigenvalues of `J^T J` in doubles; a point that exceeds the bound by rounding (1e-9) is no
+fault.
+
+The check: triangles are random, some 1e-6 the size of the other. In a third of the problems offsets known here just
+meet distance and determinant; 0.1.0 called such problems infeasible. Offsets are drawn all over the box, at its
+corners, near the answer and near the known ones, and climb by random steps. Such a check refutes and does not prove.
 """
 
 import json
@@ -216,7 +222,7 @@ class Judge:
 
 
 def complaint(problem, document, rng, effort):
-    """What is wrong with the answer, or None."""
+    """The fault of the answer, or None."""
     status, bound = document["status"], document["global_bound"]
     low, high = -problem.extension, 1 + problem.extension
     draw = lambda: [rng.uniform(low, high) for _ in range(6)]

@@ -1,10 +1,16 @@
 """Margins and sets of regular poses that the program proves over workspaces, against poses drawn here.
 
-The statement of `assess`: no pose `R = exp([w]x) R_0, p = p_0 + d` of the region (|d_k| <= D_k and |w_k| <= theta_k, or the two ellipsoids with these half axes) has a margin below `proved_margin`, whatever the
-requirement; where `regular` is `proved`, det J has one sign. Of `singular poses`: det J has one sign over the region scaled by `proved_scale`, and the opposite one at the pose `singular_within`, which lies in the region scaled by its `scale`.
+The region has the poses `R = exp([w]x) R_0, p = p_0 + d` with |d_k| <= D_k and |w_k| <= theta_k, or with d and w in the
+two ellipsoids with these half axes. `assess` states that no pose of the region has a margin below `proved_margin`,
+whatever the requirement. If `regular` is `proved`, det J has one sign.
 
-How it is checked. Poses are drawn in the region, most of them on its boundary, and moved towards worse ones by random steps; the worst is evaluated once more in balls of 200 bits (python-flint), from the definitions of the margins. Such a check refutes and does not
-prove: it would find the faults of version 0.1.0, which proved a set of other coordinates and missed worst poses.
+`singular poses` states that det J has one sign over the region scaled by `proved_scale`. It has the opposite sign at
+the pose `singular_within`, which lies in the region scaled by its `scale`.
+
+The check: poses are drawn in the region, most of them on its boundary, and moved towards worse ones by random steps.
+The worst is evaluated once more in balls of 200 bits (python-flint), from the definitions of the margins. Such a check
+refutes and does not prove. It would find the faults of version 0.1.0, which proved a set of other coordinates and
+missed worst poses.
 """
 
 import json

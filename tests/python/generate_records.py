@@ -49,7 +49,7 @@ from ._record import Record
 
 
 def parts_of(kind, name):
-    """What stands between the brackets of `name[..]`; the type itself where it is another."""
+    """The types between the brackets of `name[..]`; the type itself if it is another."""
     if not kind.startswith(f"{name}["):
         return [kind]
     parts, depth, start = [], 0, len(name) + 1

@@ -109,7 +109,7 @@ def newton(joints, lengths, x, steps=50):
 
 
 def count(poses):
-    """How many of the poses differ from each other."""
+    """The number of different poses."""
     kept = []
     for pose in poses:
         if all(np.abs(pose - other).max() > DISTINCT for other in kept):

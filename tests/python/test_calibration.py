@@ -21,7 +21,7 @@ def lengths_of(numbers, poses):
 
 
 def machine(design, seed, share):
-    """A machine that was built from a design, and what was measured on it: a share of the lengths is off by 1 to 40 mm."""
+    """A machine built from a design, and the measurements of it. A share of the lengths is off by 1 to 40 mm."""
     rng = np.random.default_rng([seed, round(1000 * share)])
     nominal = np.concatenate([design.joints.base_ends.ravel(), design.joints.platform_ends.ravel(), np.zeros(6)])
     truth = nominal + np.concatenate([rng.normal(0, 0.5, 36), rng.normal(0, 2, 6)])

@@ -262,7 +262,7 @@ def test_a_notebook_shows_a_design_by_a_short_table(octahedral):
 
 def test_words_are_those_that_the_program_takes(octahedral):
     def choices(*words):
-        """What a misspelt value of an option, or a misspelt command, could have been."""
+        """The suggestions for a misspelt value of an option, or a misspelt command."""
         done = subprocess.run([sys.executable, "-m", "equipod", *words], capture_output=True, text=True, check=False)
         return done.stdout + done.stderr
 

@@ -647,7 +647,7 @@ LONG = {
 
 
 def interrupted(code, seconds, times=1):
-    """What a program writes after its line `go` and some interrupts."""
+    """The output of a program after its line `go` and some interrupts."""
     start = (
         "import equipod, numpy as np, pathlib, signal\n"
         # a shell that starts the tests in the background has the signal ignored, and children inherit it

@@ -1,10 +1,11 @@
-"""Which share of a sweep goes into writing: samples of `perf` sorted by what their stacks name.
+"""The share of a sweep that goes into writing, from samples of `perf` sorted by the names in their stacks.
 
     perf record -e cpu-clock -F 1500 --call-graph dwarf,8192 equipod sweep run PLAN -o DIR --threads 1 --shards 1 -q
     perf script --no-inline -F ip,sym | python tests/sweep/samples.py
 
-A sample is computation where its stack names a candidate, its row or a figure of it, and writing where it names a part, a manifest, Parquet, a digest, the compressor or
-a file and no computation; what names neither is counted as writing too in the second share, so that the truth lies between the two.
+A sample is computation if its stack names a candidate, its row or a figure of it. It is writing if its stack names a
+part, a manifest, Parquet, a digest, the compressor or a file, and no computation. The second share counts all other
+samples as writing too, so that the truth lies between the two.
 """
 
 import collections

@@ -1,7 +1,9 @@
-"""A sweep of many designs, killed twice, resumed, verified, merged and drawn; the same plan shard by shard and through Dask. See the head of `run`.
+"""A sweep of many designs, killed twice, resumed, verified, merged and drawn; the same plan shard by shard and through
+Dask. See the head of `run`.
 
-Every step is a command that a user types; what it says is compared with what has to be there, and the parts of the three folders with each other byte for byte. Its
-negative control alters a byte of a part, which `verify` has to see and `run` to mend.
+Every step is a command that a user types. Its output is compared with the expected output, and the parts of the three
+folders with each other byte for byte. The negative control alters a byte of a part, which `verify` has to see and `run`
+to mend.
 """
 
 import argparse
