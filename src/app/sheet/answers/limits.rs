@@ -1,17 +1,17 @@
 //! How far the platform may move.
 
 use crate::{Sheet, Table, left, right};
-use num::shown::significant as short;
+use num::shown::{fixed, significant as short};
 use records::{
-    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, StraightWayRecord,
-    WorkspaceSizeRecord,
+    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseInFrames,
+    PoseQuaternionRecord, StraightWayRecord, WorkspaceSizeRecord,
 };
 
 /// The answer of `limits` about a design of this name.
 #[must_use]
 pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     let mut out = Sheet::new();
-    let at = answer.pose.short();
+    let at = shown(answer, &answer.pose, &answer.in_frames);
     if answer.allowed {
         say!(out, "{name} may be at {at} and move from there, one number at a time:\n");
         let columns = [left("axis", 6), right("value", 12), right("down to", 12), left("where binds", 32)];
@@ -28,7 +28,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
         say!(out, "{}", answer.frames.sentence);
     }
     if let Some(found) = &answer.way {
-        way(&mut out, found);
+        way(&mut out, answer, found);
     }
     if let Some(found) = &answer.nearest_allowed {
         nearest(&mut out, answer, found);
@@ -69,7 +69,16 @@ fn axis(row: &FreeRangeRecord) -> [String; 7] {
     ]
 }
 
-fn way(out: &mut Sheet, found: &StraightWayRecord) {
+/// A pose as its quaternion, or in another convention as position and angles.
+fn shown(answer: &LimitsAnswer, pose: &PoseQuaternionRecord, in_frames: &PoseInFrames) -> String {
+    if answer.frames.is_usual() {
+        return pose.short();
+    }
+    let numbers = in_frames.position.iter().chain(&in_frames.angles);
+    numbers.map(|x| fixed(x.0, 4)).collect::<Vec<_>>().join(",")
+}
+
+fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightWayRecord) {
     let to = found.to.short();
     match &found.binds {
         None => say!(out, "\nThe straight way to {to} is free."),
@@ -77,7 +86,7 @@ fn way(out: &mut Sheet, found: &StraightWayRecord) {
             out,
             "\nThe straight way to {to} is free up to {} of it, at {}; there {} binds.",
             short(found.free),
-            found.pose.short(),
+            shown(answer, &found.pose, &found.in_frames),
             named(limit)
         ),
     }
@@ -93,7 +102,7 @@ fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord)
         } else {
             "The nearest allowed pose found"
         },
-        found.pose.short(),
+        shown(answer, &found.pose, &found.in_frames),
         short(found.distance),
         answer.length_unit,
         short(found.characteristic_length),
