@@ -4449,6 +4449,8 @@ class StraightWayRecord(Record):
     free: float
     #: Where that share ends.
     pose: PoseQuaternionRecord
+    #: The same in the convention of `frames`.
+    in_frames: PoseInFrames
     #: What is violated beyond; null: nothing.
     binds: Union[LimitRecord, None]
 
