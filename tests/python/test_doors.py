@@ -17,6 +17,7 @@ from equipod import _words
 from equipod._program import ask
 
 DESIGNS = pathlib.Path(__file__).parents[2] / "designs"
+FIXTURES = pathlib.Path(__file__).parents[1] / "fixtures"
 PENTAPOD = DESIGNS / "pentapods" / "line-plane.toml"
 
 
@@ -35,15 +36,14 @@ def test_texts_and_fractions_are_exact_joints():
     assert np.allclose(exact.joints.base[2], [6, 6 * np.sqrt(3), 0]) and exact.joints.base_names == ("A1", "A2", "A3")
     # a midline platform is singular, which is proved about exact joints alone
     middle = [Fraction(1, 2)] * 6
-    assert exact.check().verdict_level != "within_rounding" if hasattr(exact.check(), "verdict_level") else True
     steps = exact.derivation([str(x) for x in middle]).derivation
     assert steps.exact is True and steps.factors[0].value.exact == "0"
     typed = equipod.Design.from_arrays(exact.joints.base, exact.joints.platform, PAIRS)
-    assert typed.derivation(["1/2"] * 6).derivation.exact is False or "sqrt" not in typed.dumps()
+    assert "sqrt" not in typed.dumps()
     # decimals, numpy texts and large integers
     for third in (Decimal("0.1"), "1/10", Fraction(1, 10)):
         made = equipod.Design.from_arrays([[0, 0, third], [12, 0, 0], [6, 10, 0]], TRIANGLES[1], PAIRS)
-        assert made.joints.base[0, 2] == 0.1 and "0.1" in made.dumps() or "1/10" in made.dumps()
+        assert made.joints.base[0, 2] == 0.1 and ('"0.1"' in made.dumps() or '"1/10"' in made.dumps())
     words = equipod.Design.from_arrays(np.array([["0", "0", "0"], ["12", "0", "0"], ["6", "9", "0"]]), TRIANGLES[1], PAIRS)
     assert np.array_equal(words.joints.base, [[0, 0, 0], [12, 0, 0], [6, 9, 0]])
     assert pickle.loads(pickle.dumps(exact)) == exact
@@ -79,7 +79,7 @@ def test_tables_are_read_and_replaced():
     assert wider == pytest.approx(narrow + 1)
     assert wide.replace(hardware=design.hardware, name=design.name) == design
     plain = equipod.Design.load(DESIGNS / "rbt-octahedral.toml")
-    assert plain.hardware == {} and plain.requirements == {} and isinstance(plain.workspace, dict)
+    assert plain.hardware == {} and plain.requirements == {"min_joint_distance": 1.2} and "translation" in plain.workspace
     given = plain.replace(lengths=np.arange(16.0, 22.0))
     assert np.array_equal(given.lengths, np.arange(16.0, 22.0)) and given.replace(lengths=None).lengths is None
     for wrong in ({"hardwear": {}}, {"units": 3}, {"lengths": [1, 2]}, {"hardware": {"leg_length": [3, "x"]}}):
@@ -103,9 +103,11 @@ def test_home_and_joints_are_replaced(octahedral):
     assert np.array_equal(moved.joints.base[0], [0.5, 0, 0]) and "#" in moved.dumps()
     exact = octahedral.with_joint("P1", ["1/3", Fraction(1, 7), 0])
     assert np.array_equal(exact.joints.base[0], [1 / 3, 1 / 7, 0]) and '"1/7"' in exact.dumps()
-    on = octahedral.with_joint("base.P1", {"on": ["P2", "P3"], "t": Fraction(1, 5)})
-    joints = octahedral.joints.base
-    assert np.allclose(on.joints.base[0], joints[1] + (joints[2] - joints[1]) / 5)
+    free = octahedral.equivalent(["1/5"] * 6).design
+    index = free.joints.base_names.index("Q1")
+    on = free.with_joint("base.Q1", {"on": ["P2", "P1"], "t": Fraction(1, 3)})
+    ends = [octahedral.joints.base[octahedral.joints.base_names.index(name)] for name in ("P2", "P1")]
+    assert np.allclose(on.joints.base[index], ends[0] + (ends[1] - ends[0]) / 3) and '"1/3"' in on.dumps()
     for name, place in (("P9", [0, 0, 0]), ("P9", ["0", 0, 0]), ("P1", [0, 0]), ("P1", {"on": ["P1", "P2"], "t": 1})):
         with pytest.raises(equipod.DesignError):
             octahedral.with_joint(name, place)
@@ -120,7 +122,8 @@ def test_batches_take_any_shape_and_options(octahedral):
     flat = octahedral.fk_batch(lengths.reshape(6, 6))
     assert batch.shape == (2, 3) and len(batch) == 6 and flat.shape == (6,)
     assert np.array_equal(batch.T, flat.T) and np.array_equal(batch[1, 2].T, flat[5].T) and np.array_equal(batch[-1, 0].T, flat[3].T)
-    assert batch.transforms is batch.T and flat[5].transforms is flat[5].T
+    row = flat[5]
+    assert batch.transforms is batch.T and row.transforms is row.T
     for wrong in ((2, 0), (0, 3), (0,), (0, 0, 0)):
         with pytest.raises(IndexError):
             batch[wrong]
@@ -129,7 +132,8 @@ def test_batches_take_any_shape_and_options(octahedral):
     # methods and seeds are those of fk
     by = octahedral.fk_batch(lengths, method="homotopy", seed=3)
     one = octahedral.fk(lengths[1, 1], method="homotopy", seed=3)
-    assert np.array_equal(by[1, 1].T, one.T) and one.method == "homotopy" and not np.array_equal(by.T, batch.T)
+    assert one.method == "homotopy" and len(by[1, 1]) == len(one) and not np.array_equal(by.T, batch.T)
+    assert np.allclose(np.sort(abs(by[1, 1].T[:, 0, 3])), np.sort(abs(one.T[:, 0, 3])), rtol=1e-9)
     with pytest.raises(equipod.DesignError):
         octahedral.fk_batch(lengths, method="magic")
     # the tracker walks through all leading axes
@@ -143,7 +147,7 @@ def test_real_batches_are_compact_and_say_what_is_undecided(octahedral):
     lengths = octahedral.ik(equipod.pose(octahedral.home[:3, 3] + rng.uniform(-1, 1, (30, 3))))
     lengths[4] = np.nan
     whole, real = octahedral.fk_batch(lengths), octahedral.fk_batch(lengths, real_only=True)
-    assert real.T.dtype == np.float64 and real.T.nbytes < whole.T.nbytes / 2
+    assert real.T.dtype == np.float64 and real.T.nbytes <= whole.T.nbytes / 2
     assert np.array_equal(real.T, whole.T[whole.real].real) and real.real.all()
     assert np.array_equal(real.counts(), whole.counts(real=True)) and np.array_equal(real.completeness, whole.completeness)
     assert real.undecided.tolist() == [int((row.reality == -1).sum()) for row in whole]
@@ -153,13 +157,14 @@ def test_real_batches_are_compact_and_say_what_is_undecided(octahedral):
 
 
 def test_poses_are_counted_where_that_is_wanted():
-    general = equipod.Design.load(DESIGNS / "general-6-6.toml")
-    lengths = general.ik(general.home)
-    counted, plain = general.fk(lengths), general.fk(lengths, pose_count=False)
-    assert counted.record.pose_count is not None and plain.record.pose_count is None
-    assert len(counted) == len(plain) and pickle.loads(pickle.dumps(plain)).record.pose_count is None
-    batch = general.fk_batch([lengths], pose_count=False)
-    assert batch[0].completeness == plain.completeness
+    design = equipod.Design.load(FIXTURES / "verdicts" / "borel-bricard.toml")
+    lengths = design.ik(design.home)
+    counted, plain = design.fk(lengths), design.fk(lengths, pose_count=False)
+    assert (counted.completeness, plain.completeness) == ("modular", "unproved")
+    assert pickle.loads(pickle.dumps(plain)).completeness == "unproved"
+    # a batch is prepared anew where the options are others
+    for pose_count, word in ((False, "unproved"), (True, "modular"), (False, "unproved")):
+        assert design.fk_batch([lengths], pose_count=pose_count)[0].completeness == word
 
 
 def test_a_log_with_bad_rows_is_followed_to_its_end(octahedral):
@@ -285,7 +290,7 @@ def test_words_are_those_that_the_program_takes(octahedral):
         octahedral.export("paper")
     assert formats <= set(str(caught.value).replace(",", " ").replace("`", " ").split()) and len(formats) == 10
     figures = choices("plot", "--help")
-    assert all(f"  {name} " in figures or f"  {name}\n" in figures for name in get_args(_words.FigureName))
+    assert all(f"  plot {name} " in figures for name in get_args(_words.FigureName))
 
 
 def test_docstrings_have_parameters_shapes_and_errors():

@@ -52,6 +52,14 @@ impl Length {
     }
 }
 
+/// An offset as it is typed: a share, or a length along an edge with a unit.
+///
+/// # Errors
+/// What is wrong with the text.
+pub(crate) fn offset(text: &str) -> Result<String, String> {
+    one_length(text, "mm").map(|_| text.to_owned())
+}
+
 /// What to do about a unit that cannot be converted.
 const WITHOUT_UNIT: &str =
     "write the number in the unit of the design, or name a unit in the design: units = \"mm\"";

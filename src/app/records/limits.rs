@@ -225,6 +225,8 @@ pub struct StraightWayRecord {
     pub free: f64,
     /// The pose at the end of the free share.
     pub pose: PoseQuaternionRecord,
+    /// The same in the convention of `frames`.
+    pub in_frames: PoseInFrames,
     /// The requirement violated beyond this pose; null: none.
     pub binds: Option<LimitRecord>,
 }
@@ -322,12 +324,13 @@ impl FreeRangeRecord {
 impl StraightWayRecord {
     /// The record of the straight path between two poses.
     #[must_use]
-    pub fn new(design: &Design, reach: &Reach<'_>, from: &Pose, to: &Pose) -> Self {
+    pub fn new(design: &Design, reach: &Reach<'_>, frames: &PoseFrames, [from, to]: [&Pose; 2]) -> Self {
         let found = reach.along(&StraightWay::between(from, to), 1.0);
         Self {
             to: to.into(),
             free: found.amount,
             pose: (&found.pose).into(),
+            in_frames: (&frames.write(&found.pose)).into(),
             binds: found.binding.map(|limit| LimitRecord::at(design, reach, limit, &found.pose)),
         }
     }

@@ -90,7 +90,7 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
         allowed,
         violated: violated.iter().map(|(limit, margin)| LimitRecord::new(&design, *limit, *margin)).collect(),
         axes: if allowed { FreeRangeRecord::all(&design, &reach, &at, &frames) } else { Vec::new() },
-        way: to.filter(|_| allowed).map(|to| StraightWayRecord::new(&design, &reach, &at, &to)),
+        way: to.filter(|_| allowed).map(|to| StraightWayRecord::new(&design, &reach, &frames, [&at, &to])),
         nearest_allowed: nearest
             .as_ref()
             .map(|found| NearestAllowedRecord::new(&design, &reach, &frames, found)),

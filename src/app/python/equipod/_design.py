@@ -1330,7 +1330,7 @@ class Design:
             return Calibrated(Design.load(out) if out.exists() else None, record)
 
     def export(self, format: ExportFormat) -> dict[str, str]:
-        """The files of ``c``, ``csv``, ``drawing``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step`` or ``stl``: texts by names."""
+        """The files of ``c``, ``csv``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step``, ``stl`` or ``svg`` (a drawing): texts by names."""
         return dict(self._native.export(format))
 
     def plot(self, figure: FigureName = "modes", *options: str) -> Figure:
@@ -1424,12 +1424,20 @@ def _from_texts(points: list[list[list[Any]]], pairs: list[tuple[int, int]], nam
 
 
 def _read(document: dict[str, Any]) -> Design:
-    """The design of a document that no file has: what is wrong is said without places in its text."""
+    """The design of a document that no file has: what is wrong is said with the key instead of a place in a text."""
+    text = json.dumps(document, indent=1)
     try:
-        return Design.loads(json.dumps(document), "json")
+        return Design.loads(text, "json")
     except DesignError as fault:
-        said = "; ".join(f.message for f in fault.faults) or str(fault)
+        lines = text.splitlines()
+        said = "; ".join(f"{_key_at(lines, f.line)}: {f.message}" for f in fault.faults) or str(fault)
         raise DesignError(said, code=fault.code, help=fault.help) from None
+
+
+def _key_at(lines: list[str], line: int) -> str:
+    """The key at a line of a JSON text with a value a line, or above it."""
+    named = (above.split('"')[1] for above in reversed(lines[:line]) if '": ' in above)
+    return next(named, "design")
 
 
 def _is_json(format: TextFormat) -> bool:

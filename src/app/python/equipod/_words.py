@@ -11,11 +11,11 @@ Method: TypeAlias = Literal["octic", "homotopy", "trilateration", "sylvester", "
 TextFormat: TypeAlias = Literal["toml", "json"]
 
 #: Formats of `Design.export`.
-ExportFormat: TypeAlias = Literal["c", "csv", "drawing", "dxf", "hal", "json", "matlab", "mjcf", "step", "stl"]
+ExportFormat: TypeAlias = Literal["c", "csv", "dxf", "hal", "json", "matlab", "mjcf", "step", "stl", "svg"]
 
 #: Pictures of `Design.plot`.
 FigureName: TypeAlias = Literal[
-    "components", "det", "locus", "modes", "pair", "pareto", "self-motion", "singular-poses", "sweep", "topologies", "workspace"
+    "components", "det", "locus", "modes", "pair", "self-motion", "singular-poses", "topologies", "workspace"
 ]
 
 #: A body of a design.

@@ -533,6 +533,12 @@ class CheckAnswer(Record):
     schema_version: int
     #: The name of the design.
     name: str
+    #: The verdict in a sentence, with the name.
+    headline: str
+    #: The unit of lengths.
+    units: str
+    #: The size of the design, in its units: what distances are compared with.
+    size: Union[float, None]
     #: How exactly its joints are known.
     joints: JointsRecord
     #: Null: the design as written is regular, and a singular one lies within rounding of it or within the
@@ -4443,6 +4449,8 @@ class StraightWayRecord(Record):
     free: float
     #: Where that share ends.
     pose: PoseQuaternionRecord
+    #: The same in the convention of `frames`.
+    in_frames: PoseInFrames
     #: What is violated beyond; null: nothing.
     binds: Union[LimitRecord, None]
 

@@ -1,7 +1,8 @@
 //! Forces, small motions and stiffness at one pose.
 
-use crate::{Sheet, Table, left, listed, right};
-use num::shown::{fixed, significant as short};
+use super::limits::named;
+use crate::figure::figure;
+use crate::{Sheet, Table, left, right};
 use records::{
     AtPoseAnswer, HeldWrenchRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
     SmallMotionRecord, StuckLegRecord,
@@ -18,26 +19,26 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
         out,
         "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
         answer.axes,
-        listed(point, 4)
+        listed(point)
     );
     if let Some(missing) = &answer.out_of_reach {
         say!(out, "The rod of leg {} does not reach.", missing.leg);
         return out;
     }
     match (&answer.lengths, &answer.angles_deg) {
-        (Some(lengths), _) => say!(out, "lengths ({}): {}", answer.length_unit, listed(*lengths, 4)),
-        (None, Some(angles)) => say!(out, "angles of the cranks (deg): {}", listed(*angles, 4)),
+        (Some(lengths), _) => say!(out, "lengths ({}): {}", answer.length_unit, listed(*lengths)),
+        (None, Some(angles)) => say!(out, "angles of the cranks (deg): {}", listed(*angles)),
         (None, None) => {}
     }
     for limit in &answer.violated {
         let unit = limit.unit.as_deref().unwrap_or("of det J at home");
-        say!(out, "NOT ALLOWED: {} is missed by {} {unit}", limit.code(), short(-limit.margin.0));
+        say!(out, "NOT ALLOWED: {} is missed by {} {unit}", named(limit), figure(-limit.margin.0));
     }
     match answer.singular {
         Some(evidence) => say!(out, "SINGULAR: {evidence}"),
         None => {
             if let Some(x) = answer.inverse_condition {
-                say!(out, "inverse condition {}", short(x.0));
+                say!(out, "inverse condition {}", figure(x.0));
             }
         }
     }
@@ -46,10 +47,10 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
         say!(
             out,
             "\nLeast stiffness at the point: {} {}/{} against a force, {} {} {}/rad against a torque.",
-            short(found.linear.0),
+            figure(found.linear.0),
             answer.force_unit,
             answer.length_unit,
-            short(found.angular.0),
+            figure(found.angular.0),
             answer.force_unit,
             answer.length_unit
         );
@@ -66,14 +67,18 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     out
 }
 
+fn listed(numbers: impl IntoIterator<Item = f64>) -> String {
+    numbers.into_iter().map(figure).collect::<Vec<_>>().join(", ")
+}
+
 fn pose(found: &PoseInFrames) -> String {
-    let numbers = found.position.iter().chain(&found.angles).map(|x| fixed(x.0, 4));
+    let numbers = found.position.iter().chain(&found.angles).map(|x| figure(x.0));
     let many = if found.angles_unique { "" } else { " (angles not unique)" };
     numbers.collect::<Vec<_>>().join(", ") + many
 }
 
 fn row(name: &str, numbers: &[Number], unit: &str) -> Vec<String> {
-    let numbers = numbers.iter().map(|x| short(x.0));
+    let numbers = numbers.iter().map(|x| figure(x.0));
     [name.to_owned()].into_iter().chain(numbers).chain([unit.to_owned()]).collect()
 }
 
@@ -101,7 +106,7 @@ fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
         out.table(table);
     }
     if let Some(wrench) = &answer.wrench {
-        let [force, moment] = [wrench.force, wrench.torque].map(|v| listed(v.map(|x| x.0), 4));
+        let [force, moment] = [wrench.force, wrench.torque].map(|v| listed(v.map(|x| x.0)));
         say!(
             out,
             "\nThe forces of --forces hold force {force} {} and torque {moment} {torque}.",
@@ -111,7 +116,7 @@ fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
 }
 
 fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
-    say!(out, "\nMotion of the point for a step of {} {}:", short(found.step), found.step_unit);
+    say!(out, "\nMotion of the point for a step of {} {}:", figure(found.step), found.step_unit);
     let mut table = columns("step of", ["dx", "dy", "dz", "turn x", "turn y", "turn z"]);
     let unit = format!("{length}, deg");
     let mut line = |name: &str, motion: &SmallMotionRecord| {
@@ -132,16 +137,16 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
         found.leg
     );
     let words = ["x", "y", "z", "a", "b", "c"];
-    let rates = words.iter().zip(&found.rates).map(|(word, rate)| format!("{word} {}", short(rate.0)));
+    let rates = words.iter().zip(&found.rates).map(|(word, rate)| format!("{word} {}", figure(rate.0)));
     out.line(rates.collect::<Vec<_>>().join(", "));
     if let Some(screw) = &found.screw {
-        let [direction, point] = [screw.direction, screw.point].map(|v| listed(v.map(|x| x.0), 4));
+        let [direction, point] = [screw.direction, screw.point].map(|v| listed(v.map(|x| x.0)));
         match screw.pitch {
             Some(pitch) => say!(
                 out,
                 "Leg {}, free with the others locked: the platform turns about {direction} through {point}, shifting by {} {} a radian.",
                 found.leg,
-                short(pitch.0),
+                figure(pitch.0),
                 answer.length_unit
             ),
             None => say!(
@@ -156,7 +161,7 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
             say!(
                 out,
                 "  with the leg {} {} long it is at {}",
-                short(last.length),
+                figure(last.length),
                 answer.length_unit,
                 pose(&last.in_frames)
             );
@@ -171,16 +176,16 @@ fn nearest(out: &mut Sheet, answer: &AtPoseAnswer, found: &NearestSingularPoseRe
         "The nearest singular pose found"
     };
     let proof = match found.proved_within {
-        Some(within) => format!("det J = 0 is proved within {} {} of it", short(within), answer.length_unit),
+        Some(within) => format!("det J = 0 is proved within {} {} of it", figure(within), answer.length_unit),
         None => "det J = 0 is not proved near it".to_owned(),
     };
     say!(
         out,
         "\n{which} is {}, {} {} away (a radian counts as {} {}); {proof}.",
         pose(&found.in_frames),
-        short(found.distance),
+        figure(found.distance),
         answer.length_unit,
-        short(found.characteristic_length),
+        figure(found.characteristic_length),
         answer.length_unit
     );
 }

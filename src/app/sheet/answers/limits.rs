@@ -4,15 +4,15 @@ use super::poses::{POSE, pose};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
-    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, RayEndRecord,
-    StraightWayRecord, WorkspaceSizeRecord,
+    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseInFrames,
+    PoseQuaternionRecord, RayEndRecord, StraightWayRecord, WorkspaceSizeRecord,
 };
 
 /// The answer of `limits` about a design of this name.
 #[must_use]
 pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     let mut out = Sheet::new();
-    let at = pose(&answer.pose);
+    let at = shown(answer, &answer.pose, &answer.in_frames);
     if answer.allowed {
         say!(out, "{name} may be at {POSE} = {at}, and move from there, one number at a time:\n");
         let columns =
@@ -30,7 +30,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
         say!(out, "{}", answer.frames.sentence);
     }
     if let Some(found) = &answer.way {
-        way(&mut out, found);
+        way(&mut out, answer, found);
     }
     if let Some(found) = &answer.nearest_allowed {
         nearest(&mut out, answer, found);
@@ -47,7 +47,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
 }
 
 /// The requirement with the legs, joints or load concerned.
-fn named(limit: &LimitRecord) -> String {
+pub(super) fn named(limit: &LimitRecord) -> String {
     if limit.between.is_empty() {
         limit.label().to_owned()
     } else {
@@ -71,7 +71,16 @@ fn axis(row: &FreeRangeRecord) -> [String; 7] {
     ]
 }
 
-fn way(out: &mut Sheet, found: &StraightWayRecord) {
+/// A pose as position, roll, pitch and yaw, or in another convention as position and its angles.
+fn shown(answer: &LimitsAnswer, record: &PoseQuaternionRecord, in_frames: &PoseInFrames) -> String {
+    if answer.frames.is_usual() {
+        return pose(record);
+    }
+    let numbers = in_frames.position.iter().chain(&in_frames.angles);
+    numbers.map(|x| figure(x.0)).collect::<Vec<_>>().join(",")
+}
+
+fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightWayRecord) {
     let to = pose(&found.to);
     match &found.binds {
         None => say!(out, "\nThe straight way to {to} is free."),
@@ -79,7 +88,7 @@ fn way(out: &mut Sheet, found: &StraightWayRecord) {
             out,
             "\nThe straight way to {to} is free up to {} of it, at {}; the limit there is {}.",
             figure(found.free),
-            pose(&found.pose),
+            shown(answer, &found.pose, &found.in_frames),
             named(limit)
         ),
     }
@@ -95,7 +104,7 @@ fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord)
         } else {
             "The nearest allowed pose found"
         },
-        pose(&found.pose),
+        shown(answer, &found.pose, &found.in_frames),
         figure(found.distance),
         answer.length_unit,
         figure(found.characteristic_length),

@@ -8,6 +8,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
+use crate::app::cli::numbers;
 use crate::app::cli::output::Answer;
 use ::files::design::Share;
 use ask::equivalents::{Original, Origins};
@@ -38,6 +39,7 @@ pub(crate) struct EquivalentsFamilyArgs {
         long,
         value_name = "T1,..",
         value_delimiter = ',',
+        value_parser = numbers::offset,
         allow_hyphen_values = true,
         requires = "pattern"
     )]
