@@ -36,7 +36,7 @@ pub struct Automatic;
 
 /// Designs with more poses take the homotopy no longer than trilateration, whose sequences are worked out first.
 const FEW_POSES: usize = 16;
-/// The same of prepared designs.
+/// The same limit for prepared designs.
 const PREPARED_POSES: usize = 24;
 
 impl ForwardKinematics for Automatic {

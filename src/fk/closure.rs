@@ -12,7 +12,7 @@ use platform::topology::{JointIndex, Sequence};
 /// Sequences tried until one tells the number of real poses.
 const ATTEMPTS: usize = 4;
 
-/// The closure polynomial of one problem and what it says about its poses.
+/// The closure polynomial of one problem and the number of real poses that it gives.
 #[derive(Debug, Clone)]
 pub struct Closure {
     /// The polynomial with its real roots.

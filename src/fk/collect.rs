@@ -1,4 +1,4 @@
-//! From candidate poses to distinct roots with evidence.
+//! Turns candidate poses into distinct roots with evidence.
 //!
 //! Nothing is dropped without a record. The source of a candidate is among the sources of a root, or the candidate is
 //! rejected with a reason. A regular candidate that repeats an uncertified root is both, because one path too many has
@@ -22,7 +22,7 @@ pub(super) struct PoseCandidate {
     pub(super) source: usize,
 }
 
-/// Roots and what became of the candidates.
+/// Roots and the fate of the candidates.
 #[derive(Debug, Clone)]
 pub(super) struct Collected {
     pub(super) roots: Vec<FkRoot>,

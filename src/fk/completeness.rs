@@ -77,9 +77,9 @@ impl Completeness {
     serde(rename_all = "snake_case")
 )]
 pub enum CompletenessWord {
-    /// By a theorem.
+    /// A theorem proves it.
     Proved,
-    /// By a theorem, for all poses up to a distance: all real ones are listed.
+    /// A theorem proves it for all poses up to a distance: all real ones are listed.
     ProvedBounded,
     /// Counted modulo random primes, with a bound on the probability of error.
     Modular,
@@ -111,8 +111,8 @@ pub struct BoundedProof {
     /// The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries of real
     /// rotations are at most 1. Null: the proof is about real poses alone.
     pub rotation: Option<f64>,
-    /// How far the ends of a leg, both together, are at most from those of a design that has no more poses, in design
-    /// units, where the proof is about real poses next to those of this design; null: it is about far poses.
+    /// Largest distance of the ends of a leg, both together, from those of a neighbouring design that has no more
+    /// poses, in design units. The proof is then about real poses. Null: it is about far poses.
     pub neighbour: Option<f64>,
     /// The far poses, the nearest ones first.
     pub others: Vec<FarPoses>,
@@ -305,7 +305,7 @@ pub enum Reason {
         /// Bound on the probability that the count is wrong.
         error_probability: f64,
     },
-    /// Legs that are dependent within rounding, and what random sections found of the set of poses.
+    /// Dependent legs, within rounding, and the points that random sections found of the set of poses.
     DependentLegs {
         /// Whether the relation is proved and the sections are as they have to be for it.
         established: bool,

@@ -36,8 +36,8 @@ impl PoseCandidates {
         self.attempts == 0
     }
 
-    /// Refines and certifies every candidate; what is not certified is rejected. Complete when 40 distinct poses are
-    /// certified.
+    /// Refines and certifies every candidate; candidates without a certificate are rejected. The answer is complete
+    /// when 40 distinct poses are certified.
     pub(super) fn solutions(
         &self,
         method: Method,

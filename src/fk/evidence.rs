@@ -208,16 +208,16 @@ pub(super) fn all_distinct(certificates: &[Certificate], clusters: &[ClusterCert
 pub(super) enum KnownCertificates {
     /// All roots are certified, with disjoint enclosures: they are pairwise distinct.
     AllApart,
-    /// These, to be compared.
+    /// Certificates that have to be compared.
     Listed(Vec<Certificate>),
 }
 
 /// The upper bounds that the number of certified roots is compared with.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Bounds {
-    /// That of this theorem, then those that the joints of the design have.
+    /// The bound of this theorem, then the bounds that the joints of the design have.
     First(Theorem),
-    /// That of this theorem alone: of those of the joints it is known that they are not reached.
+    /// The bound of this theorem alone: the bounds of the joints are known not to be reached.
     Only(Theorem),
 }
 
@@ -257,9 +257,9 @@ pub(super) fn proved(reality: ProvedReality) -> Reality {
     }
 }
 
-/// Completeness is proved when the certified roots are pairwise distinct and as many as a theorem allows. It is the
-/// theorem of `solutions` or that of the platform's class. More roots are a contradiction. Otherwise regular roots
-/// without a certificate, and certificates that may be of one root, are doubts.
+/// Completeness is proved when the certified roots are pairwise distinct and as many as one of the `bounds` allows.
+/// More roots are a contradiction. Otherwise regular roots without a certificate, and certificates that may be of one
+/// root, are doubts.
 pub(super) fn conclude(
     solutions: &mut FkSolutions,
     m: &Manipulator,
@@ -283,8 +283,8 @@ pub(super) fn conclude(
     Ok(())
 }
 
-/// Compares the number of certified roots, which are distinct, with what the theorem and those of the platform's class
-/// allow; whether completeness is proved.
+/// Compares the number of certified roots, which are distinct, with the bounds of the theorem and of the platform's
+/// class. Returns whether completeness is proved.
 fn conclude_by_number(
     solutions: &mut FkSolutions,
     m: &Manipulator,
@@ -313,7 +313,7 @@ fn conclude_by_number(
     Ok(false)
 }
 
-/// With as many certified roots as there can be, what has no certificate is no further root.
+/// Rejects roots without a certificate when there are as many certified roots as possible: they are no further roots.
 pub(super) fn reject_others(solutions: &mut FkSolutions) {
     // most answers: a record has a kilobyte, and none is moved
     if solutions.roots.iter().all(FkRoot::certified) {

@@ -200,7 +200,7 @@ fn on_patch(x: &[Complex64; 8]) -> ([Complex64; 8], usize) {
     (x.map(|z| z * inverse), patch)
 }
 
-/// Certifies what can be; returns the rest.
+/// Certifies as many ends as possible; returns the rest.
 fn certify_all(
     m: &Manipulator,
     s: &SquaredLegLengths,
@@ -213,7 +213,7 @@ fn certify_all(
     if ends.is_empty() {
         return Vec::new();
     }
-    // exactly: what the certificate is about is the joints as they are
+    // exactly, because the certificate is about the joints as they are
     let flat = m.legs().iter().all(|l| is_zero(l.base.z) && is_zero(l.platform.z));
     let mut open = Vec::new();
     let chosen = representatives(ends, flat);
@@ -305,7 +305,7 @@ fn add_conjugates(proofs: &mut Vec<CertifiedRoot>, first: usize) {
     }
 }
 
-/// Certifies what can be of the ends known with many digits; returns the rest.
+/// Certifies as many as possible of the ends known with many digits; returns the rest.
 fn certify_precise(
     m: &Manipulator,
     s: &SquaredLegLengths,

@@ -73,7 +73,7 @@ impl ForwardKinematics for Homotopy {
             if found.completeness.is_proved() || far.conclude(&mut found, s)? {
                 return Ok(found);
             }
-            // before any end without a proof is taken for a pose: what kind of set is it?
+            // the kind of the set has to be known before any end without a proof is taken for a pose
             if count.is_none() {
                 count = counted(m, s, o);
             }
@@ -192,7 +192,7 @@ impl SectionProblem {
         Ok(assemble(o, self, &paths, self.kind.count(), found))
     }
 
-    /// Puts what the precise continuation of paths found in the place of what doubles had; the finite ends with all
+    /// Replaces the results of doubles by those of the precise continuation of paths. Returns the finite ends with all
     /// their digits.
     fn take_over(&self, paths: &mut [HomotopyPath], open: &[usize], tails: &[TailEnd]) -> Vec<PreciseEnd> {
         let mut out = Vec::new();
@@ -244,7 +244,7 @@ fn ends_of(problem: &SectionProblem, paths: &[HomotopyPath]) -> Vec<HarvestEnd> 
     let mut out = Vec::with_capacity(2 * paths.len());
     for (start, path) in paths.iter().enumerate() {
         let finite = matches!(path.kind, EndKind::Regular | EndKind::Singular);
-        // ends followed with 256 bits are what they are, finite ones in a list of their own
+        // ends followed with 256 bits are final, finite ones in a list of their own
         let elsewhere = path.precise && path.kind != EndKind::Singular;
         if elsewhere || path.kind == EndKind::Failed || !(finite || path.winding <= 2) {
             continue;

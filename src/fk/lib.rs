@@ -218,9 +218,9 @@ pub trait ForwardKinematics: Send + Sync {
     /// [`FkError`] when the method does not apply or breaks down; "no pose" is a value, not an error.
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError>;
 
-    /// The method with what depends on the design alone done, for many lengths of one design. Results are those of
-    /// [`solve`](Self::solve). `None` when there is nothing to prepare, or when the method does not apply: then
-    /// [`solve`](Self::solve) says so. Preparation takes the seed and the way of counting from the options.
+    /// The method, with the work that depends on the design alone done, for many lengths of one design. Results are
+    /// those of [`solve`](Self::solve). `None` when there is nothing to prepare, or when the method does not apply:
+    /// then [`solve`](Self::solve) says so. Preparation takes the seed and the way of counting from the options.
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let _ = (m, o);
         None

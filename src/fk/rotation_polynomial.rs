@@ -23,7 +23,7 @@ const CIRCLE: f64 = 16.0 * f64::EPSILON;
 pub struct RotationPolynomial {
     /// Enclosures of the coefficients, the constant one first; the leading one is 1.
     pub coefficients: Vec<Interval>,
-    /// Its real roots, ascending, all simple.
+    /// The real roots of the polynomial, ascending, all simple.
     pub real_roots: Vec<EnclosedRoot>,
 }
 

@@ -21,7 +21,7 @@ pub enum PlacedFirst {
         body: Body,
         /// The legs, counted from 1.
         legs: Vec<usize>,
-        /// By which polynomial; null where the legs are dependent, or joints are no fractions.
+        /// The polynomial that places it; null when the legs are dependent, or joints are no fractions.
         class: Option<LineClass>,
         /// The five other ends lie in a plane: a line-plane component.
         other_ends_in_plane: bool,
@@ -108,8 +108,8 @@ fn fractions(m: &Manipulator) -> Option<[[RationalPoint; 2]; 6]> {
     ends.try_into().ok()
 }
 
-/// In which steps the poses of `m` can be found. Lines and joints are those of the exact joints; of joints that are
-/// known between bounds only nothing is said but what shared joints say.
+/// The steps in which the poses of `m` can be found. Lines and joints are those of the exact joints. For joints that
+/// are known between bounds only, the pattern of shared joints decides alone.
 #[must_use]
 pub fn solvability(m: &Manipulator) -> Solvability {
     let mut placed_first = Vec::new();

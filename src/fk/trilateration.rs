@@ -44,7 +44,7 @@ pub struct Trilateration {
 /// Base and platform joint of each leg.
 type Legs = [(usize, usize); 6];
 
-/// Sequences for six legs with what is known of them, or the number of virtual legs when that is too large.
+/// Sequences for six legs with their degrees, or the number of virtual legs when that is too large.
 type Ranked = Result<Vec<(Sequence, GenericDegrees)>, NoPlan>;
 
 /// [`Trilateration`] for one design.

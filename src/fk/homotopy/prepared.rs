@@ -34,7 +34,7 @@ pub(super) struct PreparedHomotopy {
     theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
-    /// What proves that the others are far out, where the start poses are all up to a distance.
+    /// The proof that the others are far out, when the start poses are all up to a distance.
     far: Option<KnownSurroundings>,
 }
 
@@ -100,7 +100,7 @@ impl PreparedHomotopy {
         {
             return Ok(Some(found));
         }
-        // what has no certificate may be a sign of a motion: the general treatment looks at it
+        // a root without a certificate may be a sign of a motion: the general treatment examines it
         let open = found.roots.iter().any(|r| !r.certified());
         let Some(count) = self.count.as_ref().filter(|_| !open) else { return Ok(None) };
         let complete = judge(&mut found, count)? == RealityJudgement::Complete;

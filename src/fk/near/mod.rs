@@ -115,9 +115,9 @@ pub struct NearNumbers {
 
 /// The result of one segment.
 enum Segment {
-    /// At the end of the way.
+    /// The end of the way.
     Arrived(ScaledPose),
-    /// Part of the way: the fraction of what was left.
+    /// A pose on the way, and the fraction of the remaining way up to it.
     Advanced(ScaledPose, f64),
     Singular,
     Stuck,
@@ -206,8 +206,8 @@ impl NearSolver {
         }
     }
 
-    /// Squared lengths in the solver's units, and how far from these those asked for may be: three roundings and what
-    /// two doubles hold beyond one.
+    /// Squared lengths in the solver's units, and bounds of their distances from those asked for. The bounds cover
+    /// three roundings and the part of two doubles beyond one.
     fn target(&self, s: &SquaredLegLengths) -> ([f64; 6], [f64; 6]) {
         let scale = (self.unit * self.unit).recip();
         let target = s.get().map(|s| s * scale);

@@ -22,9 +22,9 @@ const STEPS: usize = 8;
 /// The circle of a corner of the platform about a side of the base, in the frame of the base triangle.
 #[derive(Clone, Copy)]
 struct OcticCircle {
-    /// In the plane of the base.
+    /// Centre in the plane of the base.
     centre: [f64; 2],
-    /// In that plane, across the side.
+    /// Unit vector across the side in that plane.
     across: [f64; 2],
     /// Negative where no real corner has these distances.
     squared_radius: f64,
@@ -90,7 +90,7 @@ impl OcticSolver {
         ]
     }
 
-    /// From the larger of `h + i z` and `h - i z`.
+    /// Places of the corners on their circles, from the larger of `h + i z` and `h - i z`.
     #[inline(always)]
     fn on_circles(circles: &[OcticCircle; 3], corners: &[Points; 3]) -> [OnCircle; 3] {
         let mut places = [[ComplexBatch::ZERO; 2]; 3];
@@ -111,7 +111,7 @@ impl OcticSolver {
         places
     }
 
-    /// With `(s15, s34)`.
+    /// The corners at these places, with `(s15, s34)`.
     #[inline(always)]
     fn off_circles(&self, circles: &[OcticCircle; 3], places: &[OnCircle; 3]) -> Corners {
         let mut out = [[ComplexBatch::ZERO; 3]; 3];

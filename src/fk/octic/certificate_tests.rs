@@ -1,4 +1,4 @@
-//! The certificates of octahedral platforms on what the solver finds.
+//! The certificates of octahedral platforms for the poses of the solver.
 
 use super::{OcticPoses, OcticSolver};
 use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier, PairCertificate};
@@ -276,7 +276,7 @@ fn certificates_of_joints_within_radii_hold_for_every_choice() {
                 assert!(sure != [true, true] || pair.reality == other.reality);
             }
         }
-        // what nothing is known of is refused
+        // joints without any knowledge are refused
         let unknown = c.m.clone().enclosed_within(f64::INFINITY);
         assert!(OctahedralCertifier::new(&Octahedral::recognise(&unknown).unwrap()).is_err());
         assert!(Certifier::new(&unknown, &c.s).is_err());
@@ -292,14 +292,14 @@ fn joints_are_merged_by_what_they_are() {
     let c = (0..).find_map(case).unwrap();
     let mut ends = c.m.exact_ends().unwrap();
     assert!(OcticSolver::new(&Manipulator::from_exact_ends(&ends).unwrap()).is_ok());
-    // below what a double next to one can tell
+    // a difference that doubles next to each other cannot show
     let trace = Surd::rational(&num::exact::rational(1e-40).unwrap()).unwrap();
     let x = &mut ends[0][0][0];
     *x = x.plus(&trace).unwrap();
     let split = Manipulator::from_exact_ends(&ends).unwrap();
     assert_eq!(split.legs(), c.m.legs());
     assert!(OcticSolver::new(&split).is_err());
-    // and what is known between bounds only is one joint when it is named as one
+    // and a joint known between bounds only is one joint when it is named as one
     assert!(OcticSolver::new(&c.m.clone().enclosed_within(1e-14)).is_ok());
     let apart = Manipulator::try_new(
         c.m.legs().map(|l| l.base).to_vec(),

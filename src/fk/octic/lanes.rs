@@ -94,7 +94,7 @@ pub(super) fn separate<const N: usize>(numbers: &[ComplexBatch; N]) -> bool {
 /// `P4, P5, P6` in the frame of the base triangle, one of the two mirror images, and the pairs `(s15, s34)`.
 pub(super) type Corners = ([Points; 3], ComplexBatch, ComplexBatch);
 
-/// Poses in units of the design, with what is known of their accuracy.
+/// Poses in units of the design, with their residuals and scales.
 pub(super) struct PoseLanes {
     pub(super) poses: [ComplexPose; 2 * LANES],
     /// As [`ComplexPose::residual`].

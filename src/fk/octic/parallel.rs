@@ -18,7 +18,7 @@ use num::poly::roots_in_lanes;
 /// octic coincide at the translation, and still differ only by the cube root of this distance beside it. Ten times
 /// farther the continuation fails too often to be worth its time.
 const NEAR: f64 = 1e-3;
-/// Sides whose angle is smaller are taken for parallel: what follows from that is where Newton's method begins.
+/// Sides with a smaller angle count as parallel. This only decides where Newton's method begins.
 const PARALLEL: f64 = 1e-4;
 
 /// A vector in the plane of the base.
@@ -222,8 +222,8 @@ impl Translation<'_> {
     }
 }
 
-/// Divides a polynomial, given from the constant term up, by `x - root`: what remains takes the place of the constant
-/// term, the quotient those after it.
+/// Divides a polynomial, given from the constant term up, by `x - root`. The remainder takes the place of the constant
+/// term, the quotient that of the other terms.
 #[inline(always)]
 fn divide(c: &mut [f64], root: f64) {
     for k in (1..c.len()).rev() {

@@ -1,5 +1,5 @@
-//! From where the angles of the corners are sought: lengths, equal to those wanted or beside them, and what is known of
-//! their poses.
+//! The starts of the search for the angles of the corners: lengths, equal to those wanted or beside them, and their
+//! known poses.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -28,8 +28,8 @@ pub(super) struct Start<'a> {
 }
 
 impl OcticSolver {
-    /// In the order in which they are tried. Near a translation the roots of the octic do not settle: what takes as
-    /// long as all the rest comes last.
+    /// The starts in the order in which they are tried. Near a translation the roots of the octic do not settle. The
+    /// start that takes as long as all the rest comes last.
     #[inline(always)]
     pub(super) fn starts<'a>(&'a self, s: &'a [f64; 6]) -> impl Iterator<Item = Start<'a>> {
         let near = self.parallel.iter().filter_map(|sides| sides.translation(s));

@@ -1,5 +1,5 @@
-//! The algebra of the common zeros of polynomials in three unknowns, exactly: which monomials are left over, and what
-//! multiplication does to them.
+//! The exact algebra of the common zeros of polynomials in three unknowns: its basis of monomials, and multiplication
+//! of them by an unknown.
 //!
 //! The span of the polynomials is closed under multiplication by an unknown up to a degree `D`. So a combination whose
 //! leading form cancels is multiplied again. When no monomial of degree `D` remains, the remaining monomials are a
@@ -116,7 +116,7 @@ impl Span {
                 for (k, r) in row.iter_mut().enumerate().skip(lead + 1) {
                     *r = &*r * &head[lead] - &x * &head[k];
                 }
-                // what comes before the leading monomial is left over and was not touched
+                // the monomials before the leading one are in the basis and were not touched
                 for r in &mut row[..lead] {
                     *r *= &head[lead];
                 }

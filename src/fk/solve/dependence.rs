@@ -73,7 +73,7 @@ fn dependence_of_doubles(m: &Manipulator, s: &SquaredLegLengths) -> LegDependenc
     }
 }
 
-/// The same for exact joints; `None` when numbers become too long.
+/// Decides the dependence for exact joints; `None` when numbers become too long.
 fn dependence_of_exact(m: &Manipulator, s: &SquaredLegLengths) -> Option<LegDependence> {
     let ends = m.exact_ends()?;
     let rounding = rational(ROUNDING)?;

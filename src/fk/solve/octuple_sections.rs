@@ -1,5 +1,5 @@
-//! The sections of a platform with 256 bits: what tells a platform from a special one nearby may be in no digit of a
-//! double.
+//! The sections of a platform with 256 bits. The difference between a platform and a special one nearby may be in no
+//! digit of a double.
 
 use num_complex::Complex64;
 

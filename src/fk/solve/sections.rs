@@ -289,7 +289,8 @@ impl Sections {
         self.orthonormalised_beside(&mut [Complex64::ZERO; 6])
     }
 
-    /// The same, with one more number a row that is combined as the rows are and has no part in what is orthonormal.
+    /// Makes the rows orthonormal and combines one more number for each row in the same way; the numbers do not count
+    /// in norms.
     fn orthonormalised_beside(&self, beside: &mut [Complex64; 6]) -> Option<Self> {
         let mut rows: [SVector<Complex64, FORMS>; 6] = self.rows.map(SVector::from);
         for i in 0..6 {

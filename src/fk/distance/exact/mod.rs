@@ -224,7 +224,7 @@ struct Removal {
     exponents: Vec<f64>,
 }
 
-/// Divides by the norms of the singular factors, each without what earlier ones contribute to it.
+/// Divides by the norms of the singular factors, each without the contributions of earlier ones.
 ///
 /// Let `D_t` be the numerator of `A_t = D_t / prod_s D_s^(a_ts)`, and `M_t = N_t prod_s N_s^(c_ts)` the norm of `D_t`
 /// over the levels it is written in. Let the denominator of `N(f)` have `K_t` times `M_t`. Then the exponents of `N_t`

@@ -356,7 +356,7 @@ pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<StripClosure> {
     free.map(|(last, other)| StripClosure { last, other, steps: order(last) }).collect()
 }
 
-/// The polynomial without roots, and what belongs to it.
+/// The polynomial without roots, with its degrees and factors.
 pub(super) struct Literal<R> {
     /// The norm of the numerator of the closure.
     pub(super) polynomial: R,

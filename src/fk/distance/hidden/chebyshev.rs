@@ -27,7 +27,7 @@ pub(super) fn nodes(degree: usize, radius: f64) -> Vec<Complex64> {
     (0..count(degree)).map(|k| of_circle(Complex64::from_polar(radius, angle(degree, k)))).collect()
 }
 
-/// Half of what the Laurent polynomial in `v` has coefficients, and one more.
+/// Half the number of coefficients of the Laurent polynomial in `v`, and one more.
 fn count(degree: usize) -> usize {
     degree + 2
 }

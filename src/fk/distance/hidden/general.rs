@@ -51,7 +51,7 @@ impl GeneralRoles {
     }
 }
 
-/// An inner pose: what the last leg lacks, and how that changes with `t`.
+/// An inner pose: the gap of the last leg, and its derivative by `t`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Inner {
     pub(super) pose: ComplexPose,

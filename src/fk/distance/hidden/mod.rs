@@ -46,7 +46,7 @@ pub struct HiddenPoses {
     pub settled: usize,
     /// Evaluations of closure conditions, inner ones included.
     pub evaluations: usize,
-    /// With three virtual legs: platforms with two that were solved.
+    /// Platforms with two virtual legs that were solved for a design with three.
     pub platforms: usize,
     /// Largest coefficient beyond the degree over the largest of all, by interpolation: rounding when the degree is
     /// right.

@@ -92,7 +92,7 @@ const SPARE: usize = 7;
 /// The first point on the circle, so that none is at a symmetry of the design.
 const PHASE: f64 = 0.1;
 
-/// Zeros and what they cost.
+/// Zeros and the cost of finding them.
 #[derive(Debug, Clone)]
 pub(super) struct FoundZeros {
     pub(super) found: Vec<Zero<PosesOfJoint>>,
@@ -143,7 +143,7 @@ struct Laurent {
 }
 
 impl Laurent {
-    /// From values at equidistant points of a circle.
+    /// Interpolates values at equidistant points of a circle.
     fn on_circle(closure: &HiddenClosure, half: usize, radius: f64, scratch: &mut Scratch) -> Option<Self> {
         let count = points(half);
         let turn = |k: usize| TAU * k as f64 / count as f64;

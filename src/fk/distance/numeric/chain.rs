@@ -27,7 +27,7 @@ pub(super) type Positions<T> = [Vector<T>; SLOTS];
 pub(super) enum Measured {
     /// The length of a leg. Numbers from 6 on are virtual legs whose length is given.
     Leg(usize),
-    /// Within a body.
+    /// A distance within a body.
     Fixed(f64),
 }
 

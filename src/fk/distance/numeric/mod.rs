@@ -48,7 +48,7 @@ pub struct Configuration {
 pub struct Configurations {
     /// One for each zero of the closure polynomial: some may coincide where zeros are close together.
     pub found: Vec<Configuration>,
-    /// As many as almost all designs of the topology have.
+    /// Number of configurations for almost all designs of the topology.
     pub expected: usize,
     /// Zeros at infinity within rounding, or too far out for the samples.
     pub lost: usize,

@@ -66,7 +66,7 @@ fn every_sequence_with_at_most_one_virtual_leg_gives_all_poses() {
             assert_eq!(e.shape().expected(), poses(n), "{}", n.id());
             let c = e.configurations(&squares, 1.0);
             assert_eq!((c.found.len(), c.lost, c.expected), (poses(n), 0, poses(n)), "{}", n.id());
-            // what is far from one circle is near another
+            // zeros far from one circle are near another
             let more = [16.0, 1.0 / 16.0].map(|r| e.configurations(&squares, r).found).concat();
             let found = distinct(&m, &squares, &[c.found, more].concat()).len();
             assert_eq!(found, poses(n), "{} {s:?}", n.id());

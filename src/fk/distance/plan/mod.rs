@@ -14,9 +14,9 @@ pub enum NoPlan {
     /// More virtual legs would be needed than allowed.
     #[error("the design needs {needed} virtual legs, but at most {allowed} are possible here")]
     TooManyVirtualLegs {
-        /// As many as this topology needs.
+        /// Virtual legs that this topology needs.
         needed: usize,
-        /// As many as were allowed.
+        /// Largest number of virtual legs that was allowed.
         allowed: usize,
     },
     /// Every sequence starts from collinear joints.

@@ -145,7 +145,8 @@ fn reorthogonalised(r: &[Vector; 3]) -> [Vector; 3] {
     })
 }
 
-/// The place with its matrix made a rotation; `None` for what is none by more than `1e-6`, mirror images included.
+/// The place with its matrix made a rotation; `None` if it is off a rotation by more than `1e-6`, mirror images
+/// included.
 pub(super) fn orthonormal(place: &ScaledPose) -> Option<ScaledPose> {
     let r = &place.rotation;
     let mut worst = 0.0_f64;

@@ -100,7 +100,7 @@ pub struct Certificate {
     pub(super) patch: usize,
     pub(super) unit: f64,
     pub(super) radius: f64,
-    /// As `radius`, of the root for the middles of the data.
+    /// As `radius`, but for the root of the middles of the data.
     pub(super) centre_radius: f64,
     pub(super) uniqueness_radius: f64,
     pub(super) contraction: f64,
@@ -251,11 +251,11 @@ impl CertifiedPose {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(clippy::large_enum_variant)] // plain values, kept with roots that are as large
 pub enum RootCertificate {
-    /// In the coordinates of dual quaternions; any six legs.
+    /// A certificate in the coordinates of dual quaternions; any six legs.
     Study(Certificate),
-    /// In two squared distances; octahedral platforms.
+    /// A certificate in two squared distances; octahedral platforms.
     Octahedral(OctahedralCertificate),
-    /// For two roots or more that are close or one; any six legs.
+    /// A certificate of two roots or more that are close or one; any six legs.
     Cluster(ClusterCertificate),
 }
 
@@ -291,7 +291,7 @@ impl From<Certificate> for RootCertificate {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WhyUncertified {
-    /// Arithmetic of this thread is not what the proof assumes.
+    /// The arithmetic of this thread is not the one that the proof assumes.
     #[error(transparent)]
     Arithmetic(#[from] UnfitArithmetic),
     /// An entry of the pose is NaN or infinite.

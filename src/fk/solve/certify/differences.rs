@@ -21,7 +21,7 @@
 //!   terms' bounds `tau G + t_i tau E + tau t_0 E + |s_i - s_0| E`. A row of eight has less than `128U (tau E + M)` in
 //!   `|.|_1`. For row 0 `G + t_0 E` replaces `tau E`.
 //!
-//! Radii of joints change `F_i - F_0` and its gradient by at most what they change those of `F_i` and `F_0`.
+//! Radii of joints change `F_i - F_0` and its gradient by at most the sum of the changes of `F_i` and `F_0`.
 
 use num_complex::Complex64;
 

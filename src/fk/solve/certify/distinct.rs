@@ -21,7 +21,7 @@ pub enum RootRelation {
 pub enum Distinctness {
     /// Proof: all pairs are distinct.
     AllDistinct,
-    /// The pairs (indices into the list) that are not proved distinct, with what is known of them.
+    /// The pairs (indices into the list) that are not proved distinct, each with its relation.
     NotAll(Vec<(usize, usize, RootRelation)>),
 }
 

@@ -11,7 +11,7 @@ pub(super) struct PaddedMatrix {
 
 /// Inverse by Gauss-Jordan elimination in place with row pivoting, `None` at a pivot that is zero or not finite.
 ///
-/// No accuracy is claimed: what is made of the result bounds `I - Y J` afterwards.
+/// No accuracy is claimed: `I - Y J` is bounded afterwards with the result.
 pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<PaddedMatrix> {
     let mut m = PaddedMatrix { re: *re, im: *im };
     let mut swapped = [0; N];

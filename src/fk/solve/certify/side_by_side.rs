@@ -227,8 +227,8 @@ fn approximate_inverse<S: Simd>(simd: S, j: &[[Register<S>; N]; N]) -> [[Registe
     m
 }
 
-/// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, as [`LegSystem::second_order_bound`]; `rest` are what rounding
-/// and radii add for a weight of one.
+/// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, as [`LegSystem::second_order_bound`]. `rest` are the
+/// contributions of rounding and radii for a weight of one.
 #[inline(always)]
 fn second_order<S: Simd>(
     simd: S,

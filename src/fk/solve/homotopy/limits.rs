@@ -53,7 +53,7 @@ pub(super) const STEP_GROWTH: f64 = 2.0;
 /// Newton corrections that do not shrink by this factor do not converge to the path.
 pub(super) const CORRECTION_RATIO: f64 = 0.3;
 
-/// For generic problems: the first attempt at every path, checked at the end.
+/// Limits for generic problems: the first attempt at every path, checked at the end.
 pub(super) const FAST: FastTrackerLimits = FastTrackerLimits {
     step: StepLimits { truncation: 3e-3, radius_fraction: 0.8, first_correction: 8e-2, accuracy: 1e-2 },
     contraction: 0.02,
@@ -75,14 +75,14 @@ pub(super) const LENGTHS: FastTrackerLimits = FastTrackerLimits {
     ..FAST
 };
 
-/// For paths that the fast tracker left without an end.
+/// Limits for paths that the fast tracker left without an end.
 pub(super) const BRISK: TrackerLimits = TrackerLimits {
     step: StepLimits { truncation: 1e-2, radius_fraction: 0.8, first_correction: 5e-2, accuracy: 1e-5 },
     corrections: 3,
     most_steps: 400,
 };
 
-/// For paths that these could not finish, and for making start systems.
+/// Limits for paths that these could not finish, and for making start systems.
 pub(super) const CAREFUL: TrackerLimits = TrackerLimits {
     step: StepLimits { truncation: 2e-5, radius_fraction: 0.4, first_correction: 1e-3, accuracy: 1e-9 },
     corrections: 3,
@@ -96,7 +96,7 @@ pub(super) const VERY_CAREFUL: TrackerLimits = TrackerLimits {
     most_steps: 20_000,
 };
 
-/// For the short arcs of the endgame.
+/// Limits for the short arcs of the endgame.
 pub(super) const ARC: TrackerLimits = TrackerLimits {
     // at ends with e -> 0 the Newton matrix loses two ranks and rounding stops corrections near 1e-8
     step: StepLimits { truncation: 1e-4, radius_fraction: 0.5, first_correction: 1e-2, accuracy: 1e-7 },

@@ -57,7 +57,7 @@ pub enum EndKind {
 /// One path.
 #[derive(Debug, Clone, Copy)]
 pub struct HomotopyPath {
-    /// Its end, in Study coordinates.
+    /// The end of the path, in Study coordinates.
     pub x: [Complex64; 8],
     /// The kind of its end.
     pub kind: EndKind,
@@ -99,15 +99,15 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
     let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
     let all: f64 = x.iter().map(num_complex::Complex::norm_sqr).sum();
     let n: Complex64 = e.iter().map(|z| z * z).sum();
-    // no `hypot`: what underflows is isotropic
+    // no `hypot`: numbers that underflow are isotropic
     (n.norm_sqr().sqrt() / size, (size / all).sqrt())
 }
 
 /// Tracks all paths from the start system of a kind to `target`, which must be of that kind. For [`StartKind::Planar`]
 /// the mirror images of the ends are the ends of the other paths. The seed sets gamma.
 ///
-/// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps;
-/// what fails then is left as [`EndKind::Failed`].
+/// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps. Paths that
+/// fail again are left as [`EndKind::Failed`].
 ///
 /// # Errors
 /// A start system that cannot be made.
@@ -243,7 +243,7 @@ fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: HomotopyPath, t: f64)
 /// Tracks paths again from the start by the trusted tracker, stops them before the target and ends them in
 /// the endgame.
 struct Retracker<'a> {
-    /// From the corner to the target.
+    /// The way from the corner to the target.
     homotopy: &'a SectionHomotopy,
     real: &'a SectionHomotopy<f64>,
     corner: Complex64,

@@ -114,7 +114,7 @@ impl SectionHomotopy {
 }
 
 impl SectionHomotopy<f64> {
-    /// From `start` at `t = 1` to `target` at `t = 0`, both real; to be followed along complex `t`. `None`
+    /// The homotopy from `start` at `t = 1` to `target` at `t = 0`, both real, to be followed along complex `t`. `None`
     /// when a coefficient is not real.
     pub(super) fn real(start: &Sections, target: &Sections) -> Option<Self> {
         let real = start.rows.iter().chain(&target.rows).flatten().all(|z| z.im == 0.0);
@@ -367,7 +367,7 @@ mod tests {
         let mut x = random_vector(&mut rng);
         let eg: Complex64 = (0..3).map(|k| x[k] * x[4 + k]).sum();
         x[7] = -eg / x[3];
-        // sections through x at t = 1/2 only: the target row is the start row less twice what sticks out
+        // sections through x at t = 1/2 only: the target row is the start row mirrored in the line of the forms at x
         let f = forms(x);
         let ff: Complex64 = f.iter().map(|z| z * z).sum();
         let start: [FormRow; 6] =

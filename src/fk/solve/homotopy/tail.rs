@@ -185,7 +185,7 @@ fn gradient(row: &[ComplexOctuple; FORMS], x: &[ComplexOctuple; 8]) -> [ComplexO
 }
 
 impl CornerTail {
-    /// From `start`, as in doubles, to `target`; corner as of the homotopy in doubles.
+    /// The path from `start`, as in doubles, to `target`; its corner is that of the homotopy in doubles.
     pub(super) fn new(start: &Sections, target: &OctupleSections, corner: Complex64) -> Self {
         let mut slope = target.rows;
         for i in 0..6 {
@@ -418,7 +418,7 @@ impl CornerTail {
         series.map(|c| c.map(|z| z.lane(0)))
     }
 
-    /// The same with all digits, then rounded.
+    /// The Taylor series computed with all digits, then rounded.
     fn precise_series(
         &self,
         x: &[ComplexOctuple; 8],

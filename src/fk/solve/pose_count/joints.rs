@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 /// The ends of the legs modulo a prime, on base and platform.
 pub(super) type EndResidues = [[[u64; 3]; 2]; 6];
 
-/// A prime drawn, and what it makes of the joints.
+/// A drawn prime, and the joints modulo it.
 pub(super) struct DrawnPrime {
     pub(super) field: Field,
     pub(super) ends: EndResidues,
@@ -27,9 +27,9 @@ pub(super) struct DrawnPrime {
 
 /// Joints known exactly.
 pub(super) enum CountedJoints {
-    /// As the doubles they are.
+    /// The joints as the doubles they are.
     Dyadic(Box<[Leg; 6]>),
-    /// As sums of square roots and cosines.
+    /// The joints as sums of square roots and cosines.
     Algebraic(Box<[ExactEnds; 6]>),
 }
 

@@ -123,7 +123,7 @@ pub enum CountedLengths {
     Generic,
 }
 
-/// The set and what speaks for it.
+/// The set and its evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseCount {
     /// The set.

@@ -90,8 +90,8 @@ pub(super) enum Cut {
     },
 }
 
-/// Solves the linear equations and puts the solution into the quadrics. One of them is not homogeneous: what it names
-/// is one, `h` for finite poses.
+/// Solves the linear equations and puts the solution into the quadrics. One of the equations is not homogeneous: its
+/// linear form equals one, `h` for finite poses.
 pub(super) fn cut(field: Field, equations: &[Linear]) -> Cut {
     let (mut rows, mut pivots): (Vec<Linear>, Vec<usize>) = (equations.to_vec(), Vec::new());
     // h is known or depends on the others; then r, which has the coefficient one in every leg

@@ -76,7 +76,7 @@ struct IdealRelation {
 struct Spaces {
     field: Field,
     unknowns: usize,
-    /// By increasing degree.
+    /// Standard monomials by increasing degree.
     standard: Vec<Monomial>,
     /// Index of the first standard monomial of each degree built, and one more for the end.
     first: Vec<usize>,

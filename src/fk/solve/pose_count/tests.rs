@@ -11,7 +11,7 @@ fn design(joints: &Bodies) -> Manipulator {
     Manipulator::from_legs(std::array::from_fn(leg)).unwrap()
 }
 
-/// Multiples of 1/64 in `[-16, 16]`: what is computed from them is exact.
+/// Multiples of 1/64 in `[-16, 16]`: results computed from them are exact.
 fn small(rng: &mut Rng) -> f64 {
     ((rng.next_u64() % 2049) as f64 - 1024.0) / 64.0
 }

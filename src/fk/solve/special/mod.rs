@@ -83,7 +83,7 @@ pub(crate) fn special_position(m: &Manipulator, seed: u64) -> Option<SpecialPosi
     })
 }
 
-/// The ends of the legs modulo a prime: what does not vanish there does not vanish.
+/// The ends of the legs modulo a prime. A number that does not vanish there does not vanish.
 struct Residues {
     split: SplitField,
     /// Base and platform end of every leg.

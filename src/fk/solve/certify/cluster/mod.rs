@@ -179,7 +179,7 @@ impl ClusterCertificate {
     }
 }
 
-/// The bordered equations at a centre: their Jacobian, its approximate inverse and what bounds the error of the former.
+/// The bordered equations at a centre: their Jacobian, its approximate inverse and the bounds of the Jacobian's error.
 struct BorderedSystem {
     b: BorderedMatrix,
     y: BorderedMatrix,
@@ -311,7 +311,7 @@ impl CurveExpansion {
     }
 }
 
-/// The point about which a cluster is looked for, with what belongs to it.
+/// The point about which a cluster is sought, with the equations and the expansion there.
 struct Middle {
     x: Study<DoubleDouble>,
     border: BorderedSystem,
@@ -378,7 +378,7 @@ struct MapBounds {
     kappa_last: f64,
     beta: f64,
     beta_last: f64,
-    /// Above `|l|_1`.
+    /// An upper bound of `|l|_1`.
     row: f64,
 }
 
@@ -449,7 +449,7 @@ fn disc(b: &MapBounds, e: &CurveExpansion, m: usize, rho: f64) -> Option<ProvedD
         |errors: &[f64]| errors.iter().zip(1..).map(|(e, n): (&f64, i32)| e * rho.powi(n)).sum::<f64>() * UP;
     let (h, z) = (e.size(1..=order, rho, own), e.size(1..=order, rho, whole));
     let curve = b.eta + b.kappa * z + noise(&e.error) + e.size(order + 1..=all, rho, whole);
-    // a little more than what the map needs; the proof is the checks below
+    // a little more than the map needs; the proof is the checks below
     let r = 2.5 * curve;
     let inside = (curve + b.kappa * r + b.beta * (2.0 * h * r + r * r)) * UP * UP <= r;
     let contracts = (b.kappa + 2.0 * b.beta * (h + r)) * UP < 1.0;

@@ -82,7 +82,7 @@ pub(super) struct Centre<'a> {
 }
 
 impl Centre<'_> {
-    /// Largest modulus of what the nearest doubles leave.
+    /// Largest modulus of the digits beyond the nearest doubles.
     pub(super) fn tail(&self) -> f64 {
         self.full
             .map_or(0.0, |x| (0..8).map(|k| x.re[k].lo().abs() + x.im[k].lo().abs()).fold(0.0, f64::max) * UP)
@@ -143,7 +143,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<KrawczykBounds, WhyUncer
     Ok(out.rounded_up())
 }
 
-/// `Y F(c)`, computed with the digits of the centre: what a Newton step takes from it (zero for the patch).
+/// `Y F(c)`, computed with the digits of the centre; a Newton step subtracts it (zero for the patch).
 pub(super) fn newton_step(
     system: &LegSystem,
     x: &Study<DoubleDouble>,

@@ -1,5 +1,5 @@
-//! Arithmetic of the proof: real numbers with an error radius, eight discs of complex numbers side by side, and what a
-//! triangle contributes.
+//! Arithmetic of the proof: real numbers with an error radius, eight discs of complex numbers side by side, and the
+//! coefficients from a triangle.
 //!
 //! A computed sum, product, quotient or root is off by at most `u` times its modulus, as for discs (`num::ball`). Radii
 //! are sums of products of non-negative numbers; [`UP`] and [`TINY`] take up their own rounding and underflow.
@@ -229,7 +229,7 @@ pub(in crate::solve::certify) struct CertifiedTriangle {
 }
 
 impl CertifiedTriangle {
-    /// From enclosed corners.
+    /// The triangle from its enclosed corners.
     pub(in crate::solve::certify) fn of(p: [RealVector; 3]) -> Self {
         let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| p[i][k] - p[j][k]) };
         let (b, c, a) = (side(1, 0), side(2, 0), side(2, 1));

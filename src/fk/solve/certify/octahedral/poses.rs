@@ -1,4 +1,4 @@
-//! From enclosed corners to the poses, and how far given poses are from these.
+//! The poses from enclosed corners, and the distances of given poses from these.
 //!
 //! **Poses.** `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. The mirror
 //! in the base plane changes the sign of the third coordinates of the corners. The third axis is a cross product, so
@@ -98,7 +98,7 @@ pub(super) fn place(
     let largest = |d: &[Reals; 3]| (d[0].largest(d[1]).largest(d[2]) * r).up();
     let (move_x, move_y) = (largest(&dx), largest(&dy));
     let ((blur_x, size_x), (blur_y, size_y)) = (extremes(&[ax]), extremes(&[ay]));
-    // of the derivatives: rounding, and what is not known of the coefficients
+    // of the derivatives: rounding, and the uncertainty of the coefficients
     let loose = |x: Real| x.radius / x.centre.abs();
     let across = design.sides.across.iter().flatten().fold(0.0, |m: f64, x| m.max(x.radius));
     let unknown = 64.0 * U + 4.0 * (loose(side) + loose(height) + t.u.radius * side.centre + across);

@@ -36,7 +36,7 @@
 //! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`, `w = h_g + T_i h_e`, on the unit polydisc: `|w_r| <= 1 + t_i`,
 //!   `|dw_r| <= tau_i`, so `(1/2) sum_r (2 (1 + t_i) tau_i + tau_i^2) = 4 (1 + t_i) tau_i + 2 tau_i^2`.
 //!
-//! These are widths of the data, as those of the squared lengths are: what is proved is proved for every choice.
+//! These are widths of the data, as those of the squared lengths are: a proof holds for every choice.
 //!
 //! **Second-order part of two vectors** (always in double, for the polar form of `F`, whose value on `h`, `h` is `F(h)`
 //! where `h_patch = 0`). With `D_h = delta_h + omega_h`, what rounding and radii do to a component of
@@ -172,7 +172,7 @@ pub(super) struct Values<S> {
     v_im: [[S; 4]; 6],
 }
 
-/// Gradients at a point, with what the bounds need. Column `patch` holds the gradient by `g_3`, lane 7 is zero.
+/// Gradients at a point, with their bounds. Column `patch` holds the gradient by `g_3`, lane 7 is zero.
 pub(super) struct Jacobian {
     pub(super) re: [[f64; 8]; N],
     pub(super) im: [[f64; 8]; N],
@@ -180,7 +180,7 @@ pub(super) struct Jacobian {
     pub(super) error: [f64; N],
 }
 
-/// A vector of increments with what the second-order part needs of it.
+/// A vector of increments with the quantities that the second-order part needs.
 pub(super) struct Increment {
     x: Study<f64>,
     v_re: [[f64; 4]; 6],
@@ -213,7 +213,7 @@ pub(super) struct LegSystem {
     /// `tau_i`: how much the radii of the joints may change the absolute row sums of `T_i`; zero for joints that are
     /// their doubles.
     pub(super) turn_radius: [f64; 6],
-    /// The same beside the low parts.
+    /// The same bound for the radii that remain beside the low parts.
     pub(super) low_turn_radius: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
     pub(super) q: [f64; N],
@@ -401,7 +401,7 @@ impl LegSystem {
         4.0 * (omega + tau * v + (self.t[i] + tau) * omega)
     }
 
-    /// The same of `Q_i(h, k)` on the unit polydisc.
+    /// The bound for `Q_i(h, k)` on the unit polydisc.
     pub(super) fn joint_width_of_second_order(&self, i: usize) -> f64 {
         let tau = self.turn_radius[i];
         tau * (4.0 * (1.0 + self.t[i]) + 2.0 * tau)
@@ -584,7 +584,7 @@ impl LegSystem {
             let w = square_sum(&values.v_re[i], &values.v_im[i]);
             let (delta, s) = (self.delta(i, e, g, U), self.s[i].abs());
             let by_e = self.t[i] * delta + 5.0 * U * (self.t[i] * w.sqrt() + s * e) + self.s_blur(i) * e;
-            // as for values: off by rounding, and by what a centre has beyond doubles
+            // as for values: off by rounding, and by the digits of a centre beyond doubles
             let v = w.sqrt() + 6.0 * delta;
             let width = self.joint_width_of_gradient(i, e, v);
             out.error[i] = (4.0 * delta + 3.0 * by_e + width + TINY) * UP;

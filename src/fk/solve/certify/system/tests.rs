@@ -353,7 +353,7 @@ fn what_joints_within_their_radii_change_is_within_the_widths_and_nearly_attains
         let lifted = x.lifted();
         let (f_re, f_im) = system.values_apart(&lifted);
         for _ in 0..20 {
-            // less than the radius by more than what rounding can add
+            // less than the radius by more than rounding can add
             let other = moved(&system, 0.999 * radius / system.unit(), &mut rng);
             let there = other.values(&x);
             let (g_re, g_im) = other.values_apart(&lifted);

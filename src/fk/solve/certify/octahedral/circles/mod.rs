@@ -108,7 +108,7 @@ impl BaseSides {
 /// The circle of a corner that is held by its two legs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CornerCircle {
-    /// In the plane of the base.
+    /// Centre in the plane of the base.
     pub(super) middle: [Real; 2],
     pub(super) squared_radius: Real,
 }
@@ -316,7 +316,7 @@ pub(super) fn one_zero_about(
     for k in 0..3 {
         let [u, v] = corners[k];
         let size = (moduli[k][0] + moduli[k][1]).up();
-        // half the sum of u and v: one rounding, and what is not known of v
+        // half the sum of u and v: one rounding, and the uncertainty of v
         let blur = (size.times(U) + moduli[k][1].times(loose[k])).up();
         let [h, z] = [(u + v).times(0.5), (v - u).times_i().times(0.5)];
         out.corners[k] = [Discs { c: h, r: blur }, Discs { c: z, r: blur }];
