@@ -79,7 +79,7 @@
 //!
 //! [`Design::solver`] prepares a design once; [`Solver::solve_all`] takes rows of lengths from any iterator and gives
 //! results in their order, from all cores, as they are done. [`Design::tracker`] follows the one pose that a machine is
-//! at. [`Cancel`] ends what takes long.
+//! at. [`Cancel`] ends long computations.
 //!
 //! ```
 //! use equipod::prelude::*;
@@ -109,7 +109,7 @@
 //!
 //! With `default-features = false` the library has poses and certificates alone: [`Manipulator`] has `fk`, `ik`,
 //! `solver` and `tracker` as a design has. The features `synthesis`, `optimize`, `files`, `page`, `lab` and `cli` add
-//! the rest; `docs/architecture.md` says what each costs. The modules behind this page are in [`methods`], for those
+//! the rest; `docs/architecture.md` gives the cost of each. The modules behind this page are in [`methods`], for those
 //! who develop methods.
 
 #![cfg_attr(
@@ -194,7 +194,7 @@ pub mod prelude {
 /// The modules behind the entrance, for those who develop methods: a new solver, a new way to prove a root, another
 /// search. Users of the library need none of them.
 ///
-/// Each holds what its layer knows (`docs/architecture.md`). Names and signatures in here change from version to
+/// Each holds the code of its layer (`docs/architecture.md`). Names and signatures in here change from version to
 /// version.
 pub mod methods {
     /// Problems drawn from a class, solved, validated with arithmetic of their own, counted and timed.

@@ -29,9 +29,8 @@ pub enum LegDependence {
     Nearly,
     /// Proved: a relation of the basis holds exactly and the lengths contradict it by more than rounding.
     Incompatible,
-    /// Proved: this many relations hold exactly. The lengths satisfy each of a basis of them within rounding; whether
-    /// some lengths that near satisfy all at once is
-    /// not asked.
+    /// Proved: this many relations hold exactly. The lengths satisfy each of a basis of them within rounding. It is
+    /// not asked whether some lengths that near satisfy all at once.
     Compatible {
         /// Six less the rank.
         relations: usize,
