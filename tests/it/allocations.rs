@@ -71,7 +71,7 @@ fn the_correction_of_a_controller_allocates_nothing() {
 
 #[test]
 fn the_homotopy_allocates_for_its_results_not_for_its_steps() {
-    // what is read once a process is not counted
+    // data that is read once a process is not counted
     let first = problems(Class::General, LengthsFrom::Uniform, 1).next().unwrap();
     Homotopy.solve(&first.manipulator, &first.squares, &FkOptions::default()).unwrap();
     let mut seen = Vec::new();

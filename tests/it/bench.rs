@@ -28,7 +28,7 @@ fn short(class: Class, count: u64) -> BenchReport {
     run(&plan(class, count), solver(None).as_ref(), &Homotopy).unwrap()
 }
 
-/// Changes what an honest solver found.
+/// Changes the results of an honest solver.
 struct Cheat(fn(&mut FkSolutions));
 
 impl ForwardKinematics for Cheat {

@@ -254,7 +254,7 @@ fn stiffness_and_frequency_have_rows_of_their_own() {
     );
 }
 
-/// A fixture with what `edit` makes of it, beside a copy of the original.
+/// A fixture changed by `edit`, beside a copy of the original.
 fn fixture(folder: &Path, name: &str, edit: impl Fn(String) -> String) -> String {
     let text = std::fs::read_to_string(format!("tests/fixtures/verdicts/{name}.toml")).unwrap();
     let path = folder.join(format!("{name}.toml"));

@@ -309,7 +309,7 @@ fn a_run_that_is_killed_changes_nothing_and_does_not_disturb_the_next() {
         files
     };
     let before = results();
-    // what a kill between writing and renaming leaves
+    // the remainder of a kill between writing and renaming
     std::fs::write(folder.join(".fk.json.aB3xYz.part"), "{\"schema").unwrap();
     let mut child = command(&shipped("rbt-octahedral"), folder, &[]).stdout(Stdio::null()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(300));
@@ -485,7 +485,7 @@ fn holes_that_no_platform_fits_are_answered_with_no_and_why() {
     assert!(folder.join("optimised.toml").is_file() && !folder.join("rounded.toml").is_file());
 }
 
-/// From requirements to a machine: what docs/worked-designs.md promises of the command.
+/// From requirements to a machine: the promises of docs/worked-designs.md about the command.
 #[test]
 #[ignore = "evidence"]
 fn the_simulator_for_300_kg_comes_out_of_one_command() {
@@ -555,7 +555,7 @@ fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {
         assert!(number(&radius[1]) < 1.5 * number(&radius[0]), "{price}");
         assert!(number(&price[format!("{body}_spacing")][1]) >= 1.26 - 1e-6, "{price}");
     }
-    // what rides on the ends of the ranges is named
+    // variables at the ends of their ranges are named
     let riding = d["optimize"]["riding"]["message"].as_str().unwrap();
     assert!(riding.contains("(end of") && riding.contains("[envelope]"), "{riding}");
 }

@@ -1,5 +1,5 @@
-//! `equipod export` as a process: files, refusals, what a format cannot hold. Programs that are not ours read the files
-//! in `tests/exports`.
+//! `equipod export` as a process: files, refusals, limits of a format. Programs that are not ours read the files in
+//! `tests/exports`.
 
 use std::path::Path;
 
@@ -133,7 +133,7 @@ fn refusals() {
     let (code, doc) = run(&[octahedral, "--to", "csv", "-o", to, "--thickness", "0"]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::bad_size")));
     assert_eq!(run(&[octahedral, "--to", "iges", "-o", to]).0, Some(2));
-    // one format cannot, the other can: the answer is no, and what can be written is
+    // one format is impossible, the other is possible: the answer is no, and the possible file is written
     let wide = ["--hole-diameter", "4", "--ball-diameter", "5", "--margin", "5"];
     let (code, doc) = run(&[&["designs/rbt-midline.toml", "--to", "dxf,csv", "-o", to], &wide[..]].concat());
     assert_eq!(code, Some(1));
@@ -255,7 +255,7 @@ fn c_for_controllers_is_the_same_every_time_and_only_its_numbers_are_those_of_th
         assert!(text.is_ascii(), "{name}");
         assert_eq!(text.matches("/*").count(), text.matches("*/").count(), "{name}");
     }
-    // what controllers must not have
+    // constructs that controllers must not have
     for forbidden in ["malloc", "alloca", "setjmp", "static double", "goto"] {
         assert!(!first[1].contains(forbidden), "{forbidden}");
     }

@@ -18,7 +18,7 @@ fn contents(folder: &Path) -> Vec<(PathBuf, String)> {
     all
 }
 
-/// Runs what must be refused, and finds the folder as it was.
+/// Runs a command that must be refused, and finds the folder unchanged.
 fn refused(folder: &Path, args: &[&str], code: &str) {
     let before = contents(folder);
     let out = equipod(&[args, &["--json"]].concat());

@@ -1,4 +1,4 @@
-//! `equipod fk`: where the lengths come from, what is refused, and the fields of the document.
+//! `equipod fk`: the sources of the lengths, the refusals, and the fields of the document.
 
 use crate::cli_frame::{document, equipod};
 
@@ -97,7 +97,7 @@ fn every_shipped_design_has_the_poses_its_readme_claims() {
     assert!(checked >= 7);
 }
 
-/// The leg equations from the document alone: numbers, frames and leg order mean what the contract says.
+/// The leg equations from the document alone: numbers, frames and leg order have the meaning of the contract.
 #[test]
 fn real_poses_of_the_document_satisfy_the_leg_equations() {
     let lengths = [19.8, 18.0, 18.0, 17.0, 14.9, 17.8];

@@ -142,7 +142,7 @@ fn every_key_in_the_tables_has_a_meaning() {
     }
 }
 
-/// Fields of a definition and of its alternatives that neither say what they are nor refer to a definition that does.
+/// Fields of a definition and of its alternatives that have no description and refer to no definition that has one.
 fn undescribed<'a>(definitions: &'a Value, schema: &'a Value, out: &mut Vec<&'a str>) {
     let described = |field: &Value| {
         let found = field["$ref"].as_str().and_then(|r| definitions.get(r.trim_start_matches("#/$defs/")));

@@ -1,4 +1,4 @@
-//! The help by jobs as a process: every example of it runs, and a wrong word is told what was meant.
+//! The help by jobs as a process: every example of it runs, and a wrong word gets a suggestion.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -32,7 +32,7 @@ fn examples(help: &str) -> Vec<String> {
 /// A front as `optimize` writes it: finding one takes minutes.
 const FRONT: &str = r#"{"front":[{"objectives":[{"name":"worst_conditioning","value":0.2,"unit":""},{"name":"stroke","value":30,"unit":"mm"}],"design":{"name":"D"}},
     {"objectives":[{"name":"worst_conditioning","value":0.3,"unit":""},{"name":"stroke","value":50,"unit":"mm"}],"design":{"name":"D"}}],"seed":7}"#;
-/// Examples that take long without optimisation; what they write is needed by none but the report.
+/// Examples that take long without optimisation; only the report needs their files.
 const LONG: [&str; 2] = ["explore", "optimize"];
 
 #[test]

@@ -1,4 +1,4 @@
-//! `equipod ik`, and the tables of `equipod fk DESIGN --csv`: what one writes the other reads.
+//! `equipod ik`, and the tables of `equipod fk DESIGN --csv`: each reads the files of the other.
 
 use super::cli_frame::{document, equipod};
 

@@ -63,7 +63,7 @@ fn a_pose_that_is_not_allowed_has_a_nearest_one_that_is() {
     let pose: Vec<f64> = [numbers(&near["position"]), numbers(&near["rpy_deg"])].concat();
     let text: Vec<String> = pose.iter().map(f64::to_string).collect();
     let (code, again) = asked(&[BENCH, &format!("--at={}", text.join(","))]);
-    // written as angles the pose is off by rounding: what is violated is so by no more
+    // written as angles the pose is off by rounding, and violations are no larger than that
     let least =
         again["violated"].as_array().unwrap().iter().map(|v| number(&v["margin"])).fold(0.0, f64::min);
     assert!(code == Some(0) || least > -1e-9, "{again}");

@@ -78,7 +78,7 @@ fn a_table_of_times_and_poses_is_a_motion() {
     let two = found(&milliseconds, &[]);
     let speed = |doc: &Value| number(&doc["legs"][2]["speed"]["value"]);
     assert!((speed(&one) - speed(&two)).abs() < 1e-9 * speed(&one).abs());
-    // the table has what the answer has
+    // the table has the numbers of the answer
     let text = std::fs::read_to_string(&out).unwrap();
     let table: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
     assert_eq!(table.len(), 402);

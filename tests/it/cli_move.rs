@@ -95,7 +95,7 @@ fn all_midpoints_are_singular_and_nothing_is_written() {
     for made in doc["steps"][0]["moves"].as_array().unwrap() {
         assert!((number(&made["singular_parameters"][0]) - 0.5).abs() < 1e-9);
     }
-    // in turn the sixth is the singular one; what comes after it is not done
+    // in turn the sixth is the singular one; later moves are not made
     let mut list = six(0.5);
     list.push("1:P1-P2:P4:0.1".into());
     let doc = of("rbt-octahedral", &with_moves(&list, &[]), 1);

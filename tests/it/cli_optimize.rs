@@ -140,7 +140,7 @@ variables = [\"home_height\"]
         assess.current_dir(folder.path()).args(["assess", file]).output().unwrap().status.code()
     };
     assert_eq!(assessed("opened/with-stroke.toml"), Some(0));
-    // what comes nearest is shown with what it misses, and written
+    // the nearest design is shown with its violations, and written
     let nearest = &d["nearest"];
     assert_eq!(nearest["variables"][0]["name"], "home height");
     assert_eq!(nearest["assessment"]["met"], false);
@@ -156,7 +156,7 @@ variables = [\"home_height\"]
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
 }
 
-/// Conflicts are about what the design asks for: a least `|det A|` that it doesn't ask for would add 4.85 mm to the
+/// Conflicts are about requirements of the design: a least `|det A|` without a requirement would add 4.85 mm to the
 /// longest leg.
 #[test]
 #[ignore = "evidence"]
@@ -289,7 +289,7 @@ fn three_fold_symmetry_is_kept_or_refused() {
         d["variables"].as_array().unwrap().iter().map(|v| v["name"].as_str().unwrap()).collect();
     assert!(names.contains(&"base size") && names.contains(&"platform size"), "{names:?}");
 
-    // what the key asks for is no default, and needs no word
+    // a requested symmetry is no default, and needs no word
     assert!(d["symmetry"].is_null());
     let refused = |text: &str, words: &str| {
         let (out, _folder) = optimize(text, &[]);
@@ -473,7 +473,7 @@ fn without_prices_the_objective_decides_between_drives_and_a_limit_of_time_keeps
     let values: Vec<f64> =
         ["long", "good", "short"].iter().filter_map(|n| drive(&d, n)["objective"].as_f64()).collect();
     assert!(values.len() >= 2 && values.iter().all(|v| *v <= d["objective"].as_f64().unwrap()), "{values:?}");
-    // what a longer drive allows is no less
+    // a longer drive allows no smaller value
     assert!(values[0] >= values[1] - 1e-6, "{values:?}");
     let out = run(&["--time-limit", "0.05"]);
     let d = document(&out);
@@ -611,13 +611,13 @@ fn the_answers_of_both_searches_have_the_fields_of_one_schema() {
     let offsets = "[hardware]\nleg_length = [9.0, 18.0]\n[optimize]\nvariables = [\"symmetric_offsets\"]\n";
     let alone = checked(&at_home(), &["--extension", "0"]);
     let under = checked(&required(offsets), &["--extension", "0"]);
-    // what is not proved is not called optimal
+    // a result without a proof is not called optimal
     for (d, method, word) in [(&alone, "offsets", "optimal"), (&under, "dimensional", "best_found")] {
         assert_eq!((&d["status"], &d["search"]["method"]), (&word.into(), &method.into()), "{d}");
         let (value, held) = (d["objective"].as_f64().unwrap(), d["objectives"][0]["at_held_poses"].as_f64());
         assert!(value > 0.0 && value <= held.unwrap(), "{value} {held:?}");
         assert_eq!(d["objectives"][0]["name"], "worst_conditioning");
-        // what was chosen, from where: joints at the corners slide to t
+        // the chosen variables and their starts: joints at the corners slide to t
         let chosen = d["variables"].as_array().unwrap();
         for v in chosen {
             let of = |key: &str| v[key].as_f64().unwrap();

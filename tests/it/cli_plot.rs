@@ -1,4 +1,4 @@
-//! `equipod plot`: every figure is drawn, says what it shows, and follows the design.
+//! `equipod plot`: every figure is drawn, names its content, and follows the design.
 
 use super::cli_frame::{document, equipod};
 use super::evidence::size;

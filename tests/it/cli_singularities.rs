@@ -102,7 +102,7 @@ fn equivalent_platforms_have_the_same_regular_box() {
     let (octahedral, one) = run("designs/rbt-octahedral.toml");
     let (_, two) = run("designs/rbt-griffis-duffy.toml");
     assert!(one.0 > 0.0 && one.0 < one.1 && two.0 < two.1);
-    // what is proved of one holds for the other
+    // a proof for one holds for the other
     assert!(one.0 < two.1 && two.0 < one.1, "{one:?} {two:?}");
     let modes = octahedral["assembly_modes"].as_array().unwrap();
     assert!(!modes.is_empty());

@@ -17,7 +17,7 @@ fn fed(args: &[&str], text: &[u8]) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // what is refused before it is read leaves the pipe closed
+    // a command that refuses its input before reading it leaves the pipe closed
     let _ = child.stdin.take().unwrap().write_all(text);
     child.wait_with_output().unwrap()
 }

@@ -73,7 +73,7 @@ fn parts_are_the_same_bytes_for_any_threads_and_any_order_of_shards() {
     }
     let bytes = parts(&one);
     assert_eq!((bytes.len(), &bytes), (4, &parts(&two)));
-    // what went into the part is some of the time that its shard took
+    // the writing of the part takes some of the time of its shard
     for (name, _) in &bytes {
         let manifest = std::fs::read(Path::new(&one).join(name).with_extension("json")).unwrap();
         let manifest: Value = serde_json::from_slice(&manifest).unwrap();
@@ -127,7 +127,7 @@ fn a_sweep_that_is_killed_twice_is_resumed_and_verified() {
     assert_eq!(code, Some(1), "{first}");
     let before: Vec<_> = numbers(&first["done"]);
     assert!(before.len() >= 3 && before.len() < 60, "{first}");
-    // what a killed run leaves under another name is nobody's part
+    // the remainder of a killed run under another name is nobody's part
     std::fs::write(Path::new(&folder).join(".part-00059-of-00060.parquet.1.part"), "PAR1").unwrap();
     killed(&plan, &folder, before.len() + 3);
     let (_, second) = asked(&["status", &folder]);
@@ -249,7 +249,7 @@ fn candidates_are_designs_and_failures_are_rows() {
     assert_eq!(equipod(&["check", &design]).status.code(), Some(0));
     assert_eq!(asked(&["design", &folder, "--candidate", "1"]).1["error"]["code"], "sweep::no_design");
     assert_eq!(asked(&["design", &folder, "--candidate", "3"]).1["error"]["code"], "sweep::no_candidate");
-    // what was asked for is written to standard output as it is
+    // the requested design is written to standard output as it is
     let out = equipod(&["sweep", "design", &folder, "--candidate", "0"]);
     assert!(String::from_utf8(out.stdout).unwrap().contains("P2 = [6, 11.0, 0]"));
 }

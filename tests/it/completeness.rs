@@ -1,4 +1,4 @@
-//! Counts of finite poses by class, multiple roots, dependent legs: what the general method must say of each.
+//! Counts of finite poses by class, multiple roots, dependent legs: the required answers of the general method.
 
 use equipod::methods::fk::{
     Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet,

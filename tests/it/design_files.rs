@@ -1,4 +1,4 @@
-//! Shipped designs, reading back what was written, and inputs that are not designs.
+//! Shipped designs, written designs that are read back, and inputs that are not designs.
 
 use equipod::methods::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
 use equipod::methods::geom::Pose;

@@ -225,7 +225,7 @@ fn on_the_page(design: &str) -> Value {
     open[if open["kind"] == "equivalent" { "start_singular" } else { "singular" }].clone()
 }
 
-/// Is the design architecturally singular, what is that proved about, and what follows from it?
+/// Is the design architecturally singular? Which statement is proved? Which answers follow from it?
 fn singular(path: &str, with_sweep: bool, with_page: bool) -> Vec<Answers> {
     let [mut singular, mut exit] = ["architecturally singular?", "exit code?"].map(Answers::to);
     let [mut rank, mut poses] = ["rank of the leg vectors?", "are there isolated poses?"].map(Answers::to);

@@ -1,4 +1,4 @@
-//! The front page: what it promises, with the cases where there is nothing to give.
+//! The front page: its promises, with the cases without an answer.
 
 use std::error::Error as _;
 use std::ops::ControlFlow;
@@ -89,7 +89,8 @@ fn a_trajectory_is_read_from_beside_the_design() {
     std::fs::write(&table, "x,y,z,roll,pitch,yaw\n1,2,3,0,0,90\n0,0,17,1,0,0,x\n").unwrap();
     let bad = Design::load(&path).unwrap_err().to_string();
     assert!(bad.contains("way.csv") && bad.contains("line 3"), "{bad}");
-    // below names of six columns a row of seven has a number too many; without names a row is what its length says
+    // below names of six columns a row of seven has a number too many; without names the length of a row decides its
+    // meaning
     std::fs::write(&table, "x,y,z,roll,pitch,yaw\n1,2,3,0,0,90\n0,0,17,1,0,0,0\n").unwrap();
     assert!(Design::load(&path).unwrap_err().to_string().contains("line 3"));
     std::fs::write(&table, "1,2,3,0,0,90\n0,0,17,1,0,0,0\n").unwrap();

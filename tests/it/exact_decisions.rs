@@ -60,7 +60,7 @@ fn regular_designs_near_the_singular_ones_are_not_called_singular() {
             Relation::Undecided => undecided += 1,
             other => panic!("2^-{power}: {other:?}"),
         }
-        // 1e-9 off the surface is a thousand times what rounding can do
+        // 1e-9 off the surface is a thousand times the possible rounding
         assert!(power > 32 || relation(&m, &near) == Relation::Equivalent, "2^-{power}");
     }
     assert!(equivalent >= 30, "{equivalent} equivalent, {undecided} undecided");

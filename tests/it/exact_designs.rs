@@ -383,7 +383,7 @@ fn holes_of_a_grid_are_decimals() {
         "holes.toml",
     ];
     let (code, answer) = run(folder.path(), &args);
-    // the reserve of the hexapod is what the grid takes
+    // the grid uses up the safety margin of the hexapod
     assert_eq!(code, Some(0), "{answer}");
     let (holes, _) =
         parse(&std::fs::read_to_string(folder.path().join("holes.toml")).unwrap(), Format::Toml).unwrap();

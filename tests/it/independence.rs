@@ -41,7 +41,7 @@ fn seen(room: &str) -> BTreeSet<String> {
     rooms.flat_map(|name| seen(name).into_iter().chain([name.to_owned()])).collect()
 }
 
-/// The compiler refuses what a package does not name, so that its manifest decides.
+/// The compiler refuses names that a package does not list, so that its manifest decides.
 #[test]
 fn poses_and_leg_maps_do_not_reach_each_other() {
     let below = BTreeSet::from(["num", "platform"].map(str::to_owned));

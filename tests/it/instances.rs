@@ -3,7 +3,7 @@
 use equipod::methods::manipulator::{InvalidManipulator, Leg, Manipulator};
 use nalgebra::Point3;
 
-/// A design and what must be found.
+/// A design and the results that must be found.
 pub(crate) struct Instance {
     /// Name of the case.
     pub(crate) name: &'static str,

@@ -229,7 +229,7 @@ fn points_of_the_hexagon_are_in_the_span_and_random_legs_never() {
             assert!(span.distance(&on) < 1e-13, "{}", span.distance(&on));
         }
         for _ in 0..50 {
-            // points of the two joint planes: what a planar platform could use
+            // points of the two joint planes: possible joints of a planar platform
             let mix = |p: [Point3<f64>; 3], u: f64, v: f64| p[0] + (p[1] - p[0]) * u + (p[2] - p[0]) * v;
             let base = [legs[0].base, legs[1].base, legs[3].base];
             let platform = [legs[0].platform, legs[2].platform, legs[4].platform];

@@ -260,8 +260,8 @@ fn offsets(pattern: &Pattern, singular: bool, rng: &mut Rng) -> Vec<f64> {
     twentieths.into_iter().map(|n| n as f64 / 20.0).collect()
 }
 
-/// `check`, `leg_map` and `verify`, both ways, of a platform made exactly from an octahedral one say what the formula
-/// of `det A` says.
+/// `check`, `leg_map` and `verify`, both ways, agree with the formula of `det A` on a platform made exactly from an
+/// octahedral one.
 ///
 /// `EVIDENCE=full` goes through all 728 patterns of the class, every other one on each of the platforms.
 #[test]

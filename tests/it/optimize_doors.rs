@@ -1,5 +1,5 @@
-//! One question, one answer: what the best platform is, asked of the library, of `optimize`, of `explore` and of a
-//! sweep. `tests/python/test_package.py` asks the package.
+//! One question, one answer: the library, `optimize`, `explore` and a sweep are asked for the best platform.
+//! `tests/python/test_package.py` asks the package.
 
 use equipod::prelude::*;
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! Every option of `optimize` and `explore` changes what comes out or is refused with a reason, for both searches.
+//! Every option of `optimize` and `explore` changes the result or is refused with a reason, for both searches.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -58,7 +58,7 @@ enum Effect {
 }
 use Effect::{Answer, File, Refused, Same};
 
-/// An option with its value, and what it does to the search for offsets and to that under requirements.
+/// An option with its value, and its effects on the search for offsets and on the search under requirements.
 type Row = (&'static str, &'static [&'static str], [Effect; 2]);
 
 const OPTIMIZE: [Row; 11] = [
@@ -143,7 +143,7 @@ fn every_option_of_explore_changes_the_answer_or_is_refused() {
     assert!(refused(&explored(&general, &["--drives", "drives.csv"])));
     let with_table = general + "[hardware]\ndrives = \"drives.csv\"\n";
     assert_eq!(explored(&with_table, &[])["error"]["code"], "drives::not_chosen");
-    // what is asked changes the answer
+    // a requested option changes the answer
     let few = ["--extension", "0", "--samples", "1"];
     let base = explored(&at_home(), &few);
     assert_eq!(base["verify"]["sample_count"], 1);

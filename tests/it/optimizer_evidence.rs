@@ -98,7 +98,7 @@ fn a_worse_answer_is_found_out() {
     let feasible = std::iter::repeat_with(|| draw(&judge, &mut rng)).filter(|t| judge.is_feasible(t));
     let random: Vec<Judged> = feasible.take(10).map(|t| judged(&judge, &t)).collect();
     assert!(random.iter().all(|r| matches!(Verdict::of(Some(best), Some(*r)), Verdict::Beats(_))));
-    // the roles exchanged: what a single random start would have given
+    // the roles exchanged: a single random start would have lost
     assert!(random.iter().all(|r| Verdict::of(Some(*r), Some(best)).is_loss()));
 
     // a little away from the vertices: feasible, and worse by a few millionths
@@ -150,7 +150,7 @@ fn the_smallest_cap_cannot_be_made_smaller() {
     }
 }
 
-/// The corner `x + y + z < 0.3` of the unit cube, of which 0.0045 of the cube is made; keeps what it is asked to value.
+/// The corner `x + y + z < 0.3` of the unit cube, which is 0.0045 of the cube; records the points that it has to value.
 struct Corner(std::sync::Mutex<Vec<Vec<f64>>>);
 
 impl Judge for Corner {

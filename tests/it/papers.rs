@@ -1,4 +1,4 @@
-//! `docs/papers.md`: every command prints what the page shows, and the line of Fig. 8 is singular.
+//! `docs/papers.md`: every command prints the text of the page, and the line of Fig. 8 is singular.
 
 use super::cli_frame::equipod;
 use equipod::methods::manipulator::Level;

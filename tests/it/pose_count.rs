@@ -94,8 +94,8 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
     }
 }
 
-/// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. Whatever is
-/// found of them, the answer says what is missing.
+/// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. The answer
+/// names the missing ones, however many of them are found.
 #[test]
 #[ignore = "evidence"]
 fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact_ones() {

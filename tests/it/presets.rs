@@ -1,4 +1,4 @@
-//! Designs of real hardware: they load, say where their figures come from, and are what the page says.
+//! Designs of real hardware: they load, name the sources of their figures, and agree with the page.
 
 use equipod::methods::design::{Code, Format, PRESETS, PresetClass, parse, parse_with_cranks};
 use equipod::methods::geom::Pose;
@@ -93,7 +93,7 @@ fn every_figure_is_sourced_or_marked_as_chosen() {
 #[test]
 fn every_preset_is_regular_and_meets_what_it_asks_for() {
     for preset in PRESETS {
-        // what is required of cranks is looked at in `cranks/margins.rs`
+        // `cranks/margins.rs` checks the requirements of cranks
         let Ok((design, _)) = parse(preset.text, Format::Toml) else { continue };
         let home = design.home.unwrap();
         assert_eq!(Architecture::of(design.manipulator()).is_singular(), Some(false), "{}", preset.name);

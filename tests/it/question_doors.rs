@@ -79,7 +79,7 @@ fn moves_of_legs_are_those_of_the_command() {
         let lengths = found.design.as_ref().and_then(|d| d.lengths).map(|l| l.get());
         assert_eq!(answer["design"]["lengths"], json!(lengths));
     }
-    // what is refused names the families that there are, whoever asks
+    // a refusal names the existing families, whoever asks
     let refused = design.move_legs(&["1:9:0.2".parse().unwrap()], MoveOptions::default());
     let Err(NoMoves::NoSuchFamily { families, .. }) = refused else { panic!("{refused:?}") };
     let (code, answer) = asked(&["equivalents", "move", file, "--move", "1:9:0.2"]);

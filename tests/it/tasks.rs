@@ -70,7 +70,7 @@ fn steps(page: &str) -> Vec<Step> {
     out
 }
 
-/// Does what the page says, and returns what went otherwise.
+/// Follows the steps of the page, and returns the differences from it.
 fn faults(page: &str, folder: &Path) -> Vec<String> {
     faults_of(steps(page), folder)
 }
@@ -445,13 +445,13 @@ fn with_designs() -> tempfile::TempDir {
     folder
 }
 
-/// Runs the commands of a page one after the other; what was said before is not asked again.
+/// Runs the commands of a page one after the other; a command that ran before is not run again.
 fn faults_of_examples(page: &str, done: &mut BTreeSet<String>) -> (usize, Vec<String>) {
     let folder = with_designs();
     let (mut count, mut faults) = (0, Vec::new());
     for command in examples(page) {
         let left_out = LEFT_OUT.iter().any(|(start, _)| command.starts_with(start));
-        // what writes is run again on another page, whose later commands may read it
+        // a command that writes runs again on another page, whose later commands may read its files
         if left_out || (!command.contains(" -o ") && !done.insert(command.clone())) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Designs at the boundary of what the theorems ask for, and answers that contradicted each other.
+//! Designs at the boundary of the conditions of theorems, and answers that contradicted each other.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! Number of finite poses of the joint-sharing topologies: what is found, and the bound that proves it complete.
+//! Number of finite poses of the joint-sharing topologies: the poses found, and the bound that proves them complete.
 
 use equipod::methods::bench::{Class, LengthsFrom, Planar, problem};
 use equipod::methods::fk::{Completeness, FkOptions, FkSolutions, solver};

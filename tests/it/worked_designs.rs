@@ -1,4 +1,4 @@
-//! Worked designs: what they promise, and that docs/worked-designs.md quotes it.
+//! Worked designs keep their promises, and docs/worked-designs.md quotes them.
 
 use std::collections::BTreeMap;
 
@@ -103,7 +103,7 @@ fn every_limit_has_a_reserve_which_the_results_keep() {
                 assert!(reserve > 0.0, "{name}: {}", kind.code());
                 // rounding of the search, in units of the reserve
                 let kept = margin.value >= reserve * (1.0 - 1e-6);
-                // starts may miss it: that is what the search is for
+                // starts may miss it: the search exists for this case
                 assert!(kept || name != result, "{name}: {} {} of {reserve}", kind.code(), margin.value);
             }
         }
@@ -118,7 +118,7 @@ fn results_have_the_kinematics_of_their_start_where_only_offsets_were_chosen() {
     }
 }
 
-/// Twelve joints of their own at the corners: what an octahedral drawing asks the workshop for.
+/// Twelve joints of their own at the corners, as an octahedral drawing asks of the workshop.
 fn with_separate_joints(design: &Design) -> Design {
     let m = design.manipulator();
     let legs = m.legs();

@@ -215,7 +215,7 @@ impl DimensionalJudge {
         margin / scale
     }
 
-    /// `|det A|` and earlier objectives: what does not belong to single poses of the requirements.
+    /// Margins of `|det A|` and earlier objectives, which do not belong to single poses of the requirements.
     fn other_margins(&self, x: &[f64], built: &Built) -> f64 {
         let v = &self.problem.variables;
         let mut least = f64::INFINITY;

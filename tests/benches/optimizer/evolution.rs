@@ -45,7 +45,7 @@ impl Arena<'_> {
         self.record.clock.spent().cpu >= self.budget
     }
 
-    /// Variables of a point of the unit cube; what is outside is put onto its boundary.
+    /// Variables of a point of the unit cube; points outside are moved onto its boundary.
     fn variables(&self, u: &[f64]) -> Vec<f64> {
         let at = |(u, b): (&f64, &(f64, f64))| b.0 + (b.1 - b.0) * u.clamp(0.0, 1.0);
         u.iter().zip(self.judge.bounds()).map(at).collect()

@@ -98,7 +98,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
     while let Some(word) = words.next() {
         let mut next = || words.next().ok_or(format!("{word} needs a value"));
         match word.as_str() {
-            // what cargo says to programs that measure, and not to those it only tests
+            // the argument that cargo gives to programs that measure, and not to those it only tests
             "--bench" => measured = true,
             "--random" => a.random = next()?.parse()?,
             "--factor" => a.factor = next()?.parse()?,
@@ -150,7 +150,7 @@ fn load(path: &Path) -> Result<Design, Failure> {
     Ok(design)
 }
 
-/// The optimiser's own answer, with what it cost.
+/// The optimiser's own answer, with its cost.
 #[derive(Debug)]
 struct Answer {
     judged: Option<Judged>,

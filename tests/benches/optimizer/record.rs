@@ -1,4 +1,4 @@
-//! The best feasible answer of several threads, with the curve to it and what it cost.
+//! The best feasible answer of several threads, with the curve to it and its cost.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

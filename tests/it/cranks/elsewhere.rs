@@ -65,7 +65,7 @@ fn simulators_limit_the_swing_of_rods_at_both_ends() {
         let all = home["margins"].as_array().unwrap();
         all.iter().find(|m| m["name"] == name).unwrap()["margin"].as_f64().unwrap().to_radians()
     };
-    // at home the hinge is at zero, and what is left to the nearer end is the margin of `ik`
+    // at home the hinge is at zero, and its distance from the nearer end is the margin of `ik`
     let mut left = f64::INFINITY;
     for i in 1..=6 {
         let range = attribute(&model, &format!("swing{i}y"), "range");

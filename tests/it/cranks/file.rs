@@ -26,7 +26,7 @@ fn values_are_shared_copied_and_kept() {
         assert!((mirror * tip(0) - tip(1)).norm() < 1e-12, "{angle}");
         assert!((turn * tip(0) - tip(2)).norm() < 1e-12 && (turn * tip(1) - tip(3)).norm() < 1e-12);
     }
-    // what is written is read back, in both notations, and still says what it said
+    // a written file is read back, in both notations, with the same content
     for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
         let (again, warnings) = parse_with_cranks(&text, format).unwrap_or_else(|v| panic!("{v:?}\n{text}"));
         assert_eq!((&again, warnings.len()), (&design, 0));
@@ -92,7 +92,7 @@ fn every_slip_in_a_crank_is_refused_at_its_place() {
         assert!(slip.message.contains(says), "{to}: {slip}");
         assert!(found.len() <= 2 || code == Code::UnknownKey, "{to}: {found:?}");
     }
-    // what is missing is said with the crank it is missing for, and where
+    // a missing value is reported with its crank and its place
     let text = SERVOS.replacen("elbow = \"plus\"\n", "", 1);
     let found = parse_with_cranks(&text, Format::Toml).unwrap_err();
     assert_eq!((found.len(), found[0].code), (6, Code::MissingKey));

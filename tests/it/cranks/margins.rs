@@ -29,7 +29,7 @@ fn reserves_of_cranks_are_taken_off_their_margins() {
         let rows = doc["requirements"].as_array().unwrap_or_else(|| panic!("{doc}"));
         rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {doc}"))
     };
-    // shares are of what the limit is: 20 degrees, 1500 force mm, 40 degrees
+    // shares are relative to the limit: 20 degrees, 1500 force mm, 40 degrees
     for (name, reserve) in [
         ("rod_too_short", 0.5),
         ("crank_transmission", 2.0),
@@ -47,14 +47,14 @@ fn reserves_of_cranks_are_taken_off_their_margins() {
         assert_eq!(row["reserve_kept"] == false, of("margin") < reserve, "{row}");
         assert!(row["status"] != "violated", "{row}");
     }
-    // the margin of a speed is positive, and less than what is to be left
+    // the margin of a speed is positive, and less than the required safety margin
     assert!(row("crank_speed")["margin"].as_f64().unwrap() > 0.0, "{doc}");
     assert_eq!((&row("crank_speed")["reserve_kept"], &doc["reserve_kept"]), (&false.into(), &false.into()));
     assert_eq!(row("rod_too_short")["reserve_kept"], true, "{doc}");
     assert!(matches!(code, Some(0 | 3)), "{doc}");
 }
 
-/// The rows at a pose against what the kinematics of the cranks says, which is other code.
+/// The rows at a pose against the kinematics of the cranks, which is other code.
 #[test]
 fn margins_of_cranks_are_those_of_their_kinematics() {
     let design = limited();

@@ -1,5 +1,5 @@
-//! Designs whose legs are rods on cranks: the file, angles and poses from the command line, motions, margins, and what
-//! refuses them.
+//! Designs whose legs are rods on cranks: the file, angles and poses from the command line, motions, margins, and their
+//! refusals.
 
 mod elsewhere;
 mod file;

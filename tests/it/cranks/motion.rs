@@ -43,7 +43,7 @@ fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
             );
         }
     }
-    // beyond reach: the nearest allowed pose, and what is violated
+    // beyond reach: the nearest allowed pose, and the violations
     let (code, doc) = asked(&["limits", HEAD, "--to", "0,0,260,0,0,0"]);
     assert_eq!(code, Some(1), "{doc}");
     assert!(
@@ -68,7 +68,7 @@ fn ways_of_cranks_keep_every_limit_between_their_steps() {
     let path = folder.path().join("servos.toml");
     // angles about those at home, which are 150 degrees
     let text = limited().text().replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
-    // a speed that binds late, so that what binds has steps of its own
+    // a speed that binds late, so that the binding limit has steps of its own
     let text = text.replace("max_speed_deg = 300", "max_speed_deg = 3000");
     let (design, _) = parse_with_cranks(&text, Format::Toml).unwrap_or_else(|v| panic!("{v:?}"));
     std::fs::write(&path, &text).unwrap();

@@ -139,7 +139,7 @@ fn a_rod_that_does_not_reach_is_an_answer_and_not_a_length() {
     let wide = String::from_utf8(wide.stdout).unwrap();
     let widths: Vec<usize> = wide.lines().map(|l| l.split(',').count()).collect();
     assert!(widths.iter().all(|n| *n == widths[0]) && wide.contains("margin_crank_torque"), "{wide}");
-    // the limits of the motors are told from what the rods can reach
+    // the limits of the motors are told apart from the reach of the rods
     let far = document(&equipod(&["ik", HEAD, "--pose", "0,0,125,0,0,0", "--json"]));
     assert_eq!(
         (&far["within_limits"], far["outside"].as_array().map(Vec::len)),

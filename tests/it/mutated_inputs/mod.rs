@@ -84,7 +84,7 @@ fn judge(out: &Output) -> Result<(), String> {
     Ok(())
 }
 
-/// Runs what is appended with at most so many seconds of processor time and so much memory.
+/// A command that runs its further arguments with limits of processor time (seconds) and of memory.
 fn within(limits: [u32; 2]) -> Command {
     let mut command = Command::new("sh");
     command.args(["-c", WITHIN]).args(limits.map(|limit| limit.to_string()));
@@ -251,7 +251,7 @@ fn answers_that_are_read_back_are_read_or_refused() {
     }));
 }
 
-/// The page of a report computes what it shows of the first design, so that these cases are few.
+/// The page of a report computes the figures of the first design, so that these cases are few.
 #[test]
 fn folders_of_results_are_reported_whatever_stands_in_a_file() {
     let place = Place::new();
