@@ -3,8 +3,8 @@
 //!
 //! Whatever a file contains, the program ends by itself with 0, 1, 2 or 3 and one JSON document. The document has an
 //! error record when the code is 2. Exit 4 would be a panic. The program takes at most 1 GiB of memory. In a build with
-//! optimisation it takes at most two seconds of processor time to read or refuse a file, and at most ten to compute
-//! with the input: lengths of 1e19 are valid numbers. Beyond that the system ends it, which is a fault.
+//! optimisation it takes at most two seconds of processor time to read or refuse a file. It takes at most ten to
+//! compute with the input: lengths of 1e19 are valid numbers. Beyond that the system ends it, which is a fault.
 //!
 //! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed,
 //! `EQUIPOD_FUZZ_CASES` that many times as many cases. Ten thousand inputs:
