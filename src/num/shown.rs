@@ -38,11 +38,14 @@ pub fn rounded(x: f64, digits: usize) -> String {
     let scientific = format!("{x:.*e}", digits - 1);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i64 = exponent.parse().unwrap_or(0);
-    let trimmed = |text: &str| match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text.to_owned(),
+    let trimmed = |text: &str| {
+        if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            text.to_owned()
+        }
     };
-    match usize::try_from(digits as i64 - 1 - exponent) {
+    match usize::try_from(i64::try_from(digits).unwrap_or(17) - 1 - exponent) {
         // 0.000123 is still read at a glance
         Ok(decimals) if exponent >= -4 => trimmed(&format!("{x:.decimals$}")),
         Err(_) if x.abs() < 1e6 => format!("{x:.0}"),

@@ -105,7 +105,8 @@ fn conformance_has_commands_and_marks_tests_of_the_evidence() {
 /// Links of a page to other pages of the project, as paths from its root.
 fn linked(page: &Path, text: &str) -> Vec<PathBuf> {
     let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
-    let pages = targets.filter(|target| target.ends_with(".md") && !target.contains("://"));
+    let pages = targets
+        .filter(|target| Path::new(target).extension().is_some_and(|e| e == "md") && !target.contains("://"));
     pages.filter_map(|target| page.parent()?.join(target).canonicalize().ok()).collect()
 }
 

@@ -42,14 +42,13 @@ pub(crate) fn read(
     };
     let exact =
         rotation.and_then(|quaternion| placed(convention, ExactPose { position, quaternion }, design));
-    match exact {
-        Some(pose) => Ok(pose),
-        None => {
-            let number = |field: &str| numbers::one(field).unwrap_or(f64::NAN);
-            let values: Vec<f64> = text.split(',').map(number).collect();
-            let found = convention.read(&values, &frames.home);
-            found.map(|pose| of_doubles(&pose)).map_err(|why| refuse(why.to_string()))
-        }
+    if let Some(pose) = exact {
+        Ok(pose)
+    } else {
+        let number = |field: &str| numbers::one(field).unwrap_or(f64::NAN);
+        let values: Vec<f64> = text.split(',').map(number).collect();
+        let found = convention.read(&values, &frames.home);
+        found.map(|pose| of_doubles(&pose)).map_err(|why| refuse(why.to_string()))
     }
 }
 

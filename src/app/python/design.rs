@@ -505,7 +505,7 @@ impl NativeDesign {
         self.only_of_legs(py, OF_LEG_MAPS)?;
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
-            Ok(class.build_at(&pattern.unwrap_or(SEPARATE_JOINTS).parse()?, &offsets)?)
+            class.build_at(&pattern.unwrap_or(SEPARATE_JOINTS).parse()?, &offsets)
         };
         let (design, map) = py.detach(built).map_err(|e| raised(py, e))?;
         let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);

@@ -75,12 +75,11 @@ fn word<T: Copy>(
     name: fn(T) -> &'static str,
 ) -> PyResult<Option<T>> {
     let Some(given) = given else { return Ok(None) };
-    match all.iter().copied().find(|value| name(*value) == given) {
-        Some(value) => Ok(Some(value)),
-        None => {
-            let known: Vec<&str> = all.iter().map(|value| name(*value)).collect();
-            Err(refused(py, "frames", &format!("{what} is `{given}`, not one of {}", known.join(", "))))
-        }
+    if let Some(value) = all.iter().copied().find(|value| name(*value) == given) {
+        Ok(Some(value))
+    } else {
+        let known: Vec<&str> = all.iter().map(|value| name(*value)).collect();
+        Err(refused(py, "frames", &format!("{what} is `{given}`, not one of {}", known.join(", "))))
     }
 }
 

@@ -14,6 +14,7 @@ use ask::Design;
 use ask::Error;
 use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use machine::rotary::RotaryPlatform;
+use platform::geom::PoseConvention;
 use platform::manipulator::LegLengths;
 use records::{ClosureRecord, FkOneAnswer, RotationPolynomialRecord, SolvedRecord};
 

@@ -322,7 +322,7 @@ pub struct DependencyRecord {
     pub legs: Vec<usize>,
     /// The numbers `c_i`.
     pub coefficients: [Number; 6],
-    /// The value of `sum c_i s_i` at every pose, with the squared lengths s_i; design units squared.
+    /// The value of `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
     pub constant: Number,
     /// Dimension of the span of the base ends.
     pub base_dimension: usize,
@@ -388,7 +388,7 @@ pub struct GriffisDuffyRecord {
     pub deviation_limit: Number,
     /// The coefficients of the dependency of the legs for `det = 0`.
     pub coefficients: [Number; 6],
-    /// The value of `sum c_i s_i` at every pose, with the squared lengths s_i; design units squared.
+    /// The value of `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
     pub constant: Number,
     /// Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null without lengths.
     pub lengths_defect: Option<Number>,

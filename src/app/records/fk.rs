@@ -31,7 +31,7 @@ use platform::manipulator::{Manipulator, height_above_base};
 #[serde(untagged)]
 pub enum FkAnswer {
     /// The answers for a CSV file of lengths, one for each row.
-    Rows(FkRowsAnswer),
+    Rows(Box<FkRowsAnswer>),
     /// The answer for one set of lengths.
     One(Box<FkOneAnswer>),
 }

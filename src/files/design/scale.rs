@@ -217,10 +217,10 @@ mod tests {
             )
         };
         let inches = design(&text("in"));
-        assert_eq!(inches.manipulator().base_joints()[0].x, -6.0);
-        assert_eq!(inches.manipulator().platform_joints()[2].z, 63.0);
+        assert_eq!(inches.manipulator().base_joints()[0].x.to_bits(), (-6.0_f64).to_bits());
+        assert_eq!(inches.manipulator().platform_joints()[2].z.to_bits(), 63.0_f64.to_bits());
         let mm = inches.in_units("mm").unwrap();
-        assert_eq!(mm.manipulator().base_joints()[0].x, -152.4);
+        assert_eq!(mm.manipulator().base_joints()[0].x.to_bits(), (-152.4_f64).to_bits());
         assert_eq!(mm.exact_joints(Body::Base), design(&text("mm")).exact_joints(Body::Base));
         assert!(mm.to_toml().contains("-6 in") && mm.to_toml().contains("r ft"));
         let refused = |text: &str| parse(text, Format::Toml).unwrap_err()[0].message.clone();

@@ -92,7 +92,7 @@ impl Neighbour {
         if listed.len() < self.most {
             return None;
         }
-        let there = Certifier::new(&self.manipulator, self.lengths(s)?).ok()?;
+        let there = Certifier::new(&self.manipulator, self.lengths(s)).ok()?;
         let single = |(root, own): &(&FkRoot, &Certificate)| {
             let near = there.root_near(NewtonStart::Point(root.dual_quaternion.as_ref()?)).ok()?.certificate;
             is_captured_by(&near, own).then_some(near)
@@ -129,14 +129,14 @@ impl Neighbour {
     }
 
     /// All squared lengths that real poses of the design at the lengths `s` can have in the neighbour.
-    fn lengths(&self, s: &SquaredLegLengths) -> Option<SquareData> {
+    fn lengths(&self, s: &SquaredLegLengths) -> SquareData {
         let (mut radius, middle) = (s.radius(), s.middle());
         for i in 0..6 {
             let d = self.distances[i];
             let longest = (middle[i].hi() + radius[i]).max(0.0).sqrt() * UP;
             radius[i] = (radius[i] + d * (2.0 * longest + d)) * UP;
         }
-        Some(SquareData::within(middle, radius))
+        SquareData::within(middle, radius)
     }
 }
 

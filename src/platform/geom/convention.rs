@@ -11,6 +11,8 @@
 //!
 //! so that the pivot, and not the origin of the platform, stands at `C q`.
 
+use std::fmt::Write as _;
+
 use std::fmt;
 use std::str::FromStr;
 
@@ -356,7 +358,7 @@ impl UpAxis {
         }
     }
 
-    fn from_ours(self, v: Vector3<f64>) -> Vector3<f64> {
+    fn theirs_of(self, v: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Y => Vector3::new(v.x, v.z, -v.y),
             Self::Z => v,
@@ -530,7 +532,7 @@ impl PoseConvention {
     pub fn as_stated(&self, pose: &Pose, home: &Pose) -> Pose {
         let up = self.up_axis();
         let own = self.measured_from().as_listed(&self.pivoted(*pose, home, -1.0), home);
-        Pose { rotation: up.turned(&own.rotation, UpAxis::from_ours), position: up.from_ours(own.position) }
+        Pose { rotation: up.turned(&own.rotation, UpAxis::theirs_of), position: up.theirs_of(own.position) }
     }
 
     /// From the pose whose position is that of the pivot to that of the origin (`sign` 1), and back.
@@ -618,10 +620,13 @@ impl PoseConvention {
         let order = self.order();
         let mut out = match order {
             RotationOrder::Vector => format!("Rotations are rotation vectors (a, b, c) in {unit}."),
-            _ => format!("Angles a, b, c are in {unit} in the order {order}: R = {}.", order.formula()),
+            RotationOrder::Turns(..) => {
+                format!("Angles a, b, c are in {unit} in the order {order}: R = {}.", order.formula())
+            }
         };
         if let Some(pivot) = self.pivot.filter(|pivot| *pivot != Vector3::zeros()) {
-            out += &format!(
+            let _ = write!(
+                out,
                 " Positions are those of the platform point ({}, {}, {}).",
                 pivot.x, pivot.y, pivot.z
             );

@@ -96,6 +96,7 @@ pub struct WrongAnswer {
 
 /// The result of one problem.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "a row of measured yes or no")]
 pub(super) struct ProblemOutcome {
     pub(super) k: u64,
     pub(super) verdict: Validation,

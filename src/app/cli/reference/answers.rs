@@ -60,7 +60,7 @@ impl Field {
 /// All answers with all records they name.
 struct Answers {
     /// In the order of the page.
-    answers: Vec<&'static str>,
+    names: Vec<&'static str>,
     definitions: BTreeMap<String, Value>,
     /// Records with a section of their own; all others stand below the one field that has them.
     sections: BTreeSet<String>,
@@ -160,7 +160,7 @@ fn add(all: &mut BTreeMap<String, Value>, found: &Map<String, Value>) {
     let mut text = Value::Object(found.clone()).to_string();
     for (name, schema) in found.iter().filter(|(name, schema)| clashes(name, schema)) {
         let is_free = |new: &String| !found.contains_key(new) && !clashes(new, schema);
-        if let Some(new) = (2..).map(|k| format!("{name}{k}")).find(is_free) {
+        if let Some(new) = (2..=found.len() + all.len() + 2).map(|k| format!("{name}{k}")).find(is_free) {
             text = text.replace(&format!("#/$defs/{name}\""), &format!("#/$defs/{new}\""));
             names.insert(name, new);
         }
@@ -190,7 +190,8 @@ impl Answers {
             let found = schema.get("$defs").and_then(Value::as_object).cloned().unwrap_or_default();
             add(&mut definitions, &found);
         }
-        let mut all = Self { answers, definitions, sections: BTreeSet::new(), common: BTreeSet::new() };
+        let mut all =
+            Self { names: answers, definitions, sections: BTreeSet::new(), common: BTreeSet::new() };
         all.find_sections();
         all.find_common();
         all
@@ -280,10 +281,12 @@ impl Answers {
 
     fn find_common(&mut self) {
         let mut seen: BTreeMap<Field, usize> = BTreeMap::new();
-        for root in self.answers.iter().copied().chain(self.sections.iter().map(String::as_str)) {
+        for root in self.names.iter().copied().chain(self.sections.iter().map(String::as_str)) {
             let mut fields = BTreeSet::new();
             self.collect_fields(root, &self.definitions[root], &mut fields);
-            fields.into_iter().for_each(|field| *seen.entry(field).or_default() += 1);
+            for field in fields {
+                *seen.entry(field).or_default() += 1;
+            }
         }
         let mut best: BTreeMap<String, (usize, Field)> = BTreeMap::new();
         let is_common = |(field, n): &(Field, usize)| *n >= COMMON && count(&field.meaning) >= LEAST_COMMON;
@@ -322,7 +325,7 @@ impl Answers {
         let others = self.definitions.iter().filter(|(other, found)| {
             let smaller =
                 own_properties(found).count() < own.len() || name.is_empty() || other.as_str() < name;
-            other.as_str() != name && !self.answers.contains(&other.as_str()) && smaller && is_part(found)
+            other.as_str() != name && !self.names.contains(&other.as_str()) && smaller && is_part(found)
         });
         others.max_by_key(|(_, found)| own_properties(found).count()).map(|(other, _)| other.as_str())
     }
@@ -546,7 +549,7 @@ impl Answers {
             })
             .collect();
         needed.iter().flatten().for_each(|record| *users.entry(record).or_default() += 1);
-        for (name, records) in self.answers.iter().zip(&needed) {
+        for (name, records) in self.names.iter().zip(&needed) {
             let title = match *name {
                 "error" => "Refusals and failures".to_string(),
                 "help" => "`equipod --help`".to_string(),
@@ -560,7 +563,9 @@ impl Answers {
         out.push_str("## Records of several answers\n\n");
         let several = users.iter().filter(|(_, n)| **n > 1).map(|(name, _)| *name);
         let several: BTreeSet<&str> = several.chain(RECORDS_OF_ALL).collect();
-        several.into_iter().for_each(|name| out.push_str(&self.section(name)));
+        for name in several {
+            out.push_str(&self.section(name));
+        }
         out + &self.lists_of_words()
     }
 }

@@ -101,7 +101,9 @@ pub(super) fn assumed(sentences: &[String]) -> Sheet {
     let mut sheet = Sheet::new();
     if !sentences.is_empty() {
         sheet.line("Assumed:");
-        sentences.iter().for_each(|sentence| say!(sheet, "  {sentence}"));
+        for sentence in sentences {
+            say!(sheet, "  {sentence}");
+        }
     }
     sheet
 }

@@ -68,10 +68,10 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
     );
     match &b.singular_within {
         Some(s) => {
-            say!(out, "  At {} times the {shape} there is a singular pose, proved.", figure(s.scale.0))
+            say!(out, "  At {} times the {shape} there is a singular pose, proved.", figure(s.scale.0));
         }
         None => {
-            say!(out, "  No singular pose was found up to {} times the {shape}.", figure(b.searched_scale.0))
+            say!(out, "  No singular pose was found up to {} times the {shape}.", figure(b.searched_scale.0));
         }
     }
 }

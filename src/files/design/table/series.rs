@@ -541,7 +541,8 @@ mod tests {
         for order in platform::geom::QuaternionOrder::BOTH {
             let convention = PoseConvention { quaternion: Some(order), ..PoseConvention::default() };
             let found = poses("qw,qx,qy,qz,x,y,z,note\n0,1,0,0,10,20,30,\"a, b\"\n", &convention);
-            assert_eq!(found.rows[0].value.quaternion(), [0.0, 1.0, 0.0, 0.0]);
+            let bits = found.rows[0].value.quaternion().map(f64::to_bits);
+            assert_eq!(bits, [0.0_f64, 1.0, 0.0, 0.0].map(f64::to_bits));
             assert!(found.guesses.iter().any(|g| g.contains("`note`")), "{:?}", found.guesses);
         }
     }
@@ -556,7 +557,8 @@ mod tests {
         let pose = Pose::new([10.0, 20.0, 30.0], platform::geom::Angles::from_radians([1.0, 0.0, 0.0]));
         let named = "l6,l5,l4,l3,l2,l1,time,yaw_rad,pitch_rad,roll_rad,x_mm,y_mm,z_mm\n6,5,4,3,2,1,9,0,0,1,10,20,30\n";
         assert_eq!(read(named), (pose, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
-        assert_eq!(read("1,2,3,4,5,6,7,8,9,10,11,12\n").1, [7.0, 8.0, 9.0, 10.0, 11.0, 12.0]);
+        let bits = read("1,2,3,4,5,6,7,8,9,10,11,12\n").1.map(f64::to_bits);
+        assert_eq!(bits, [7.0_f64, 8.0, 9.0, 10.0, 11.0, 12.0].map(f64::to_bits));
         let quaternion = "x,y,z,qw,qx,qy,qz,leg_1,leg_2,leg_3,leg_4,leg_5,leg_6\n1,2,3,1,0,0,0,4,5,6,7,8,9\n";
         assert_eq!(read(quaternion).1, [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
     }

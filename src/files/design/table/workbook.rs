@@ -1,5 +1,6 @@
 //! Spreadsheets of Excel and `LibreOffice` as text: the cells of one sheet, separated by tabs.
 
+use std::fmt::Write as _;
 use std::io::Cursor;
 
 use calamine::{Data, Range, Reader, open_workbook_auto_from_rs};
@@ -36,10 +37,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
     }
     let mut guess = format!("The sheet `{name}` of the spreadsheet is read.");
     if !others.is_empty() {
-        guess.push_str(&format!(
+        let _ = write!(
+            guess,
             " Save another sheet as CSV to read that one: {} have numbers too.",
             others.join(", ")
-        ));
+        );
     }
     // empty rows above the first cell keep their place, so that line numbers are those of the spreadsheet
     let above = sheet.start().map_or(0, |(row, _)| row);

@@ -72,7 +72,9 @@ fn link(out: &mut String, name: &str, mass: Option<&Solid>, shapes: &[Shape]) {
             real(solid.mass)
         );
     }
-    shapes.iter().for_each(|one| shape(out, one));
+    for one in shapes {
+        shape(out, one);
+    }
     out.push_str("  </link>\n");
 }
 

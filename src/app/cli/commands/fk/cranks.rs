@@ -176,7 +176,7 @@ impl CrankMachine<'_> {
             Some(FkRowRecord { outcome: FkRowOutcome::Solved(answer), .. }) if one => FkAnswer::One(answer),
             last => {
                 rows.extend(last);
-                FkAnswer::Rows(FkRowsAnswer { frames: (&self.frames.convention).into(), rows })
+                FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&self.frames.convention).into(), rows }))
             }
         }
     }

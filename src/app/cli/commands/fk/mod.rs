@@ -33,6 +33,7 @@ use self::lengths::GivenLengths;
 
 /// Arguments of `fk`.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of the command line")]
 pub(crate) struct FkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
@@ -193,12 +194,11 @@ fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) ->
         let required = design.requirements();
         answer = answer.with_limits(&design.reach(&required));
     }
-    match table.text(design, &answer) {
-        Some(text) => Answer::new(exit, answer, text),
-        None => {
-            let sheet = sheet::answers::fk(&design.name, &design.units, &answer);
-            Answer::new(exit, answer, sheet)
-        }
+    if let Some(text) = table.text(design, &answer) {
+        Answer::new(exit, answer, text)
+    } else {
+        let sheet = sheet::answers::fk(&design.name, &design.units, &answer);
+        Answer::new(exit, answer, sheet)
     }
 }
 
@@ -221,7 +221,7 @@ fn many(
     let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, frames)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
     let rows = solved.into_iter().map(|(_, record)| record).collect();
-    (exit, FkAnswer::Rows(FkRowsAnswer { frames: (&frames.convention).into(), rows }))
+    (exit, FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&frames.convention).into(), rows })))
 }
 
 /// Exit code and record of one row.

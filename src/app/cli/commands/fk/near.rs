@@ -67,7 +67,7 @@ pub(super) fn followed(
             let table = PoseTable { time_name: series.time_name.clone(), ..*table };
             answered(
                 exit,
-                FkAnswer::Rows(FkRowsAnswer { frames: (&table.frames.convention).into(), rows }),
+                FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&table.frames.convention).into(), rows })),
                 design,
                 &table,
             )

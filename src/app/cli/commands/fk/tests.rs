@@ -90,7 +90,7 @@ fn a_row_without_answer_says_why_in_the_last_column() {
         sheet::answers::fk(
             "x",
             "mm",
-            &FkAnswer::Rows(FkRowsAnswer { frames: (&PoseConvention::default()).into(), rows })
+            &FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&PoseConvention::default()).into(), rows }))
         )
         .to_string(),
         "line  method         finite  real  complete\n   \

@@ -338,11 +338,10 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
         guesses,
     };
     let exit = if singular_home.is_none() { Exit::Yes } else { Exit::No };
-    Ok(match text {
-        Some(text) => Answer::new(exit, answer, text),
-        None => {
-            let sheet = sheet::answers::new_design(&answer, design.has_cranks());
-            Answer::new(exit, answer, sheet)
-        }
+    Ok(if let Some(text) = text {
+        Answer::new(exit, answer, text)
+    } else {
+        let sheet = sheet::answers::new_design(&answer, design.has_cranks());
+        Answer::new(exit, answer, sheet)
     })
 }

@@ -131,7 +131,7 @@ impl LinkedModel {
 type Piece = BTreeSet<usize>;
 
 impl Mechanism {
-    fn is_slide(joint: &&ModelJoint) -> bool {
+    fn is_slide(joint: &ModelJoint) -> bool {
         joint.kind == JointKind::Slide
     }
 
@@ -191,7 +191,7 @@ impl Mechanism {
     /// Closes the loops of a tree: loose leg ends are joined to the platform, or to the base if the legs hang on the
     /// platform.
     pub(super) fn close_loops(&mut self, format: &str) -> Result<(), String> {
-        let slides: Vec<ModelJoint> = self.joints.iter().filter(Self::is_slide).cloned().collect();
+        let slides: Vec<ModelJoint> = self.joints.iter().filter(|j| Self::is_slide(j)).cloned().collect();
         let base = self.piece_of(WORLD);
         let mut ends: BTreeSet<usize> = BTreeSet::new();
         let mut hanging = Vec::new();
@@ -238,8 +238,12 @@ impl Mechanism {
                 named(self, &feet)
             ));
         }
-        tips.into_iter().for_each(|tip| self.join(tip, platform));
-        feet.into_iter().for_each(|foot| self.join(foot, WORLD));
+        for tip in tips {
+            self.join(tip, platform);
+        }
+        for foot in feet {
+            self.join(foot, WORLD);
+        }
         Ok(())
     }
 
