@@ -539,7 +539,7 @@ impl Answers {
         out.push('\n');
         let mut users: BTreeMap<&str, usize> = BTreeMap::new();
         let needed: Vec<Vec<&str>> = self
-            .answers
+            .names
             .iter()
             .map(|name| {
                 let mut found = Vec::new();

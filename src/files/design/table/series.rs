@@ -560,7 +560,10 @@ mod tests {
         let bits = read("1,2,3,4,5,6,7,8,9,10,11,12\n").1.map(f64::to_bits);
         assert_eq!(bits, [7.0_f64, 8.0, 9.0, 10.0, 11.0, 12.0].map(f64::to_bits));
         let quaternion = "x,y,z,qw,qx,qy,qz,leg_1,leg_2,leg_3,leg_4,leg_5,leg_6\n1,2,3,1,0,0,0,4,5,6,7,8,9\n";
-        assert_eq!(read(quaternion).1, [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        assert_eq!(
+            read(quaternion).1.map(f64::to_bits),
+            [4.0_f64, 5.0, 6.0, 7.0, 8.0, 9.0].map(f64::to_bits)
+        );
     }
 
     #[test]
