@@ -46,7 +46,7 @@ fn a_manoeuvre_has_forces_and_limits_for_every_leg() {
     let (code, doc) = asked(&[SIMULATOR, "--sine", "z:0.05:3.5"]);
     assert_eq!((code, &doc["met"]), (Some(1), &Value::from(false)));
     let text = String::from_utf8(equipod(&["motion", SIMULATOR, "--sine", "z:0.05:3.5"]).stdout).unwrap();
-    assert!(text.contains("exceeds its limits: leg_speed"), "{text}");
+    assert!(text.contains("exceeds its limits: leg speed, maximum"), "{text}");
 }
 
 #[test]

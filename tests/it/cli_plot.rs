@@ -51,7 +51,7 @@ fn a_workspace_ends_at_the_limits_of_the_design() {
     for text in [&positions, &orientations] {
         assert!(text.contains("class=\"boundary\"") && text.contains(">reachable<"));
     }
-    assert!(positions.contains(">leg too long<") && positions.contains("[mm]"));
+    assert!(positions.contains(">leg length, maximum<") && positions.contains("[mm]"));
     assert!(orientations.contains("rx [degrees]"));
     // a design without limits of its own ends at singular poses only, and says so
     let free = svg(&["workspace", "designs/lee-shim.toml", "--slice", "rx,rz", "--resolution", "61"]);

@@ -91,7 +91,7 @@ fn the_midline_platform_is_singular_and_an_unrelated_one_is_not_equivalent() {
     let out = verify(&octahedral, &other, &["--samples", "1"]);
     assert_eq!(out.status.code(), Some(1), "{out:?}");
     let text = String::from_utf8(out.stdout).unwrap();
-    assert!(text.contains("not_equivalent") && text.contains("misses the squared length"), "{text}");
+    assert!(text.contains("not equivalent") && text.contains("misses the squared length"), "{text}");
 }
 
 #[test]

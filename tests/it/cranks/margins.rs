@@ -172,7 +172,7 @@ fn the_head_is_assessed_and_keys_of_cranks_are_written() {
         "{doc}"
     );
     assert_eq!((&rows[0]["status"], &rows[2]["status"]), (&"met".into(), &"met".into()), "{doc}");
-    assert!(rows[0]["proved_margin"].as_f64().unwrap() > 8.0 && rows[4]["unit"] == "force mm");
+    assert!(rows[0]["proved_margin"].as_f64().unwrap() > 8.0 && rows[4]["unit"] == "N mm");
     assert!(rows.iter().all(|row| row["margin"].as_f64().unwrap() > 0.0), "{doc}");
     let design = limited();
     let (again, _) = parse_with_cranks(&design.to_toml(), Format::Toml).unwrap();

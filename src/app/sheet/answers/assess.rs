@@ -17,7 +17,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.table(table(found));
     sheet.space();
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
-    sheet.line("The proved margin holds at every pose judged; the least margin was found at the worst pose.");
+    sheet.line("The proved margin is a lower bound over the poses judged; the least margin was found at the worst pose.");
     if found.met.is_none() {
         sheet
             .line("Poses between those looked at may violate what is not proved; more --cells may prove it.");
@@ -155,7 +155,7 @@ pub fn table(found: &AssessAnswer) -> Table {
         let short = if m.reserve_kept == Some(false) { Tone::No } else { Tone::Plain };
         row(
             m.name.label(),
-            Cell::toned(m.status.name(), tone),
+            Cell::toned(m.status.name().replace('_', " "), tone),
             [&figure(margin), &proved],
             Cell::toned(figure(m.margin_with_reserve.0), short),
             [&m.unit, &m.between.join(", "), &place(m.pose.as_ref())],

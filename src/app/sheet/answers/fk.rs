@@ -190,7 +190,7 @@ fn poses(out: &mut Sheet, name: &str, units: &str, s: &SolvedRecord, frames: Opt
         };
         say!(
             out,
-            "{name}: {} {}, {} of them real{undecided} (method {})",
+            "{name}: {} finite {}, {} of them real{undecided} (method {})",
             s.finite_count,
             if s.finite_count == 1 { "pose" } else { "poses" },
             s.real_count,

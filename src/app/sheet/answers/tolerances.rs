@@ -152,8 +152,8 @@ fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
     match solved.largest_share {
         _ if solved.within_bound => "Solved, no error looked at in this budget exceeds the bounds".into(),
         Some(share) => format!(
-            "The first order is too wide: solved, errors in the budget use up {} of the bound{radius}",
-            figure(share.0)
+            "The first order is too wide: solved, errors in the budget exceed the bounds by {} %{radius}",
+            figure(100.0 * (share.0 - 1.0))
         ),
         None => format!("The first order is too wide: poses with errors in the budget were lost{radius}"),
     }
