@@ -174,35 +174,35 @@ WorkspaceWord = Literal["default", "design"]
 
 
 class AccuracyRecord(Record):
-    """How far the pose may be off."""
+    """The allowed error of the pose."""
 
-    #: Of the platform origin, design units.
+    #: Error of the platform origin, design units.
     position: float
-    #: Angle of rotation.
+    #: Error of the orientation, degrees.
     rotation_deg: float
 
 
 class AlignmentRecord(Record):
     """The rigid motions that make one design equivalent to another."""
 
-    #: One sentence with the numbers that decided.
+    #: The result in one sentence, with the numbers that decided.
     explanation: str
-    #: The same with base and platform of the second design exchanged.
+    #: The result with base and platform of the second design exchanged.
     exchanged: OtherAlignmentRecord
-    #: The same with the mirror image of the second design.
+    #: The result with the mirror image of the second design.
     mirrored: OtherAlignmentRecord
     status: Union[Literal["found", "none", "undecided"], None]
-    #: Nearest to no motion first.
+    #: The motions, the smallest first.
     motions: Union[tuple[MotionRecord, ...], None]
-    #: There are no others.
+    #: Whether the list of motions is complete.
     all: Union[bool, None]
-    #: Dimension of the families the motions lie in.
+    #: Dimension of the families that contain the motions.
     freedom: Union[int, None]
-    #: The number that shows it.
+    #: The quantity in which the designs differ, which proves it.
     difference: Union[DifferenceRecord, None]
-    #: How near a motion comes.
+    #: The motion that comes nearest.
     nearest: Union[NearestMotionRecord, None]
-    #: Why not.
+    #: The reason.
     reason: Union[AlignmentUndecided, None]
 
 
@@ -210,7 +210,7 @@ class AssemblyRecord(Record):
     """Whether a singular platform can be assembled."""
 
     verdict: Union[Literal["incompatible", "no_real_pose", "undecided", "real"], None]
-    #: By how much, relative.
+    #: The relative violation.
     defect: Union[float, None]
     #: Squared lengths of the octahedral platforms.
     octahedral_squared_lengths: Union[CornerLengthsRecord, None]
@@ -223,70 +223,71 @@ class AssemblyRecord(Record):
 class AssessAnswer(Record):
     """The answer of `assess`."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: The design judged.
+    #: The name of the assessed design.
     name: str
-    #: What it is in this answer.
+    #: The role of the design in this answer.
     role: DesignRoleWord
-    #: True: every margin and det J are proved, for all poses that `judged` names; false: a violation or a
-    #: change of sign of det J is proved by its pose; null: neither.
+    #: The verdict for all poses that `judged` names. True: every margin and det J are proved. False: one
+    #: pose proves a violation or a change of sign of det J. Null: neither is proved.
     met: Union[bool, None]
-    #: The verdict in a sentence whose subject is the design.
+    #: The verdict in one sentence.
     explanation: str
-    #: The poses judged.
+    #: The poses assessed.
     judged: JudgedPosesRecord
-    #: The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at
-    #: the pose given; null: neither.
+    #: The verdict for the safety margins. True: every margin is proved to keep its safety margin. False:
+    #: the given pose proves the opposite. Null: neither is proved.
     reserve_kept: Union[bool, None]
-    #: The least of each kind.
+    #: The least margin of each kind.
     requirements: tuple[MarginRecord, ...]
-    #: The requirement with the least room as a share of its limit; null: none has a limit to compare with.
+    #: The requirement with the least margin as a share of its limit; null: no requirement has a limit to
+    #: compare with.
     tightest: Union[TightestRecord, None]
-    #: Whether there are singular poses.
+    #: Whether the workspace holds singular poses.
     regular: RegularityRecord
-    #: The same in a sentence.
+    #: The result on singular poses in one sentence.
     regular_explanation: str
-    #: Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit
-    #: and without a proof.
+    #: The worst conditioning of the Jacobian over the sampled poses: a value found, without limit and
+    #: proof.
     conditioning: LeastConditioningRecord
-    #: Poses looked at.
+    #: Number of poses sampled.
     poses: int
-    #: Cells over which margins were bounded.
+    #: Number of cells over which margins were bounded.
     cells: int
-    #: The lightest drive of the table that the design names with which its requirements are met; null: it
-    #: names none, or the answer is about something else.
+    #: The lightest drive that meets the requirements, from the table that the design names. Null: the
+    #: design names none, or the answer has another subject.
     lightest_drive: Union[LightestDriveRecord, None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
-    #: Assumptions about masses that the file leaves open, a sentence each; absent where no force, torque
-    #: or natural frequency is judged, and where the answer around this one has the list.
+    #: Assumptions about masses that the file leaves open, one sentence each. Absent: no force, torque or
+    #: natural frequency is assessed, or the enclosing answer has the list.
     assumptions: Union[tuple[str, ...], None]
 
 
 class BestLineRecord(Record):
-    """A line that joints of a body lie nearly on, in the frame of the body, design units."""
+    """A line that joints of a body lie nearly on, body frame, design units."""
 
     #: The body.
     body: Body
-    #: A point of the line, the centroid of the joints.
+    #: A point of the line: the centroid of the joints.
     point: tuple[Union[float, None], ...]
-    #: A unit vector along it.
+    #: A unit vector along the line.
     direction: tuple[Union[float, None], ...]
-    #: The greatest distance of a joint from the line.
+    #: The greatest distance of a joint from the line, design units.
     distance: Union[float, None]
-    #: The greatest distance of a joint from the centroid along the line.
+    #: The greatest distance of a joint from the centroid along the line, design units.
     reach: Union[float, None]
 
 
 class BeyondPrecisionRecord(Record):
     """Numbers of poses that were set aside."""
 
-    #: Of A.
+    #: Number of poses of A.
     a: int
-    #: Of B.
+    #: Number of poses of B.
     b: int
 
 
@@ -295,73 +296,78 @@ class BoundedProof(Record):
 
     #: Certified poses listed, with multiplicity.
     poses: int
-    #: Others, certified to be different and farther out, or at infinity.
-    far: int
+    #: Others, certified to be different and farther out, or at infinity; null: the proof needs no others.
+    far: Union[int, None]
     #: The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries
-    #: of real rotations are at most 1.
-    rotation: float
+    #: of real rotations are at most 1. Null: the proof is about real poses alone.
+    rotation: Union[float, None]
+    #: Largest distance of the ends of a leg, both together, from those of a neighbouring design that has
+    #: no more poses, in design units. The proof is then about real poses. Null: it is about far poses.
+    neighbour: Union[float, None]
+    #: The far poses, the nearest ones first.
+    others: tuple[FarPoses, ...]
 
 
 class BranchConflictRecord(Record):
-    """Why a branch or a part of it is empty."""
+    """A proof that a branch or a part of it is empty."""
 
     #: A short stable code.
     code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
-    #: One sentence with the numbers.
+    #: The proof in one sentence, with its numbers.
     message: str
 
 
 class BranchCountsRecord(Record):
-    """What became of the branches."""
+    """Counts of the verdicts on the branches."""
 
-    #: All of them.
+    #: All branches.
     total: int
-    #: Feasible ones.
+    #: Feasible branches.
     feasible: int
-    #: Proved empty: nothing of a zone lies within the bounds.
+    #: Proved empty: no part of a zone is within the bounds.
     infeasible_bounds: int
-    #: Proved empty: no room for the joints.
+    #: Proved empty: no space for the joints.
     infeasible_spacing: int
     #: Proved empty: |det A| is too small.
     infeasible_det: int
-    #: Covered by the bound over all offsets, not searched.
+    #: Covered by the bound over all offsets, without a search.
     bounded: int
-    #: Not decided.
+    #: Undecided.
     unproved: int
     #: The conic solver failed.
     solver_failure: int
 
 
 class BranchRecord(Record):
-    """A branch: a zone for each offset."""
+    """A branch: one zone for each offset."""
 
-    #: Zone of each offset: before, inside, beyond its edge.
+    #: Zone of each offset: before, inside or beyond its edge.
     branch: str
-    #: What became of it.
+    #: The outcome of the branch.
     verdict: BranchWord
-    #: Its own best, where it is dominated.
+    #: The best objective of the branch, if it is dominated.
     objective: Union[float, None]
-    #: Where that is reached.
+    #: The offsets with this objective.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: Parts of the branch searched.
+    #: Number of parts of the branch searched.
     cells: int
     #: Proved conflicts of the branch or of parts of it.
     conflicts: tuple[BranchConflictRecord, ...]
 
 
 class BudgetPosesRecord(Record):
-    """The poses looked at."""
+    """The poses evaluated."""
 
-    #: How many.
+    #: Number of poses.
     count: int
-    #: Whether the workspace is that of the design.
+    #: The source of the workspace.
     workspace: WorkspaceWord
 
 
 class CalibrateAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
@@ -369,137 +375,140 @@ class CalibrateAnswer(Record):
     units: str
     #: The convention in which measured poses were read, and of `in_frames`.
     frames: PoseConventionRecord
-    #: How it ended.
+    #: The outcome of the calibration.
     outcome: CalibrateOutcome
-    #: Why it ended so, in a sentence.
+    #: The reason of the outcome, one sentence.
     reason: str
-    #: What was found; null: nothing was measured, and poses to measure were asked for.
+    #: The calibration; null: nothing was measured, and poses to measure were asked for.
     calibration: Union[CalibrationRecord, None]
-    #: The poses at which another measurement says most, the best first.
+    #: The poses to measure next, the most informative first.
     next_poses: tuple[NextPoseRecord, ...]
-    #: The design that was written; null: none.
+    #: The design file written; null: none.
     path: Union[str, None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class CalibratedJointRecord(Record):
-    """A joint."""
+    """A calibrated joint."""
 
-    #: Its body.
+    #: The body of the joint.
     body: Body
-    #: Its name.
+    #: The name of the joint.
     joint: str
-    #: Where it is, frame of the body.
+    #: The position, design units, body frame.
     position: tuple[Union[float, None], ...]
-    #: Standard deviations of the coordinates; null: it was held.
+    #: Standard deviations of the coordinates, design units; null: the joint was held.
     deviations: Union[tuple[Union[float, None], ...], None]
-    #: From where the design has it.
+    #: The displacement from the position in the design, design units.
     moved: tuple[Union[float, None], ...]
 
 
 class CalibratedOffsetRecord(Record):
     """The offset of a leg."""
 
-    #: From 1.
+    #: The leg, from 1.
     leg: int
-    #: What the length shown is longer than the distance of the joints, design units.
+    #: The shown length minus the distance of the joints, design units.
     offset: Union[float, None]
-    #: Its standard deviation; null: it was held.
+    #: The standard deviation of the offset, design units; null: the offset was held.
     deviation: Union[float, None]
 
 
 class CalibratedPosesRecord(Record):
-    """Standard deviations of poses computed from lengths with the calibrated machine; the noise of these lengths comes on top."""
+    """Standard deviations of poses computed from lengths with the calibrated machine. The noise of the lengths adds to them."""
 
     #: Whether the design file has correlations.
     correlations: CorrelationsWord
-    #: Poses looked at.
+    #: Number of poses evaluated.
     poses: int
-    #: Root mean square of the distance by which the tool point is off, design units.
+    #: Root mean square error of the tool point, design units.
     position: DeviationRecord
-    #: Root mean square of the angle by which the orientation is off, degrees.
+    #: Root mean square error of the orientation, degrees.
     rotation_deg: DeviationRecord
 
 
 class CalibrationRecord(Record):
-    """What was found."""
+    """The calibrated machine with its residuals and deviations."""
 
-    #: Poses measured.
+    #: Number of measured poses.
     poses: int
-    #: Coordinates and offsets sought.
+    #: Number of unknown coordinates and offsets.
     unknowns: int
     #: The frames of joints, deviations and covariance.
     frames: CalibrationFrames
-    #: The motions from the frames of the measurements to those of the design; null: joints are in the
+    #: The motions from the frames of the measurements to the design frames; null: joints are given in the
     #: frames of the measurements.
     motions: Union[FrameMotionsRecord, None]
-    #: How uncertain measurements are.
+    #: Standard deviations of the measurements.
     noise: NoiseRecord
-    #: How far measurements cost.
+    #: The loss function of the fit.
     loss: LossRecord
-    #: Where the fit began.
+    #: The starting point of the fit.
     start: StartRecord
-    #: Whether its steps ended where they must.
+    #: Whether the fit converged.
     converged: bool
-    #: Steps in all.
+    #: Number of steps in all.
     steps: int
-    #: The joints that carry legs.
+    #: The calibrated joints: all joints that carry legs.
     joints: tuple[CalibratedJointRecord, ...]
-    #: Leg offsets in leg order: shown length less distance of the joints.
+    #: Leg offsets in leg order: shown length minus distance of the joints, design units.
     offsets: tuple[CalibratedOffsetRecord, ...]
-    #: Covariance of the unknowns, squared design units; directions that are not identified have none.
+    #: Covariance of the unknowns, squared design units; directions that are not identified contribute no
+    #: variance.
     covariance: CovarianceRecord
-    #: How uncertain poses are that are computed with the machine; null: not all unknowns are identified,
-    #: or the design has no pose to look at.
+    #: Uncertainty of poses computed with the machine; null: not all unknowns are identified, or the design
+    #: has no pose to evaluate.
     computed_poses: Union[ComputedPosesRecord, None]
-    #: Which changes of the machine the measurements see, and how well.
+    #: Observability of the machine's parameters by these measurements.
     observability: ObservabilityRecord
-    #: Residuals of the design as it is.
+    #: Residuals of the design before calibration.
     before: ResidualsRecord
     #: Residuals of the calibrated machine, without outliers.
     after: ResidualsRecord
-    #: Residuals of each pose for the machine that the other poses give, to first order, without outliers.
+    #: Leave-one-out residuals to first order, without outliers: each pose against the machine fitted to
+    #: the other poses.
     left_out: ResidualsRecord
     #: Residuals of the measurements of `--check`; null: there are none.
     check: Union[ResidualsRecord, None]
-    #: Lines of measurements without which the unknowns are not determined.
+    #: Lines of the measurements that the unknowns depend on: without one of them, the unknowns are not
+    #: determined.
     indispensable: tuple[int, ...]
-    #: Agreement of the residuals with the noise.
+    #: Test of the residuals against the noise.
     chi_square: ChiSquareRecord
-    #: Measurements that do not belong to the others, the farthest first.
+    #: Measurements that contradict the others, the farthest first.
     outliers: tuple[OutlierRecord, ...]
-    #: Two legs, from 1, whose measured lengths look exchanged: they are five times nearer to the design
-    #: when they change places; null: none do.
+    #: Two legs, from 1, with measured lengths probably exchanged: swapped, they are five times nearer to
+    #: the design. Null: none.
     exchanged_legs: Union[tuple[int, ...], None]
 
 
 class CaseRecord(Record):
     """A known kind of singular design."""
 
-    #: Which.
+    #: The name of the case.
     case: str
     #: The short code of the reason.
     reason: str
-    #: The legs it is about, from 1.
+    #: The legs of the case, from 1.
     legs: tuple[int, ...]
-    #: One sentence.
+    #: The case in one sentence.
     explanation: str
 
 
 class CertificateRecord(Record):
-    """The proof that a root exists and is alone, with all its numbers."""
+    """The proof that a root exists and is unique nearby, with all its numbers."""
 
     kind: Union[Literal["study", "cluster", "octahedral"], None]
-    #: Index of the coordinate that is 1.
+    #: Index of the coordinate that equals 1.
     patch: Union[int, None]
     #: A power of two, design units.
     unit: Union[float, None]
-    #: The centre.
+    #: The centre of the ball.
     centre: Union[ComplexRecord5, ComplexRecord4, None]
-    #: To be added to the centre.
+    #: Low-order parts of the centre, to be added to it.
     centre_low: Union[ComplexRecord5, None]
     #: One root lies within this distance of the centre.
     radius: Union[float, None]
@@ -509,27 +518,27 @@ class CertificateRecord(Record):
     contraction: Union[float, None]
     #: Precision of the centre.
     precision: Union[CentrePrecision, None]
-    #: Proved for all squared lengths that the data can mean.
+    #: Reality of the root, proved for all squared lengths within the rounding of the data.
     reality: Union[ProvedReality, None]
-    #: What holds the pose of the root.
+    #: Discs that contain the pose of the root.
     enclosure: Union[EnclosureRecord, None]
-    #: Their number, each counted with its multiplicity; 2 or more.
+    #: Number of roots, counted with multiplicity; at least 2.
     multiplicity: Union[int, None]
     #: Radius of the disc of t.
     reach: Union[float, None]
-    #: What is left beside the power of t that has the multiplicity as exponent, over this power, on the
-    #: circle; below 1.
+    #: Remainder of the equation divided by its leading term, the power of t with the multiplicity as
+    #: exponent, on the circle; below 1.
     dominance: Union[float, None]
     #: Legs 14 24 25 35 36 16, from 0.
     order: Union[tuple[int, ...], None]
-    #: The root is the mirror image, in the plane of the base, of the pose near the centre.
+    #: Whether the root is the mirror image, in the plane of the base, of the pose near the centre.
     mirrored: Union[bool, None]
 
 
 class CheckAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
@@ -539,66 +548,63 @@ class CheckAnswer(Record):
     units: str
     #: The size of the design, in its units: what distances are compared with.
     size: Union[float, None]
-    #: How exactly its joints are known.
+    #: The exactness of the design's joints.
     joints: JointsRecord
-    #: Null: the design as written is regular, and a singular one lies within rounding of it or within the
-    #: digits given; or joints are known between bounds only.
+    #: Whether every pose is singular. Null: undecided, since a singular design lies within rounding or the
+    #: digits given, or some joints are known only between bounds.
     architecturally_singular: Union[bool, None]
-    #: What the answer is proved about; within rounding: a singular design may have been meant. Null: not
-    #: decided.
+    #: The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
     level: Union[Level, None]
-    #: Decided exactly, for the joints as the numbers they are; null where they are known between bounds
-    #: only.
+    #: The exact decision for the joints as numbers; null: some joints are known only between bounds.
     singular_as_written: Union[bool, None]
-    #: What shows that the home pose of the design is singular; null: it is regular, or the design states
-    #: none.
+    #: The evidence that the home pose is singular; null: it is regular, or the design states none.
     singular_home: Union[SingularEvidenceWord, None]
     #: A short code of the reason; null: regular.
     reason: Union[str, None]
-    #: One sentence.
+    #: The verdict in one sentence.
     explanation: str
-    #: What proves the answer for the joints as written.
+    #: The proof of the answer for the joints as written.
     proof: ProofWord
-    #: One sentence on the proof.
+    #: The proof in one sentence.
     proof_explanation: str
     #: Rank of the leg vectors.
     leg_rank: int
-    #: Rank of the leg lines at almost every pose.
+    #: Generic rank of the Jacobian: the rank of the leg lines at almost every pose.
     jacobian_rank: int
-    #: A pose with that rank.
+    #: A pose at which the leg lines have this rank.
     witness: WitnessRecord
-    #: The first of the dependencies.
+    #: The first linear dependency of the leg vectors; null: there is none.
     dependency: Union[DependencyRecord, None]
-    #: Dependencies of leg vectors.
+    #: All linear dependencies of the leg vectors.
     dependencies: tuple[DependencyRecord, ...]
-    #: The legs of the first case.
+    #: The legs of the first known case, from 1.
     guilty_legs: Union[tuple[int, ...], None]
-    #: The cases that apply, most telling first.
+    #: The known cases that apply, the most specific first.
     cases: tuple[CaseRecord, ...]
-    #: The Griffis-Duffy type, where the joints lie on the sides of two triangles.
+    #: The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
     griffis_duffy: Union[GriffisDuffyRecord, None]
-    #: The nearest singular design that was found; null for a singular one.
+    #: The nearest singular design found; null: the design itself is singular.
     nearest_singular: Union[NearestSingularRecord, None]
-    #: Finite poses, real and complex, for generic leg lengths.
+    #: Number of finite poses, real and complex, for generic leg lengths.
     pose_count: PoseCountRecord
-    #: The points that six legs have in common, for generic lengths, by where they are; null where the
-    #: poses are not isolated or not counted.
+    #: Points common to the equations of six legs for generic lengths, by kind. Null: the poses are not
+    #: isolated, or not counted.
     common_points: Union[CommonPointsRecord, None]
-    #: How many isolated finite poses no lengths exceed, by a theorem.
+    #: An upper bound on the number of isolated finite poses, by a theorem.
     pose_bound: PoseBoundRecord
-    #: In which steps the poses can be found: whether by quadratic equations alone, and which part of the
-    #: platform can be placed before the rest.
+    #: The steps in which the poses can be computed: by quadratic equations alone, or with one part of the
+    #: platform first.
     solvability: Solvability
-    #: The line that fits the joints of each body best, base first: a body whose joints all lie on one
-    #: turns about it. A body with its joints in one place has none.
+    #: The best-fitting line through the joints of each body, base first. A body whose joints all lie on
+    #: one line can rotate about it. A body with all joints at one point has no line.
     best_lines: tuple[BestLineRecord, ...]
-    #: Singular values of the normalised leg vectors.
+    #: Singular values of the matrix of normalised leg vectors.
     singular_values: tuple[Union[float, None], ...]
-    #: How well conditioned the Jacobian is at random poses.
+    #: Inverse condition number of the Jacobian at random poses.
     jacobian_inverse_condition: ConditioningRecord
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
@@ -607,19 +613,19 @@ class ChiSquareRecord(Record):
 
     #: Sum of the squares of whitened residuals.
     value: Union[float, None]
-    #: Numbers less unknowns identified.
+    #: Number of residuals minus number of identified unknowns.
     degrees_of_freedom: int
-    #: The probability of a larger value, were model and noise right; null: the noise is estimated from the
-    #: same residuals.
+    #: The probability of a larger value if model and noise are right; null: the noise is estimated from
+    #: the same residuals.
     probability: Union[float, None]
 
 
 class ClosurePolynomialRecord(Record):
-    """The closure polynomial in one squared distance, with what it says about the number of real poses."""
+    """The closure polynomial in one squared distance, with its results on the number of real poses."""
 
-    #: The joints of the virtual leg; null where none is needed.
+    #: The joints of the virtual leg; null: none is needed.
     virtual_leg: Union[tuple[str, ...], None]
-    #: The joints whose squared distance is the unknown.
+    #: The two joints with the unknown squared distance.
     unknown: tuple[str, ...]
     #: The joints of the first triangle.
     start: tuple[str, ...]
@@ -627,43 +633,44 @@ class ClosurePolynomialRecord(Record):
     sequence: tuple[TrilaterationStepRecord, ...]
     #: The unknowns by their names.
     unknowns: tuple[str, ...]
-    #: The degree before factors without meaning are removed.
+    #: The degree before spurious factors are removed.
     degree_before: int
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The factors that were removed.
+    #: The spurious factors removed.
     removed: tuple[RemovedFactorRecord, ...]
-    #: Different complex roots; null with several unknowns, and where that is not proved.
+    #: Number of distinct complex roots; null: several unknowns, or not proved.
     distinct_roots: Union[int, None]
-    #: How the coefficients are known.
+    #: The representation of the coefficients.
     coefficients_known: CoefficientsWord
     #: The exponents of the unknowns in each term.
     exponents: tuple[tuple[int, ...], ...]
-    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
+    #: first.
     coefficients: tuple[str, ...]
-    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
-    #: are not exact.
+    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
+    #: that are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: How often each of them is a root.
+    #: The multiplicity of each real root.
     real_root_multiplicities: tuple[int, ...]
     #: Singular factors.
     factors: tuple[SingularFactorRecord, ...]
-    #: Real poses at each of them; null where that does not follow.
+    #: Number of real poses at each real root; null: not determined by the polynomial.
     real_poses_at_roots: Union[tuple[int, ...], None]
-    #: Real poses in all, proved; null where that does not follow.
+    #: Total number of real poses, proved; null: not determined by the polynomial.
     poses_real_proved: Union[int, None]
-    #: Bounds [low, high] of the coefficients, where they are not exact.
+    #: Bounds [low, high] of the coefficients; null: they are exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class ClosureRecord(Record):
     """The exact closure polynomial beside the poses."""
 
-    #: The joints of the virtual leg; null where none is needed.
+    #: The joints of the virtual leg; null: none is needed.
     virtual_leg: Union[tuple[str, ...], None]
-    #: The joints whose squared distance is the unknown.
+    #: The two joints with the unknown squared distance.
     unknown: Union[tuple[str, ...], None]
     #: The joints of the first triangle.
     start: Union[tuple[str, ...], None]
@@ -671,36 +678,37 @@ class ClosureRecord(Record):
     sequence: Union[tuple[TrilaterationStepRecord, ...], None]
     #: The unknowns by their names.
     unknowns: Union[tuple[str, ...], None]
-    #: The degree before factors without meaning are removed.
+    #: The degree before spurious factors are removed.
     degree_before: Union[int, None]
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The factors that were removed.
+    #: The spurious factors removed.
     removed: Union[tuple[RemovedFactorRecord, ...], None]
-    #: Different complex roots; null with several unknowns, and where that is not proved.
+    #: Number of distinct complex roots; null: several unknowns, or not proved.
     distinct_roots: Union[int, None]
-    #: How the coefficients are known.
+    #: The representation of the coefficients.
     coefficients_known: Union[CoefficientsWord, None]
     #: The exponents of the unknowns in each term.
     exponents: Union[tuple[tuple[int, ...], ...], None]
-    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
+    #: first.
     coefficients: Union[tuple[str, ...], None]
-    #: Bounds [low, high] of the coefficients, where they are not exact.
+    #: Bounds [low, high] of the coefficients; null: they are exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
-    #: are not exact.
+    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
+    #: that are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: How often each of them is a root.
+    #: The multiplicity of each real root.
     real_root_multiplicities: Union[tuple[int, ...], None]
     #: Singular factors.
     factors: Union[tuple[SingularFactorRecord, ...], None]
-    #: Real poses at each of them; null where that does not follow.
+    #: Number of real poses at each real root; null: not determined by the polynomial.
     real_poses_at_roots: Union[tuple[int, ...], None]
-    #: Real poses in all, proved; null where that does not follow.
+    #: Total number of real poses, proved; null: not determined by the polynomial.
     poses_real_proved: Union[int, None]
-    #: Why not.
+    #: The reason.
     error: Union[str, None]
 
 
@@ -720,40 +728,41 @@ class CommonPointsRecord(Record):
 
 
 class CompareAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: Of all designs.
+    #: The unit of lengths for all designs.
     length_unit: str
-    #: Of all designs.
+    #: The unit of forces for all designs.
     force_unit: str
-    #: The manoeuvres about home along which forces, speeds and powers are taken.
+    #: The manoeuvres about home; forces, speeds and powers are computed along them.
     manoeuvres: tuple[str, ...]
-    #: The accuracy for which joints are toleranced; null: none was asked for.
+    #: The accuracy for the joint tolerances; null: none was requested.
     accuracy: Union[AccuracyRecord, None]
-    #: Characteristic length of every conditioning in this answer: that of the first design.
+    #: Characteristic length of every conditioning in this answer: the value of the first design, design
+    #: units.
     characteristic_length: float
-    #: In the order in which they were given.
+    #: The designs in the order given.
     designs: tuple[FiguresRecord, ...]
-    #: The table and the page that were written.
+    #: The files written: the table and the page.
     paths: tuple[str, ...]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class ComparedRecord(Record):
-    """A verification in short."""
+    """A summary of a verification."""
 
-    #: Sets of lengths at which both designs were solved.
+    #: Number of length sets; both designs were solved at each.
     sample_count: int
     #: The largest distance of matched poses.
     worst_distance: Union[float, None]
-    #: Of the affine map.
+    #: The residual of the affine map.
     residual: Union[float, None]
-    #: Its determinant.
+    #: The determinant of the affine map.
     det: Union[float, None]
 
 
@@ -803,31 +812,32 @@ class ComplexRecord5(Record):
 
 
 class ComputedPosesRecord(Record):
-    """Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations; the noise of these lengths comes on top."""
+    """Standard deviations of poses computed from lengths, caused by the errors of the calibration with all correlations. The noise of the lengths adds to them."""
 
-    #: Poses looked at: those of the workspace at which the requirements of the design are met.
+    #: Number of poses evaluated: the poses of the workspace at which the requirements of the design are
+    #: met.
     poses: int
-    #: Root mean square of the distance by which the platform origin of the measurements is off, design
-    #: units: the median over the poses.
+    #: Root mean square error of the platform origin of the measurements, design units: the median over the
+    #: poses.
     position_median: Union[float, None]
-    #: The greatest of them.
+    #: Root mean square error of the platform origin, design units: the greatest over the poses.
     position_greatest: Union[float, None]
-    #: Root mean square of the angle by which the orientation is off, degrees: the median over the poses.
+    #: Root mean square error of the orientation, degrees: the median over the poses.
     rotation_deg_median: Union[float, None]
-    #: The greatest of them.
+    #: Root mean square error of the orientation, degrees: the greatest over the poses.
     rotation_deg_greatest: Union[float, None]
-    #: The pose with the greatest deviation of the position.
+    #: The pose with the greatest error of position.
     pose: PoseQuaternionRecord
 
 
 class ConditioningRecord(Record):
     """The inverse condition number of the Jacobian at random poses."""
 
-    #: How many poses.
+    #: The number of poses.
     poses: int
     #: The best.
     best: Union[float, None]
-    #: The median.
+    #: The median value.
     median: Union[float, None]
     #: The worst.
     worst: Union[float, None]
@@ -838,87 +848,88 @@ class ConflictReasonRecord(Record):
 
     #: A short stable code.
     code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
-    #: Branches with this as their first proof.
+    #: Number of branches with this as their first proof.
     branches: int
-    #: One sentence with the numbers of one of them.
+    #: The proof for one of these branches in one sentence, with its numbers.
     message: str
 
 
 class ConflictRecord(Record):
-    """Requirements that cannot be met together; without any one of them the others were met."""
+    """A conflict: a set of requirements that cannot be met together; without any one of them the others were met."""
 
-    #: The set is proved to be in conflict.
+    #: Whether the conflict is proved.
     proved: bool
-    #: What would have to give; empty where every branch is empty for reasons of its own.
+    #: The requirements in conflict, with the amounts to relax. Empty: the branches are empty for different
+    #: reasons.
     requirements: tuple[GiveRecord, ...]
-    #: Why the branches of the offsets are empty, by kind; empty where the search has no branches.
+    #: The reasons for empty branches of the offsets, by kind; empty: the search has no branches.
     reasons: tuple[ConflictReasonRecord, ...]
 
 
 class CornerLengthsRecord(Record):
     """Squared lengths origin + x direction with x in the interval."""
 
-    #: For x = 0.
+    #: The origin at x = 0.
     origin: tuple[Union[float, None], ...]
-    #: What x multiplies.
+    #: The direction of x.
     direction: tuple[Union[float, None], ...]
-    #: Where x may be.
+    #: The interval of x.
     interval: tuple[Union[float, None], ...]
 
 
 class CorrespondenceRecord(Record):
-    """Which leg of FROM each leg of TO is."""
+    """The leg of FROM that corresponds to each leg of TO."""
 
-    #: The leg of FROM, from 1; null: none of them.
+    #: The leg of FROM, from 1, for each leg of TO; null: none.
     legs: tuple[Union[int, None], ...]
-    #: Its distance from the leg of TO, over the size.
+    #: The distance of the two legs divided by the size of the design.
     distances: tuple[Union[float, None], ...]
-    #: Every leg of FROM is one leg of TO.
+    #: Whether every leg of FROM is one leg of TO.
     permutation: bool
-    #: All distances are zero.
+    #: Whether all distances are zero.
     exact: bool
 
 
 class CounterexampleRecord(Record):
-    """A pose that belongs to the lengths of one design and not to those of the other."""
+    """A pose that the lengths of one design allow and the corresponding lengths of the other do not."""
 
     #: Index into `samples`, from 0.
     sample: int
-    #: The design whose lengths the pose has: A or B.
+    #: The design that has the pose: A or B.
     solves: Literal["A", "B"]
     #: The pose.
     pose: ComplexRecord2
-    #: Whether a certificate proves the pose a solution of the one.
+    #: Whether a certificate proves that the pose is a solution for this design.
     certified: bool
-    #: The leg of the other design that is missed most, from 1.
+    #: The leg of the other design with the greatest error of length, from 1.
     leg: int
-    #: By how much its squared length is missed, relative to the squared size.
+    #: The error of its squared length, relative to the squared size.
     miss: Union[float, None]
-    #: Rounding to expect in this number.
+    #: The rounding error expected in this number.
     rounding: Union[float, None]
 
 
 class CounterexampleRecord2(Record):
-    """A pose that belongs to the lengths of one design and not to those of the other."""
+    """A pose that the lengths of one design allow and the corresponding lengths of the other do not."""
 
     #: Index into `samples`, from 0.
     sample: int
-    #: The design whose lengths the pose has: A or B.
+    #: The design that has the pose: A or B.
     solves: Literal["A", "B"]
     #: The pose.
     pose: ComplexRecord2
-    #: Whether a certificate proves the pose a solution of the one.
+    #: Whether a certificate proves that the pose is a solution for this design.
     certified: bool
-    #: The leg of the other design that is missed most, from 1.
+    #: The leg of the other design with the greatest error of length, from 1.
     leg: int
-    #: By how much its squared length is missed, relative to the squared size.
+    #: The error of its squared length, relative to the squared size.
     miss: Union[float, None]
-    #: Rounding to expect in this number.
+    #: The rounding error expected in this number.
     rounding: Union[float, None]
 
 
 class CountsRecord(Record):
-    """How many members the class has."""
+    """Counts of the members of the class."""
 
     #: Patterns of kept and moved legs.
     patterns: int
@@ -926,13 +937,13 @@ class CountsRecord(Record):
     classes: int
     #: Patterns up to all symmetries of the hexagon.
     classes_exchange: int
-    #: Ways in which legs share joints, the octahedral one included.
+    #: Topologies of shared joints, including the octahedral one.
     topologies: int
-    #: The same where base and platform may be exchanged.
+    #: The same with base and platform exchangeable.
     topologies_exchange: int
     #: Topologies that are reached by offsets introduced one at a time.
     sequential_topologies: int
-    #: The same where base and platform may be exchanged.
+    #: The same with base and platform exchangeable.
     sequential_topologies_exchange: int
     #: Patterns that are reached by offsets introduced one at a time.
     sequential_patterns: int
@@ -941,26 +952,26 @@ class CountsRecord(Record):
 
 
 class CovarianceRecord(Record):
-    """A covariance matrix."""
+    """The covariance matrix of the unknowns."""
 
     #: Names of rows and columns: `base.A1.x`, `offset.3`.
     unknowns: tuple[str, ...]
-    #: Rows.
+    #: The rows of the matrix.
     matrix: tuple[tuple[Union[float, None], ...], ...]
 
 
 class CrankFiguresRecord(Record):
-    """What cranks do over the poses that all rods reach."""
+    """The figures of the cranks over the poses that all rods reach."""
 
-    #: Least angle; null: no pose is reached.
+    #: Least crank angle, degrees; null: no pose is reached.
     least_deg: Union[float, None]
-    #: Greatest angle.
+    #: Greatest crank angle, degrees.
     greatest_deg: Union[float, None]
-    #: Least transmission angle: 0 at a singular crank.
+    #: Least transmission angle, degrees: 0 at a singular crank.
     transmission_deg: Union[float, None]
     #: Greatest torque under the payload and the loads, one at a time, force units times design units.
     torque: Union[float, None]
-    #: Greatest speed under the speed that the platform has to have, degrees per second.
+    #: Greatest crank speed at the platform speed that the design requires, degrees per second.
     speed_deg: Union[float, None]
     #: Greatest torque along the manoeuvres.
     motion_torque: Union[float, None]
@@ -971,27 +982,27 @@ class CrankFiguresRecord(Record):
 class CrankMotionRecord(Record):
     """A crank along a motion."""
 
-    #: From 1.
+    #: The leg of the crank, from 1.
     leg: int
-    #: Least angle.
+    #: The least angle, degrees.
     least_deg: ExtremeRecord
-    #: Greatest angle.
+    #: The greatest angle, degrees.
     greatest_deg: ExtremeRecord
-    #: Speed of the greatest size, degrees per second.
+    #: The speed of greatest size, degrees per second.
     speed_deg: ExtremeRecord
-    #: Acceleration of the greatest size, degrees per second squared.
+    #: The acceleration of greatest size, degrees per second squared.
     acceleration_deg: ExtremeRecord
-    #: Torque of the greatest size about the axis, force units times design units; null: no masses are
+    #: The torque of greatest size about the axis, force units times design units. Null: no masses are
     #: known, or torques are not determined. Cranks and rods count as massless.
     torque: Union[ExtremeRecord, None]
-    #: Root of the mean square of the torque over time.
+    #: Root mean square of the torque over time, force units times design units.
     rms_torque: Union[float, None]
-    #: Power of the greatest size, watts; negative where the drive brakes.
+    #: The power of greatest size, watts; negative: the drive brakes.
     power_w: Union[ExtremeRecord, None]
 
 
 class DecouplingLeg(Record):
-    """A sixth leg with which the platform is solved in steps, each a polynomial of low degree."""
+    """A sixth leg that allows a solution of the platform in steps, each a polynomial of low degree."""
 
     case: Union[Literal["off_the_line", "to_the_line", "to_the_joint"], None]
     #: The body.
@@ -1001,49 +1012,49 @@ class DecouplingLeg(Record):
 
 
 class DefaultReserveRecord(Record):
-    """What became of the reserve that a design does not state."""
+    """The result for a default safety margin that the design does not state itself."""
 
-    #: On every limit.
+    #: The safety margin on every limit, percent.
     percent: float
-    #: The platform found keeps it; false: no platform that keeps it was found, and the search went on
-    #: without.
+    #: Whether the platform found keeps it. False: no platform with it was found, and the search continued
+    #: without it.
     kept: bool
-    #: One sentence.
+    #: The result in one sentence.
     message: str
 
 
 class DependencyRecord(Record):
-    """A dependency of leg vectors: `sum c_i v_i = 0`."""
+    """A linear dependency of leg vectors: `sum c_i v_i = 0`."""
 
-    #: The legs in it, from 1.
+    #: The legs with nonzero coefficients, from 1.
     legs: tuple[int, ...]
     #: The numbers `c_i`.
     coefficients: tuple[Union[float, None], ...]
-    #: `sum c_i s_i` of the squared lengths of every pose.
+    #: The value of `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
     constant: Union[float, None]
     #: Dimension of the span of the base ends.
     base_dimension: int
     #: Dimension of the span of the platform ends.
     platform_dimension: int
-    #: By how much the lengths of the design miss the constant, relative; null without lengths.
+    #: Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null
+    #: without lengths.
     lengths_defect: Union[float, None]
 
 
 class DerivationRecord(Record):
-    """How A, c and det A of one platform of the class follow from coplanar joints, and what forward kinematics says."""
+    """The derivation of A, c and det A for one platform of the class from coplanar joints, with the forward kinematics as a check."""
 
-    #: The numbers are those of exact joints, and each moved joint lies on its line exactly; otherwise they
-    #: are those of the doubles.
+    #: Whether the numbers are exact: the joints are exact, and each moved joint lies exactly on its line.
+    #: Otherwise the numbers are doubles.
     exact: bool
-    #: One row of A for each moved leg, all offsets at once, from the legs of the octahedral platform.
+    #: One row of A for each moved leg, with all offsets at once, from the legs of the octahedral platform.
     moves: tuple[LegSlideRecord, ...]
-    #: The same one offset at a time, from the legs that are there before each move; det A is the product
-    #: of their `rest`. null: no order of single moves reaches the platform without two legs on one
-    #: another.
+    #: The moves one at a time, each from the legs before it; det A is the product of their `rest`. Null:
+    #: every order of single moves puts two legs on one another.
     sequence: Union[tuple[LegSlideRecord, ...], None]
     #: The factors of det A.
     factors: tuple[FactorRecord, ...]
-    #: Products over all six offsets, whose difference det A is; null: some leg is not moved.
+    #: Products over all six offsets; det A is their difference. Null: some leg is not moved.
     products: Union[OffsetProductsRecord, None]
     #: Forward kinematics of the octahedral platform and of this one, solved independently, and the leg map
     #: from one to the other.
@@ -1288,11 +1299,11 @@ class DesignPose(Record):
 
 
 class DesignSourceRecord(Record):
-    """A design that an answer is about."""
+    """A design of an answer."""
 
     #: The name of the design.
     name: str
-    #: The file it was read from, as it was named; null: it was made in memory, and its text is what it
+    #: The file as named by the caller; null: the design was made in memory, and its text is the text it
     #: would be saved as.
     path: Union[str, None]
     #: SHA-256 of the bytes of that file or text, hexadecimal.
@@ -1307,33 +1318,33 @@ class DesignSphere(Record):
 
 
 class DeviationRecord(Record):
-    """A standard deviation over the poses looked at."""
+    """A standard deviation over the poses evaluated."""
 
-    #: Half of the poses have at most this.
+    #: The median over the poses.
     median: Union[float, None]
-    #: The greatest.
+    #: The greatest value.
     greatest: Union[float, None]
-    #: What it would be at the same pose if every coordinate and offset were off for itself.
+    #: The value at the same pose if the errors of coordinates and offsets were independent.
     independent: Union[float, None]
-    #: The pose.
+    #: The pose with the greatest value.
     pose: PoseQuaternionRecord
-    #: Covariance of the shift of the tool point (design units) and the rotation vector (degrees) at the
-    #: pose, base frame.
+    #: Covariance at this pose of the shift of the tool point (design units) and the rotation vector
+    #: (degrees), base frame.
     covariance: tuple[tuple[Union[float, None], ...], ...]
 
 
 class DifferenceRecord(Record):
-    """An invariant that tells two designs apart."""
+    """An invariant that distinguishes two designs."""
 
-    #: Which.
+    #: The invariant.
     invariant: Invariant
     #: Its value for the first design.
     a: Union[float, None]
     #: Its value for the second.
     b: Union[float, None]
-    #: By how much they differ.
+    #: The difference of both values.
     gap: Union[float, None]
-    #: What a difference has to exceed.
+    #: The threshold for a difference.
     bound: Union[float, None]
 
 
@@ -1362,114 +1373,115 @@ class DiscsRecord2(Record):
 class DriveRecord(Record):
     """A drive of the table, in the units of the design."""
 
-    #: Its name.
+    #: The name of the drive.
     name: str
     #: Line of the table, from 1.
     line: int
-    #: It is proved to fit, proved not to, or neither (null).
+    #: Whether the drive fits: true and false are proved; null: undecided.
     fits: Union[bool, None]
-    #: The reserve on every limit is kept too, likewise.
+    #: Whether the safety margin on every limit is kept too: true and false are proved; null: undecided.
     reserve_kept: Union[bool, None]
-    #: The travel.
+    #: The travel, design units.
     stroke: Union[float, None]
-    #: Least and greatest length from joint centre to joint centre.
+    #: Least and greatest length from joint centre to joint centre, design units.
     leg_length: tuple[Union[float, None], ...]
-    #: Greatest force; null: the table does not say it.
+    #: Greatest force; null: not in the table.
     force: Union[float, None]
-    #: Greatest speed; null: the table does not say it.
+    #: Greatest speed; null: not in the table.
     speed: Union[float, None]
-    #: Mass; null: the table does not say it.
+    #: Mass; null: not in the table.
     mass: Union[float, None]
-    #: Stiffness along the drive; null: the table does not say it.
+    #: Stiffness along the drive; null: not in the table.
     stiffness: Union[float, None]
-    #: Price; null: the table does not say it.
+    #: Price; null: not in the table.
     price: Union[float, None]
-    #: Where the numbers are from; null: the table does not say it.
+    #: The source of the numbers; null: not in the table.
     source: Union[str, None]
-    #: What `assess` says of the design with the drive.
+    #: The result of `assess` for the design with the drive.
     assessment: AssessAnswer
-    #: Along the motions asked for.
+    #: The results along the requested motions.
     motions: tuple[MotionRunRecord, ...]
 
 
 class DriveSearchRecord(Record):
     """The search over the drives of a table."""
 
-    #: The name of the drive of the answer; null: with no drive was a platform found that is proved to meet
-    #: the requirements.
+    #: The name of the drive of the answer; null: no drive leads to a platform that is proved to meet the
+    #: requirements.
     chosen: Union[str, None]
-    #: What decides between drives with which the requirements are met.
+    #: The criterion for choosing among the drives that meet the requirements.
     ranked_by: DriveRanking
-    #: Of prices, as the table names it; null: it does not.
+    #: The currency of prices from the table; null: the table names none.
     currency: Union[str, None]
-    #: The search was told to end before every drive was tried that could win.
+    #: Whether the search was interrupted before every drive that could win was tried.
     interrupted: bool
-    #: One sentence.
+    #: The result in one sentence.
     message: str
     #: All drives, the best first.
     drives: tuple[SearchedDriveRecord, ...]
 
 
 class DriveSolutionRecord(Record):
-    """How the pose for lengths of drives was found."""
+    """The iteration for the pose with given drive lengths."""
 
-    #: What is known of it.
+    #: The status of the solution.
     status: DriveSolutionWord
-    #: Why there is no pose.
+    #: The reason if there is no pose; null: there is one.
     reason: Union[str, None]
-    #: The lengths that the drives show.
+    #: The lengths that the drives show, design units.
     lengths: tuple[float, ...]
-    #: The distances of the joints at the pose, to which it was followed.
+    #: The distances of the joints at the pose found, design units.
     distances: tuple[float, ...]
-    #: Steps of the fixed point.
+    #: Number of fixed-point steps.
     steps: int
-    #: The greatest ratio of two changes of the corrections, one after the other; 0 where there were none
-    #: above rounding.
+    #: The greatest ratio of two successive changes of the corrections; 0 if there were none above
+    #: rounding.
     factor: Union[float, None]
-    #: Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
+    #: Proved bound on the distance from this platform origin to the one with exactly these lengths, design
+    #: units.
     position_bound: Union[float, None]
-    #: Proved: its rotation is no farther away.
+    #: Proved bound on the angle to the rotation with exactly these lengths, degrees.
     angle_bound_deg: Union[float, None]
-    #: The factor by which the Newton map contracts around the pose; null: not proved.
+    #: The contraction factor of the Newton map around the pose; null: not proved.
     contraction: Union[float, None]
 
 
 class DrivesAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
-    #: True: a drive is proved to fit; false: every drive is proved not to; null: neither.
+    #: Whether some drive fits: true and false are proved; null: undecided.
     met: Union[bool, None]
-    #: The name of the drive to take: the cheapest that is proved to fit, the lightest of equally cheap
+    #: The name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap
     #: ones; null: there is none.
     chosen: Union[str, None]
-    #: All drives: those that fit, those that are undecided, those that do not; each by price, then mass.
+    #: All drives, in the order fitting, undecided, not fitting; within each group by price, then mass.
     drives: tuple[DriveRecord, ...]
-    #: Of prices, as the table names it; null: it does not.
+    #: The currency of prices from the table; null: the table names none.
     currency: Union[str, None]
-    #: Of lengths; speeds are in it per second.
+    #: The unit of lengths; speeds are in this unit per second.
     length_unit: str
-    #: Of forces.
+    #: The unit of forces.
     force_unit: str
-    #: Of masses.
+    #: The unit of masses.
     mass_unit: str
-    #: What neither the file nor the table says and was taken instead, a sentence each.
+    #: Assumed values that neither the file nor the table states, one sentence each.
     assumptions: tuple[str, ...]
     #: The design with the chosen drive; null: none fits.
     design: Union[Design, None]
     #: The file written.
     output: Union[str, None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class EnclosureRecord(Record):
-    """Discs that hold the entries of R and p of a root."""
+    """Discs that contain the entries of R and p of a root."""
 
     #: The entries of the rotation matrix, rows.
     R: DiscsRecord
@@ -1480,121 +1492,123 @@ class EnclosureRecord(Record):
 class ErrorMapRecord(Record):
     """The greatest errors of the pose by all causes together, to first order."""
 
-    #: Every joint is off by at most this in any direction.
+    #: The greatest error of each joint, in any direction, design units.
     joint_error: Union[float, None]
-    #: Every leg is longer or shorter than it shows by at most this.
+    #: The greatest error of each leg length, design units.
     length_error: Union[float, None]
-    #: Growth of base, platform and legs, as shares; with either sign.
+    #: Relative expansion of base, platform and legs, with either sign.
     growth: tuple[Union[float, None], ...]
-    #: Poses looked at: the corners and a sample of the region, and those that are listed.
+    #: Number of poses evaluated: the corners and a sample of the region, and the listed poses.
     poses: int
-    #: Of the tool point, design units.
+    #: Error of the tool point, design units.
     position: GreatestErrorRecord
-    #: Of the orientation, degrees.
+    #: Error of the orientation, degrees.
     rotation_deg: GreatestErrorRecord
-    #: The table of all poses that was written; null: none.
+    #: The table of all poses written; null: none.
     path: Union[str, None]
 
 
 class ExactNumberRecord(Record):
-    """A number that is known exactly, or as the doubles say it."""
+    """A number, exact or as a double."""
 
     #: The nearest double.
     value: Union[float, None]
-    #: The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null where it is known as doubles only.
+    #: The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null: known only as a double.
     exact: Union[str, None]
 
 
 class ExactRoundingOutcome(Record):
-    """The exact rounding, or why there is none."""
+    """The exact rounding, or the reason why there is none."""
 
     #: The grids used.
     grids: Union[GridsRecord, None]
-    #: Equivalence with its own octahedral platform is proved in exact arithmetic.
+    #: Whether exact arithmetic proves equivalence with its own octahedral platform.
     proved: Union[bool, None]
-    #: What leg map and forward kinematics say of it.
+    #: The verdict of leg map and forward kinematics.
     verdict: Union[RoundingVerdict, None]
-    #: Turns by 120 degrees take both triangles with their joints to themselves.
+    #: Whether rotations by 120 degrees map both triangles with their joints to themselves.
     three_fold: Union[bool, None]
-    #: Round the hexagon: [m, g] for t = m / g.
+    #: The offsets in order around the hexagon: [m, g] for t = m / g.
     fractions: Union[tuple[tuple[int, ...], ...], None]
     #: The joints.
     joints: Union[tuple[RoundedJointRecord, ...], None]
-    #: How good it is.
+    #: The figures of the rounded design.
     judgement: Union[JudgementRecord, None]
-    #: How it was found.
+    #: Statistics of the search.
     search: Union[RoundingSearchRecord, None]
-    #: What stands against it.
+    #: The obstacle.
     error: Union[NoRoundingError, None]
 
 
 class ExactRoundingRecord(Record):
-    """All joints exactly on the sides of two triangles whose corners are holes."""
+    """A rounding with all joints exactly on the sides of two triangles, with holes as their corners."""
 
     #: The grids used.
     grids: GridsRecord
-    #: Equivalence with its own octahedral platform is proved in exact arithmetic.
+    #: Whether exact arithmetic proves equivalence with its own octahedral platform.
     proved: bool
-    #: What leg map and forward kinematics say of it.
+    #: The verdict of leg map and forward kinematics.
     verdict: RoundingVerdict
-    #: Turns by 120 degrees take both triangles with their joints to themselves.
+    #: Whether rotations by 120 degrees map both triangles with their joints to themselves.
     three_fold: bool
-    #: Round the hexagon: [m, g] for t = m / g.
+    #: The offsets in order around the hexagon: [m, g] for t = m / g.
     fractions: Union[tuple[tuple[int, ...], ...], None]
     #: The joints.
     joints: tuple[RoundedJointRecord, ...]
-    #: How good it is.
+    #: The figures of the rounded design.
     judgement: JudgementRecord
-    #: How it was found.
+    #: Statistics of the search.
     search: RoundingSearchRecord
 
 
 class ExploreAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
-    #: Of the whole run.
+    #: The verdict of the whole run.
     verdict: Union[ExploreVerdict, None]
-    #: One sentence with the numbers that decided.
+    #: The verdict in one sentence, with the numbers that decided.
     explanation: Union[str, None]
     #: The name of the design.
     name: Union[str, None]
-    #: The files written.
+    #: The files written, in order.
     paths: Union[tuple[str, ...], None]
     #: The equivalence class.
     family: Union[FamilySizeRecord, None]
-    #: What `assess` says of the platform found; null: there is none, or the design requires nothing.
+    #: The result of `assess` for the platform found; null: there is none, or the design has no
+    #: requirements.
     assessment: Union[AssessAnswer, None]
-    #: The platform; null: none was found.
+    #: The platform found; null: none.
     optimize: Union[OptimizedRecord, None]
-    #: Conic programs that the library clarabel solved in the search for the platform; those with other
+    #: Number of conic programs solved by the library clarabel in the platform search; searches with other
     #: drives, for freedoms and for holes are not counted.
     conic_programs: Union[int, None]
-    #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
+    #: The cost of separate joints: figures of the design and of the platform to build; null: there is
+    #: none.
     price: Union[PriceRecord, None]
-    #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
+    #: The result for the default safety margin of 5 % on every limit; null: the design states its own.
     reserve: Union[DefaultReserveRecord, None]
-    #: The comparison of the design with the optimised one; null: there is none.
+    #: The comparison of the design with the optimised platform; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
-    #: The assessment is then that of this platform.
+    #: The assessment applies to this platform.
     holes: Union[OnHolesRecord, None]
-    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
-    #: search could not break it or did not look at it.
+    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
+    #: search could not break it or did not check it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table, with what the search came to with each; null where no table was given.
+    #: The drives of a table with the search result for each; null: no table was given.
     drive_search: Union[DriveSearchRecord, None]
-    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; null where none was looked at.
+    #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
+    #: the requirements, or no freedom was tried.
     freedoms: Union[tuple[FreedomRecord, ...], None]
     #: The poses of the design.
     fk: Union[PoseTotalsRecord, None]
-    #: What was done, in order.
+    #: The stages of the run, in order.
     stages: Union[tuple[StageRecord, ...], None]
     #: The families of replaceable legs.
     components: Union[FamiliesFoundRecord, None]
@@ -1602,23 +1616,23 @@ class ExploreAnswer(Record):
     moves: Union[MovesFoundRecord, None]
     #: The nearest octahedral platform; null: none was found.
     nearest: Union[NearestErrorRecord, None]
-    #: Whether the platform equivalent to the nearest octahedral one meets the requirements of the design:
-    #: true and false are proved; null: undecided, not looked at, or nothing is required.
+    #: Whether the platform equivalent to the nearest octahedral one meets the design's requirements: true
+    #: and false are proved. Null: undecided, not assessed, or nothing is required.
     nearest_meets_requirements: Union[bool, None]
 
 
 class ExploreGeneralAnswer(Record):
     """The answer of `explore` about a design that is not octahedral."""
 
-    #: Of the whole run.
+    #: The verdict of the whole run.
     verdict: ExploreVerdict
-    #: One sentence with the numbers that decided.
+    #: The verdict in one sentence, with the numbers that decided.
     explanation: str
     #: The name of the design.
     name: str
-    #: The files written.
+    #: The files written, in order.
     paths: tuple[str, ...]
-    #: What was done, in order.
+    #: The stages of the run, in order.
     stages: tuple[StageRecord, ...]
     #: The families of replaceable legs.
     components: FamiliesFoundRecord
@@ -1626,11 +1640,11 @@ class ExploreGeneralAnswer(Record):
     moves: Union[MovesFoundRecord, None]
     #: The nearest octahedral platform; null: none was found.
     nearest: Union[NearestErrorRecord, None]
-    #: Whether the platform equivalent to the nearest octahedral one meets the requirements of the design:
-    #: true and false are proved; null: undecided, not looked at, or nothing is required.
+    #: Whether the platform equivalent to the nearest octahedral one meets the design's requirements: true
+    #: and false are proved. Null: undecided, not assessed, or nothing is required.
     nearest_meets_requirements: Union[bool, None]
-    #: The comparison of the design with the equivalent found, else of the nearest octahedral platform with
-    #: its equivalent; null: there is neither.
+    #: The comparison of the design with its equivalent, or of the nearest octahedral platform with its
+    #: equivalent. Null: neither exists.
     verify: Union[ComparedRecord, None]
     #: The poses of the design.
     fk: PoseTotalsRecord
@@ -1639,39 +1653,41 @@ class ExploreGeneralAnswer(Record):
 class ExploreOctahedralAnswer(Record):
     """The answer of `explore` about an octahedral design."""
 
-    #: Of the whole run.
+    #: The verdict of the whole run.
     verdict: ExploreVerdict
-    #: One sentence with the numbers that decided.
+    #: The verdict in one sentence, with the numbers that decided.
     explanation: str
     #: The name of the design.
     name: str
-    #: The files written.
+    #: The files written, in order.
     paths: tuple[str, ...]
     #: The equivalence class.
     family: FamilySizeRecord
-    #: What `assess` says of the platform found; null: there is none, or the design requires nothing.
+    #: The result of `assess` for the platform found; null: there is none, or the design has no
+    #: requirements.
     assessment: Union[AssessAnswer, None]
-    #: The platform; null: none was found.
+    #: The platform found; null: none.
     optimize: Union[OptimizedRecord, None]
-    #: Conic programs that the library clarabel solved in the search for the platform; those with other
+    #: Number of conic programs solved by the library clarabel in the platform search; searches with other
     #: drives, for freedoms and for holes are not counted.
     conic_programs: int
-    #: What separate joints cost: figures of the design and of the platform to build; null: there is none.
+    #: The cost of separate joints: figures of the design and of the platform to build; null: there is
+    #: none.
     price: Union[PriceRecord, None]
-    #: What became of the reserve of 5 % on every limit; null: the design states a reserve.
+    #: The result for the default safety margin of 5 % on every limit; null: the design states its own.
     reserve: Union[DefaultReserveRecord, None]
-    #: The comparison of the design with the optimised one; null: there is none.
+    #: The comparison of the design with the optimised platform; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
-    #: The assessment is then that of this platform.
+    #: The assessment applies to this platform.
     holes: Union[OnHolesRecord, None]
-    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
-    #: search could not break it or did not look at it.
+    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
+    #: search could not break it or did not check it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table, with what the search came to with each; null where no table was given.
+    #: The drives of a table with the search result for each; null: no table was given.
     drive_search: Union[DriveSearchRecord, None]
-    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; null where none was looked at.
+    #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
+    #: the requirements, or no freedom was tried.
     freedoms: Union[tuple[FreedomRecord, ...], None]
     #: The poses of the design.
     fk: PoseTotalsRecord
@@ -1680,20 +1696,20 @@ class ExploreOctahedralAnswer(Record):
 class ExtremeRecord(Record):
     """A value with its time."""
 
-    #: With its sign.
+    #: The signed value.
     value: Union[float, None]
-    #: When.
+    #: Time of the value, seconds.
     time_s: float
 
 
 class FactorRecord(Record):
     """A factor of det A."""
 
-    #: In the offsets, such as 1 - t1.
+    #: The formula in the offsets, such as 1 - t1.
     formula: str
-    #: The equation of its zeros, where the platform is architecturally singular.
+    #: The equation of its zeros; the platform is architecturally singular there.
     zero: str
-    #: Its value at the offsets.
+    #: The value of the factor at the offsets.
     value: ExactNumberRecord
 
 
@@ -1702,29 +1718,29 @@ class FailureRecord(Record):
 
     #: A stable short code, `fk::not_applicable` for example.
     code: str
-    #: One sentence.
+    #: The message in one sentence.
     message: str
-    #: What is wrong with the design file; empty where the failure is not about one.
+    #: The faults of the design file; empty for other failures.
     violations: tuple[ViolationRecord, ...]
-    #: What to do about it.
+    #: The remedy.
     help: Union[str, None]
-    #: The design file.
+    #: The design file concerned.
     path: Union[str, None]
 
 
 class FamiliesFoundRecord(Record):
-    """The families of replaceable legs in short."""
+    """A summary of the families of replaceable legs."""
 
-    #: How many.
+    #: Number of families.
     count: int
-    #: There are no others.
+    #: Whether the list of families is complete.
     complete: bool
 
 
 class FamilyAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
@@ -1732,35 +1748,35 @@ class FamilyAnswer(Record):
     cyclic_order: tuple[int, ...]
     #: The edge of each side of the hexagon, design units.
     edge_lengths: tuple[Union[float, None], ...]
-    #: How many there are.
+    #: Numbers of patterns and topologies.
     counts: CountsRecord
-    #: The patterns, or the one that was asked for.
+    #: All patterns, or the requested one.
     patterns: tuple[PatternRecord, ...]
-    #: The ways in which legs share joints.
+    #: The topologies: the ways in which legs share joints.
     topologies: tuple[FamilyTopologyRecord, ...]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
     #: The platform of the pattern at the offsets given, with `--offsets`.
     instance: Union[InstanceRecord, None]
-    #: How its map follows from coplanar joints, with `--explain`.
+    #: The derivation of its leg map from coplanar joints, with `--explain`.
     derivation: Union[DerivationRecord, None]
 
 
 class FamilySizeRecord(Record):
-    """How many platforms are equivalent to an octahedral one."""
+    """The number of platforms equivalent to an octahedral one."""
 
-    #: Patterns of legs.
+    #: Number of patterns of legs.
     patterns: int
-    #: Ways to share joints.
+    #: Number of topologies: ways to share joints.
     topologies: int
 
 
 class FamilyTopologyRecord(Record):
     """A way in which the legs of equivalent platforms share joints."""
 
-    #: Its number, from 1.
+    #: The number of the topology, from 1.
     topology: int
     #: Joints of the base.
     base_joints: int
@@ -1768,42 +1784,54 @@ class FamilyTopologyRecord(Record):
     platform_joints: int
     #: Joints that hold more than one leg.
     shared_joints: int
-    #: It is reached by offsets introduced one at a time.
+    #: Whether offsets introduced one at a time lead to it.
     sequential: bool
-    #: A pattern that has it.
+    #: The name of a pattern with this topology.
     example: str
     #: Topologies one offset further, from 1.
     next: tuple[int, ...]
 
 
+class FarPoses(Record):
+    """Poses far out, certified in coordinates that are regular at infinity."""
+
+    #: Their number: two that are too close to be told apart, or one.
+    poses: int
+    #: The largest entry of their rotation matrices is at least this.
+    rotation: float
+    #: It is at most this; null: they may be at infinity.
+    rotation_at_most: Union[float, None]
+
+
 class FiguresRecord(Record):
-    """The figures of a design over the poses of its workspace, at home where it states none. Null: the design says nothing about it, or the value is not finite."""
+    """The figures of a design over the poses of its workspace, or at home if it states none. Null: the design does not specify the quantity, or the value is infinite."""
 
     #: Name of the design.
     name: str
-    #: Its file.
+    #: The design file.
     path: str
-    #: The judgement of `assess`; null: it requires nothing.
+    #: The result of `assess`; null: the design has no requirements.
     assessment: Union[AssessAnswer, None]
-    #: The lightest drive of the table that the design names with which its requirements are met; null: it
-    #: names none.
+    #: The lightest drive that meets the requirements, from the table that the design names; null: it names
+    #: none.
     lightest_drive: Union[LightestDriveRecord, None]
     #: The poses of all figures.
     judged: JudgedPosesRecord
-    #: Poses looked at for the figures besides the judgement and the conditioning.
+    #: Number of poses evaluated for the figures; the assessment and the conditioning use poses of their
+    #: own.
     poses: int
-    #: Least leg length; null where the legs are rods on cranks.
+    #: Least leg length; null: the legs are rods on cranks.
     shortest: Union[float, None]
-    #: Greatest leg length; null where the legs are rods on cranks.
+    #: Greatest leg length; null: the legs are rods on cranks.
     longest: Union[float, None]
-    #: The difference.
+    #: Greatest minus least leg length.
     stroke: Union[float, None]
-    #: Lengths at home that differ by more than a millionth of the size; of rods on cranks the lengths of
-    #: the rods.
+    #: Number of different leg lengths at home, or rod lengths on cranks; a difference counts above a
+    #: millionth of the size.
     different_legs: int
-    #: Greatest leg force under the weight of all that moves and under each load, one at a time.
+    #: Greatest leg force under the weight of all moving parts and each load, one at a time.
     force: Union[float, None]
-    #: Greatest leg speed under the speed that the platform has to have.
+    #: Greatest leg speed at the platform speed that the design requires.
     speed: Union[float, None]
     #: Greatest leg force along the manoeuvres.
     motion_force: Union[float, None]
@@ -1811,35 +1839,36 @@ class FiguresRecord(Record):
     motion_speed: Union[float, None]
     #: Greatest power of a drive along the manoeuvres, watts.
     motion_power_w: Union[float, None]
-    #: The worst conditioning of `assess`: the least inverse condition number found.
+    #: The worst conditioning found by `assess`: the least inverse condition number.
     conditioning: Union[float, None]
     #: Least stiffness against a force through the platform origin, force units per design unit.
     stiffness: Union[float, None]
-    #: Lowest natural frequency.
+    #: Lowest natural frequency, hertz.
     frequency_hz: Union[float, None]
-    #: Least distance of two joint centres of the base.
+    #: Least distance of two joint centres of the base, design units.
     base_spacing: Union[float, None]
-    #: The same on the platform.
+    #: Least distance of two joint centres of the platform, design units.
     platform_spacing: Union[float, None]
-    #: Least gap between two legs.
+    #: Least clearance between two legs, design units.
     clearance: Union[float, None]
-    #: Greatest distance of a joint of the base from their centroid.
+    #: Greatest distance of a base joint from the centroid of the base joints, design units.
     base_radius: Union[float, None]
-    #: The same on the platform.
+    #: Greatest distance of a platform joint from the centroid of the platform joints, design units.
     platform_radius: Union[float, None]
-    #: How far every joint may be off, in any direction, for the accuracy to be kept to first order.
+    #: The greatest error of every joint in any direction that keeps the accuracy to first order, design
+    #: units.
     joint_tolerance: Union[float, None]
-    #: Why there is no such tolerance; null: there is one, or none was asked for.
+    #: The reason for a missing tolerance; null: there is one, or none was requested.
     no_tolerance: Union[str, None]
-    #: Assumptions about masses that the file leaves open, a sentence each; empty where no figure is a
-    #: force, a torque or a natural frequency.
+    #: Assumptions about masses that the file leaves open, one sentence each. Empty: no figure is a force,
+    #: a torque or a natural frequency.
     assumptions: tuple[str, ...]
-    #: What the cranks do, where the legs are rods on cranks.
+    #: The angles, torques and speeds of the cranks; null: the legs change their lengths.
     cranks: Union[CrankFiguresRecord, None]
 
 
 class FileSourceRecord(Record):
-    """A file that is no design."""
+    """A file other than a design."""
 
     #: The file, as it was named.
     path: str
@@ -1848,156 +1877,158 @@ class FileSourceRecord(Record):
 
 
 class FkAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
     #: The convention of `in_frames`.
     frames: Union[PoseConventionRecord, None]
-    #: In the order of the file.
+    #: The rows in the order of the file.
     rows: Union[tuple[FkRowRecord, ...], None]
     #: The method that found them.
     method: Union[Method, None]
-    #: Whether these are known to be all.
+    #: The level of completeness of the list.
     completeness: Union[CompletenessWord, None]
-    #: One sentence on what is known.
+    #: The evidence for completeness in one sentence.
     completeness_reason: Union[str, None]
-    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
+    #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
+    #: none.
     bounded: Union[BoundedProof, None]
-    #: False: roots may be missing.
+    #: Whether every path is accounted for; false: roots may be missing.
     all_paths_accounted: Union[bool, None]
-    #: The number of `solutions`.
+    #: Number of `solutions`.
     finite_count: Union[int, None]
-    #: The same, each pose counted as often as it stands for.
+    #: Number of `solutions`, counted with multiplicity.
     finite_count_with_multiplicity: Union[int, None]
-    #: Real poses among them.
+    #: Number of real poses.
     real_count: Union[int, None]
-    #: Poses of which it is not decided whether they are real.
+    #: Number of poses that may be real or not.
     undecided_count: Union[int, None]
-    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    #: Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
     missing_count: Union[int, None]
-    #: The number of poses, by theorem or counted without finding them; null: not known.
+    #: The number of poses by theorem, or counted without finding them; null: not known.
     pose_count: Union[PoseCountRecord, None]
-    #: Real ones first.
+    #: The poses, real ones first.
     solutions: Union[tuple[SolutionRecord, ...], None]
     #: The paths of the homotopy.
     paths: Union[tuple[PathRecord, ...], None]
-    #: Candidates that are no roots.
+    #: Rejected candidates that are no roots.
     rejected: Union[tuple[RejectedRecord, ...], None]
-    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
+    #: Path ends without a certificate: there may be one pose, several or none near each. They are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
-    #: What libraries of linear algebra computed for `--method template`.
+    #: The computations of the linear algebra libraries for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
-    #: What null stands for, where a number is not finite.
+    #: The meaning of null for each number that is not finite.
     notes: Union[tuple[str, ...], None]
-    #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
-    #: cranks, as doubles, to the platform, and certificates hold for these tips.
+    #: The crank angles in degrees, if given. The legs are then the rods from the crank tips, rounded to
+    #: doubles, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
-    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    #: Whether all given angles are within their limits, ends included; null: no angles, or no limits.
     within_limits: Union[bool, None]
-    #: The legs whose cranks are beyond their limits at these angles, from 1.
+    #: Legs with cranks beyond their limits at these angles, from 1.
     outside: Union[tuple[int, ...], None]
-    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
-    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
-    #: tips as doubles are so far out that their rounding decides whether there are any.
+    #: Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and
+    #: platform joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the
+    #: tips alone decides on further poses, which are far away.
     symmetric_finite: Union[int, None]
-    #: How the pose was followed, with `--near`.
+    #: The tracking of the pose, with `--near`.
     near: Union[NearRecord, None]
-    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
-    #: no certificate is given of a root.
+    #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
+    #: gets a certificate.
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
-    #: Counted modulo random primes; null: not counted.
+    #: The dimension, counted modulo random primes; null: not counted.
     dimension: Union[int, None]
-    #: What was seen numerically.
+    #: The dimension found numerically, a lower bound.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
-    #: the relation within rounding only and have finitely many poses.
+    #: Whether a relation between the legs proves the dimension for the lengths as written. False: the
+    #: lengths satisfy it only within rounding, and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: Null: not established.
+    #: The degree of the set; null: not established.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
 
 
 class FkOneAnswer(Record):
-    """The poses with one set of lengths, and what was asked for besides."""
+    """The poses with one set of lengths, and further results on request."""
 
     #: The method that found them.
     method: Method
-    #: Whether these are known to be all.
+    #: The level of completeness of the list.
     completeness: CompletenessWord
-    #: One sentence on what is known.
+    #: The evidence for completeness in one sentence.
     completeness_reason: str
-    #: False: roots may be missing.
+    #: Whether every path is accounted for; false: roots may be missing.
     all_paths_accounted: bool
-    #: The number of `solutions`.
+    #: Number of `solutions`.
     finite_count: int
-    #: The same, each pose counted as often as it stands for.
+    #: Number of `solutions`, counted with multiplicity.
     finite_count_with_multiplicity: int
-    #: Real poses among them.
+    #: Number of real poses.
     real_count: int
-    #: Poses of which it is not decided whether they are real.
+    #: Number of poses that may be real or not.
     undecided_count: int
-    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    #: Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
     missing_count: Union[int, None]
-    #: The number of poses, by theorem or counted without finding them; null: not known.
+    #: The number of poses by theorem, or counted without finding them; null: not known.
     pose_count: Union[PoseCountRecord, None]
-    #: Real ones first.
+    #: The poses, real ones first.
     solutions: tuple[SolutionRecord, ...]
     #: The paths of the homotopy.
     paths: tuple[PathRecord, ...]
-    #: Candidates that are no roots.
+    #: Rejected candidates that are no roots.
     rejected: tuple[RejectedRecord, ...]
-    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
+    #: Path ends without a certificate: there may be one pose, several or none near each. They are not
     #: among the solutions.
     unproved: tuple[SolutionRecord, ...]
     #: The convention of `in_frames`; of a row of a table that of the whole answer.
     frames: Union[PoseConventionRecord, None]
-    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
+    #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
+    #: none.
     bounded: Union[BoundedProof, None]
-    #: What libraries of linear algebra computed for `--method template`.
+    #: The computations of the linear algebra libraries for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
-    #: What null stands for, where a number is not finite.
+    #: The meaning of null for each number that is not finite.
     notes: Union[tuple[str, ...], None]
-    #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
-    #: cranks, as doubles, to the platform, and certificates hold for these tips.
+    #: The crank angles in degrees, if given. The legs are then the rods from the crank tips, rounded to
+    #: doubles, and certificates hold for these tips.
     angles_deg: Union[tuple[float, ...], None]
-    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    #: Whether all given angles are within their limits, ends included; null: no angles, or no limits.
     within_limits: Union[bool, None]
-    #: The legs whose cranks are beyond their limits at these angles, from 1.
+    #: Legs with cranks beyond their limits at these angles, from 1.
     outside: Union[tuple[int, ...], None]
-    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
-    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
-    #: tips as doubles are so far out that their rounding decides whether there are any.
+    #: Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and
+    #: platform joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the
+    #: tips alone decides on further poses, which are far away.
     symmetric_finite: Union[int, None]
-    #: How the pose was followed, with `--near`.
+    #: The tracking of the pose, with `--near`.
     near: Union[NearRecord, None]
-    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
-    #: no certificate is given of a root.
+    #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
+    #: gets a certificate.
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
-    #: Counted modulo random primes; null: not counted.
+    #: The dimension, counted modulo random primes; null: not counted.
     dimension: Union[int, None]
-    #: What was seen numerically.
+    #: The dimension found numerically, a lower bound.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
-    #: the relation within rounding only and have finitely many poses.
+    #: Whether a relation between the legs proves the dimension for the lengths as written. False: the
+    #: lengths satisfy it only within rounding, and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: Null: not established.
+    #: The degree of the set; null: not established.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
@@ -2008,79 +2039,80 @@ class FkRowRecord(Record):
 
     #: The line of the CSV file, from 1.
     line: int
-    #: The six lengths, design units; those of the rods where angles of cranks were given.
+    #: The six lengths, design units; for given crank angles, the rod lengths.
     lengths: tuple[float, ...]
-    #: The time of the row, where the file has a column of times.
+    #: The time of the row, if the file has a column of times.
     time: Union[float, None]
-    #: The angles of the cranks, where these were given.
+    #: The crank angles in degrees, if given.
     angles_deg: Union[tuple[float, ...], None]
     #: The convention of `in_frames`; of a row of a table that of the whole answer.
     frames: Union[PoseConventionRecord, None]
     #: The method that found them.
     method: Union[Method, None]
-    #: Whether these are known to be all.
+    #: The level of completeness of the list.
     completeness: Union[CompletenessWord, None]
-    #: One sentence on what is known.
+    #: The evidence for completeness in one sentence.
     completeness_reason: Union[str, None]
-    #: The numbers of the proof that all poses up to a distance are listed, where it is one.
+    #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
+    #: none.
     bounded: Union[BoundedProof, None]
-    #: False: roots may be missing.
+    #: Whether every path is accounted for; false: roots may be missing.
     all_paths_accounted: Union[bool, None]
-    #: The number of `solutions`.
+    #: Number of `solutions`.
     finite_count: Union[int, None]
-    #: The same, each pose counted as often as it stands for.
+    #: Number of `solutions`, counted with multiplicity.
     finite_count_with_multiplicity: Union[int, None]
-    #: Real poses among them.
+    #: Number of real poses.
     real_count: Union[int, None]
-    #: Poses of which it is not decided whether they are real.
+    #: Number of poses that may be real or not.
     undecided_count: Union[int, None]
-    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    #: Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
     missing_count: Union[int, None]
-    #: The number of poses, by theorem or counted without finding them; null: not known.
+    #: The number of poses by theorem, or counted without finding them; null: not known.
     pose_count: Union[PoseCountRecord, None]
-    #: Real ones first.
+    #: The poses, real ones first.
     solutions: Union[tuple[SolutionRecord, ...], None]
     #: The paths of the homotopy.
     paths: Union[tuple[PathRecord, ...], None]
-    #: Candidates that are no roots.
+    #: Rejected candidates that are no roots.
     rejected: Union[tuple[RejectedRecord, ...], None]
-    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
+    #: Path ends without a certificate: there may be one pose, several or none near each. They are not
     #: among the solutions.
     unproved: Union[tuple[SolutionRecord, ...], None]
-    #: What libraries of linear algebra computed for `--method template`.
+    #: The computations of the linear algebra libraries for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
-    #: What null stands for, where a number is not finite.
+    #: The meaning of null for each number that is not finite.
     notes: Union[tuple[str, ...], None]
-    #: Whether all angles given are within their limits, the ends included; null: no angles, or no limits.
+    #: Whether all given angles are within their limits, ends included; null: no angles, or no limits.
     within_limits: Union[bool, None]
-    #: The legs whose cranks are beyond their limits at these angles, from 1.
+    #: Legs with cranks beyond their limits at these angles, from 1.
     outside: Union[tuple[int, ...], None]
-    #: Where tips and platform joints have the symmetry of three turns, to rounding, and rods are equally
-    #: long: how many finite poses the exactly symmetric platform has, by a theorem. Further poses of the
-    #: tips as doubles are so far out that their rounding decides whether there are any.
+    #: Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and
+    #: platform joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the
+    #: tips alone decides on further poses, which are far away.
     symmetric_finite: Union[int, None]
-    #: How the pose was followed, with `--near`.
+    #: The tracking of the pose, with `--near`.
     near: Union[NearRecord, None]
-    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
-    #: no certificate is given of a root.
+    #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
+    #: gets a certificate.
     drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
-    #: Counted modulo random primes; null: not counted.
+    #: The dimension, counted modulo random primes; null: not counted.
     dimension: Union[int, None]
-    #: What was seen numerically.
+    #: The dimension found numerically, a lower bound.
     dimension_at_least: Union[int, None]
-    #: Whether a relation between the legs proves it for the lengths as written; false where they satisfy
-    #: the relation within rounding only and have finitely many poses.
+    #: Whether a relation between the legs proves the dimension for the lengths as written. False: the
+    #: lengths satisfy it only within rounding, and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: Null: not established.
+    #: The degree of the set; null: not established.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
-    #: The failure, as the command would have reported it for this row alone.
+    #: The failure, as the command reports it for this row alone.
     error: Union[FailureRecord, None]
 
 
@@ -2089,7 +2121,7 @@ class FkRowsAnswer(Record):
 
     #: The convention of `in_frames`.
     frames: PoseConventionRecord
-    #: In the order of the file.
+    #: The rows in the order of the file.
     rows: tuple[FkRowRecord, ...]
 
 
@@ -2105,234 +2137,239 @@ class FrameMotionRecord(Record):
 class FrameMotionsRecord(Record):
     """Two rigid motions."""
 
-    #: Of the base.
+    #: Motion of the base frame.
     base: FrameMotionRecord
-    #: Of the platform.
+    #: Motion of the platform frame.
     platform: FrameMotionRecord
 
 
 class FreeRangeRecord(Record):
-    """How far one of the six numbers of a pose may move."""
+    """The free travel of one of the six numbers of a pose."""
 
     #: Which number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
     axis: str
     #: `deg` or `rad`, or the unit of length.
     unit: str
-    #: At the pose.
+    #: The value at the pose.
     value: float
-    #: Towards smaller values.
+    #: The travel towards smaller values.
     back: TravelRecord
-    #: Towards greater ones.
+    #: The travel towards greater values.
     forth: TravelRecord
 
 
 class FreeSizeRecord(Record):
-    """Up to which size a region around home is free."""
+    """The largest free size of a region around home."""
 
-    #: Proved: all poses of the region of this size meet all requirements that depend on the pose, and none
-    #: is singular; 0: nothing is proved.
+    #: The largest size for which every pose is proved to be regular and to meet all requirements on poses;
+    #: 0: nothing is proved.
     proved: float
-    #: No violation was found in regions up to this size.
+    #: The largest size for which no violation was found.
     searched: float
-    #: What is violated in a region that is larger by a little; null: nothing that was looked at.
+    #: The requirement violated in a slightly larger region; null: none was found.
     binds: Union[LimitRecord, None]
 
 
 class FreeTurnRecord(Record):
-    """How far the platform may turn about an axis."""
+    """The free rotation of the platform about an axis."""
 
-    #: `x`, `y` or `z` of the base frame.
+    #: The axis `x`, `y` or `z` of the base frame.
     axis: str
-    #: Against the axis, degrees, positive.
+    #: The free angle in the negative sense, degrees, given as a positive number.
     back_deg: float
-    #: What binds there; null: nothing within half a turn.
+    #: The requirement that ends it; null: none within half a turn.
     back_binds: Union[LimitRecord, None]
-    #: About the axis, degrees.
+    #: The free angle in the positive sense, degrees.
     forth_deg: float
-    #: What binds there; null: nothing within half a turn.
+    #: The requirement that ends it; null: none within half a turn.
     forth_binds: Union[LimitRecord, None]
 
 
 class FreedomRecord(Record):
-    """A freedom that the design does not have, and what came of the search with it."""
+    """A freedom that the design does not allow, and the result of the search with it."""
 
-    #: Which.
+    #: The freedom.
     freedom: Freedom
-    #: What came of it.
+    #: The outcome of the search.
     outcome: FreedomWord
-    #: By how much the limit gave way in the last search, or by how much the platform found is higher;
-    #: null: no such number.
+    #: The amount by which the limit was relaxed in the last search, or by which the platform found is
+    #: higher; null: no such number.
     amount: Union[float, None]
-    #: Of the amount.
+    #: The unit of the amount.
     unit: str
-    #: One sentence.
+    #: The result in one sentence.
     message: str
-    #: What `assess` says of the platform found; null: none was.
+    #: The result of `assess` for the platform found; null: none was found.
     assessment: Union[AssessAnswer, None]
-    #: The platform found, with the limit that gave way; null: none was.
+    #: The platform found, with the relaxed limit; null: none was found.
     design: Union[Design, None]
-    #: The file it was written to.
+    #: The design file written; null: none.
     output: Union[str, None]
 
 
 class FrontMemberRecord(Record):
-    """A member of a front."""
+    """A member of a Pareto front."""
 
     #: Value of the first objective.
     objective: Union[float, None]
-    #: All of them.
+    #: All objectives.
     objectives: Union[tuple[ObjectiveRecord, ...], None]
-    #: What was chosen, axes left out.
+    #: The chosen variables, without axes.
     variables: Union[tuple[VariableRecord, ...], None]
-    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    #: The offsets `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: `t_i d_i`, design units; null as `edge_lengths`.
+    #: The displacements `t_i d_i`, design units; null if `edge_lengths` is null.
     shifts: Union[tuple[Union[float, None], ...], None]
-    #: `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    #: The edges `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     edge_lengths: Union[tuple[Union[float, None], ...], None]
     #: The legs of the cycle, from 1; null: no offsets were chosen.
     cyclic_order: Union[tuple[int, ...], None]
-    #: Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
+    #: Zone of each offset: before, inside or beyond its edge; null: no offsets were chosen.
     branch: Union[str, None]
-    #: det A of the leg map; null: the variables do not keep the class of the design.
+    #: det A of the leg map; null: the variables leave the equivalence class of the design.
     det: Union[float, None]
-    #: s' = A s + c, legs in the order of the design; rows. Null as `det`.
+    #: Rows of A: s' = A s + c of squared leg lengths, legs in the order of the design. Null if `det` is
+    #: null.
     A: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: The constant terms, design units squared; null as `det`.
+    #: The constant terms, design units squared; null if `det` is null.
     c: Union[tuple[Union[float, None], ...], None]
-    #: Home, lifted when its height was chosen.
+    #: The home pose, raised if its height was chosen.
     home: Union[PoseQuaternionRecord, None]
-    #: The axes chosen.
+    #: The chosen joint axes.
     joint_axes: Union[JointAxesRecord, None]
-    #: The requirements, over many poses and by other code.
+    #: Margins of the requirements, over many poses and computed independently of the search.
     constraint_margins: Union[tuple[MarginRecord, ...], None]
-    #: By how much what the search demands besides them is met.
+    #: Margins of the extra conditions of the search.
     search_margins: Union[SearchMarginsRecord, None]
-    #: What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies
-    #: have grown; null: nothing.
+    #: The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null:
+    #: none.
     riding: Union[RidingRecord, None]
-    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    #: Whether the platform is proved to meet its requirements; null: some are unproved.
     requirements_met: Union[bool, None]
-    #: What `assess` says of the platform; null: the design requires nothing.
+    #: The result of `assess` for the platform; null: the design has no requirements.
     assessment: Union[AssessAnswer, None]
-    #: Whether it is equivalent to the design; null: the variables do not keep the class.
+    #: Whether it is equivalent to the design; null: the variables leave the equivalence class.
     verify: Union[VerifiedRecord, None]
-    #: Where the first objective is reached among the poses held; null: it is not the worst conditioning.
+    #: The held pose with the value of the first objective; null: the objective is not the worst
+    #: conditioning.
     worst_pose: Union[WorstPoseRecord, None]
     #: Evidence of local optimality.
     local_optimality: Union[LocalOptimalityRecord, None]
-    #: Steps of the run that found it; null in a front.
+    #: Steps of the run that found it; null: a member of a front.
     history: Union[tuple[SearchStepRecord, ...], None]
-    #: Numbers of poses.
+    #: Numbers of poses held and checked.
     poses: Union[HeldPosesRecord, None]
     #: The platform as a design.
     design: Design
-    #: The file written.
+    #: The file written; null: none.
     output: Union[str, None]
-    #: The objectives in the evaluation that compared the members.
+    #: The objectives as evaluated for comparing the members.
     non_dominated_at: tuple[Union[float, None], ...]
 
 
 class GiveRecord(Record):
     """A requirement of a conflict."""
 
-    #: Which.
+    #: The requirement.
     name: DemandWord
-    #: In which it gives.
+    #: The unit of the amounts.
     unit: str
-    #: By how much it would have to give alone; null: cannot make room.
+    #: The amount of relaxation that suffices alone; null: no amount suffices.
     alone: Union[float, None]
-    #: Its violation where the sum of all, each in its scale, is least.
+    #: The amount of relaxation if all requirements give way together; the sum of these amounts, each in
+    #: its scale, is least.
     together: Union[float, None]
-    #: One sentence.
+    #: The relaxation in one sentence.
     message: str
 
 
 class GlobalBoundRecord(Record):
-    """What no offsets can exceed."""
+    """The proved upper bound over all offsets."""
 
-    #: No offsets within the limits reach more.
+    #: No offsets within the limits reach a greater value.
     upper: Union[float, None]
-    #: By how much that is above the solution, relative.
+    #: Relative distance of the bound above the solution.
     gap: Union[float, None]
-    #: Boxes of offsets that were looked at.
+    #: Number of searched boxes of offsets.
     boxes: int
 
 
 class GreatestErrorRecord(Record):
     """The greatest error over the poses of a map."""
 
-    #: By all causes.
+    #: The greatest error by all causes together.
     greatest: Union[float, None]
-    #: By joints alone, at the same pose.
+    #: The part due to joints, at the same pose.
     joints: Union[float, None]
-    #: By leg lengths alone.
+    #: The part due to leg lengths, at the same pose.
     lengths: Union[float, None]
-    #: By growth alone.
+    #: The part due to expansion, at the same pose.
     growth: Union[float, None]
-    #: The pose.
+    #: The pose with the greatest error.
     pose: PoseQuaternionRecord
-    #: Half of the poses have at most this by all causes.
+    #: The median over the poses, by all causes together.
     median: Union[float, None]
 
 
 class GreatestResidualRecord(Record):
-    """The largest residual."""
+    """The residual of greatest size."""
 
     #: Line of the table of measurements.
     line: int
-    #: From 1.
+    #: The leg, from 1.
     leg: int
-    #: Length measured less that of the model.
+    #: The measured length minus the length of the model, design units.
     value: Union[float, None]
 
 
 class GridRecord(Record):
     """A grid of holes in the plane of a body."""
 
-    #: How the holes lie.
+    #: The pattern of the holes.
     pattern: HolePattern
-    #: Distance of neighbouring holes, or of the rings of a polar grid; null for bolt circles.
+    #: Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt
+    #: circles.
     pitch: Union[float, None]
     #: The first ring of a polar grid, or all bolt circles; empty for the other patterns.
     circles: tuple[HoleCircleRecord, ...]
-    #: A hole, or the centre of the circles.
+    #: A hole, or the centre of the circles, body frame, design units.
     origin: tuple[Union[float, None], ...]
-    #: The turn of the grid.
+    #: The angle of the grid, degrees.
     angle_deg: Union[float, None]
 
 
 class GridsRecord(Record):
     """The grids of both bodies."""
 
-    #: Of the base; null: its joints stay where they are.
+    #: The grid of the base; null: the base joints stay in place.
     base: Union[GridRecord, None]
-    #: Of the platform; null: its joints stay where they are.
+    #: The grid of the platform; null: the platform joints stay in place.
     platform: Union[GridRecord, None]
 
 
 class GriffisDuffyRecord(Record):
     """Joints on the sides of two triangles."""
 
-    #: The legs going round the hexagon, from 1.
+    #: The legs in order around the hexagon, from 1.
     order: tuple[int, ...]
-    #: Where each joint lies on its side, from 0 to 1.
+    #: The position of each joint on its side, as a fraction from 0 to 1.
     t: tuple[Union[float, None], ...]
     #: Lengths of the sides, design units.
     side_lengths: tuple[Union[float, None], ...]
-    #: prod (1 - t) - prod t: singular where it is zero.
+    #: `prod (1 - t) - prod t`; zero means singular.
     det: Union[float, None]
-    #: It is zero, exactly.
+    #: Whether `det` is exactly zero.
     exactly_singular: bool
-    #: How far joints are off their sides, relative.
+    #: The greatest distance of a joint from its side, relative to the size.
     deviation: Union[float, None]
-    #: Up to which deviation the type is recognised.
+    #: The greatest deviation at which the type is recognised.
     deviation_limit: Union[float, None]
-    #: The dependency of the legs where `det` is zero.
+    #: The coefficients of the dependency of the legs for `det = 0`.
     coefficients: tuple[Union[float, None], ...]
-    #: `sum c_i s_i` of the squared lengths of every pose.
+    #: The value of `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
     constant: Union[float, None]
-    #: By how much the lengths of the design miss the constant, relative; null without lengths.
+    #: Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null
+    #: without lengths.
     lengths_defect: Union[float, None]
     #: Whether the platform can be assembled with the lengths of the design.
     assembly: Union[AssemblyRecord, None]
@@ -2343,13 +2380,14 @@ class HeldLineRecord(Record):
 
     #: The body.
     body: Body
-    #: Where the joint of each leg is on the line, from that of leg 1, in units of `length`.
+    #: The positions of the leg joints along the line, measured from the joint of leg 1 in units of
+    #: `length`.
     marks: tuple[Union[float, None], ...]
-    #: From the joint of leg 1 to the one farthest from it, design units.
+    #: Distance from the joint of leg 1 to the farthest joint, design units.
     length: Union[float, None]
-    #: By which equation the line is found; null where the legs are dependent.
+    #: The type of equation that gives the line; null: the legs are dependent.
     class_: Union[LineClass, None]
-    #: Poses of the line, real and complex, for generic lengths; null where they were not counted.
+    #: Number of poses of the line, real and complex, for generic lengths; null: not counted.
     generic_poses: Union[int, None]
     #: The poses of the line that are singular.
     singular_poses: LineLocusRecord
@@ -2358,9 +2396,9 @@ class HeldLineRecord(Record):
 class HeldPosesRecord(Record):
     """Numbers of poses."""
 
-    #: Where the search held the requirements.
+    #: Number of poses at which the search held the requirements.
     held: int
-    #: Of the dense evaluation.
+    #: Number of poses of the independent evaluation.
     checked: int
 
 
@@ -2378,13 +2416,13 @@ class InstanceRecord(Record):
 
     #: The pattern.
     pattern: str
-    #: The offsets, fractions of the edges.
+    #: The offsets as fractions of the edges.
     offsets: tuple[Union[float, None], ...]
     #: Rows of A: s' = A s + c of squared leg lengths.
     A: tuple[tuple[Union[float, None], ...], ...]
     #: The constant terms, design units squared.
     c: tuple[Union[float, None], ...]
-    #: det A.
+    #: The determinant of A.
     det: Union[float, None]
     #: Joints of the base.
     base_joints: int
@@ -2393,72 +2431,72 @@ class InstanceRecord(Record):
 
 
 class JointAxesRecord(Record):
-    """Axes of joints: unit vectors, frame of the body; null: not chosen."""
+    """Joint axes: unit vectors, body frame; null: not chosen."""
 
-    #: Of the base ends of the legs.
+    #: Axes at the base ends of the legs, base frame.
     base: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Of their platform ends.
+    #: Axes at the platform ends of the legs, platform frame.
     platform: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
 class JointBudgetRecord(Record):
-    """How far one joint may be off while the others are where they should be."""
+    """The error allowed at one joint while the others are exact."""
 
-    #: Its body.
+    #: The body of the joint.
     body: Body
-    #: Its name.
+    #: The name of the joint.
     joint: str
-    #: In any direction.
+    #: The error allowed in any direction.
     alone: JointLimitRecord
-    #: The worst direction, frame of the body.
+    #: The worst direction of the error, body frame.
     direction: tuple[Union[float, None], ...]
-    #: Error of the tool point for each unit of error in the worst direction.
+    #: Error of the tool point per unit of joint error in the worst direction.
     position_per_unit: Union[float, None]
-    #: Error of the orientation for each unit of error in the worst direction.
+    #: Error of the orientation per unit of joint error in the worst direction, degrees per design unit.
     rotation_deg_per_unit: Union[float, None]
-    #: Along x, y and z of the body; null: no influence.
+    #: The errors allowed along x, y and z of the body, design units; null: no influence.
     along_axes: tuple[Union[float, None], ...]
-    #: Half widths of the box of largest volume for all joints together; null: no influence.
+    #: Half widths of the box of largest volume for all joints together, design units; null: no influence.
     largest_product: tuple[Union[float, None], ...]
 
 
 class JointLimitRecord(Record):
-    """How far joints may be off."""
+    """An allowed joint error with the bound that limits it."""
 
-    #: Keeps the bound to first order, design units.
+    #: Allowed error that keeps the bound to first order, design units.
     value: Union[float, None]
-    #: Uses the bound up to first order.
+    #: Error size that reaches the bound to first order.
     reached: Union[float, None]
-    #: Which bound it is.
+    #: The bound that is reached.
     limited_by: ErrorKind
-    #: The pose at which it is.
+    #: The pose at which it is reached.
     pose: PoseQuaternionRecord
 
 
 class JointShiftRecord(Record):
-    """How a joint moves."""
+    """The displacement of a joint."""
 
-    #: Its body.
+    #: The body of the joint.
     body: Body
-    #: Its name.
+    #: The name of the joint.
     joint: str
-    #: The shift, frame of the body in which the poses were measured.
+    #: The displacement in the body frame of the measured poses; relative, the whole change has norm 1.
     shift: tuple[Union[float, None], ...]
 
 
 class JointsRecord(Record):
-    """How exactly the joints of a design are known, all together."""
+    """The exactness of all joints of a design together."""
 
-    #: The least exact of the joints decides.
+    #: The exactness of the least exact joint.
     exactness: ExactnessWord
-    #: The integers whose square roots generate the field of the exact coordinates, beside the cosines of
+    #: The integers with square roots in the field of the exact coordinates, beside the cosines of
     #: `divisions`; empty for fractions.
     radicands: tuple[int, ...]
-    #: Numbers `n` whose cosines `cos(360 / n)` degrees belong to the generators: some of 9, 16, 20 and 32.
+    #: Numbers `n` with `cos(360 / n)` degrees among the generators of the field: some of 9, 16, 20 and 32.
     divisions: tuple[int, ...]
-    #: Joints known between bounds only, with their bodies: `base.A2`.
+    #: Joints known only between bounds, with their bodies: `base.A2`.
     enclosed: tuple[str, ...]
-    #: The same in words.
+    #: The exactness in words.
     explanation: str
 
 
@@ -2469,35 +2507,35 @@ class JudgedPoseRecord(Record):
     p: tuple[Union[float, None], ...]
     #: Unit quaternion, scalar part first.
     q: tuple[Union[float, None], ...]
-    #: det J of the leg lines, over the size to the sixth.
+    #: det J of the leg lines, divided by the size to the sixth power.
     determinant: Union[float, None]
-    #: 1 at best, 0 at a singular pose.
+    #: Inverse condition number of the Jacobian: 1 at best, 0 at a singular pose.
     inverse_condition: Union[float, None]
-    #: The two conditions of four planes in one point, of octahedral designs.
+    #: The two conditions for four planes through one point, for octahedral designs.
     four_planes: Union[tuple[Union[float, None], ...], None]
 
 
 class JudgedPosesRecord(Record):
-    """The poses that a judgement is about, with home."""
+    """The poses of an assessment, with home."""
 
-    #: The design states a workspace; else home alone is judged.
+    #: Whether the design states a workspace; otherwise only home is assessed.
     stated: bool
-    #: Every pose of a region about home is judged.
+    #: Whether every pose of a region around home is assessed.
     region: bool
-    #: Single poses; nothing is said between them.
+    #: Number of single poses; the motions between them are not assessed.
     listed: int
-    #: Poses of a trajectory, with the straight motions between them.
+    #: Number of poses of a trajectory; the straight motions between them are assessed too.
     trajectory: int
-    #: The verdict of requirements that are met at these poses, in a few words.
+    #: The wording of the verdict if the requirements are met at these poses.
     met_in_words: str
 
 
 class JudgementRecord(Record):
-    """How good a design is."""
+    """The quality of a design."""
 
     #: The worst inverse condition number over the poses.
     objective: Union[float, None]
-    #: Where it is.
+    #: The pose of this value.
     worst_pose: PoseQuaternionRecord
     #: Least distances of two joints, base and platform.
     least_distances: tuple[Union[float, None], ...]
@@ -2512,59 +2550,59 @@ class JudgementRecord(Record):
 
 
 class LeastConditioningRecord(Record):
-    """The worst conditioned pose."""
+    """The pose with the worst conditioning."""
 
-    #: Smallest over largest singular value of the Jacobian with unit lines and moments over the
-    #: characteristic length: 1 at best, 0 at a singular pose.
+    #: Inverse condition number of the Jacobian, with unit lines and moments divided by the characteristic
+    #: length: 1 at best, 0 at a singular pose.
     inverse_condition: Union[float, None]
-    #: Where.
+    #: The pose.
     pose: PoseQuaternionRecord
-    #: Design units.
+    #: The characteristic length, design units.
     characteristic_length: float
 
 
 class LegMotionRecord(Record):
     """A leg along a motion."""
 
-    #: From 1.
+    #: The leg, from 1.
     leg: int
-    #: Least length.
+    #: The least length, design units.
     shortest: ExtremeRecord
-    #: Greatest length.
+    #: The greatest length, design units.
     longest: ExtremeRecord
-    #: Speed of the greatest size, positive where the leg becomes longer.
+    #: The speed of greatest size, design units per second; positive: the leg becomes longer.
     speed: ExtremeRecord
-    #: Acceleration of the greatest size.
+    #: The acceleration of greatest size, design units per second squared.
     acceleration: ExtremeRecord
-    #: Hardest push of the drive, 0 where it only pulls; null: no masses are known, or forces are not
-    #: determined.
+    #: The greatest push of the drive, force units; 0: it only pulls. Null: no masses are known, or forces
+    #: are not determined.
     push: Union[ExtremeRecord, None]
-    #: Hardest pull, negative, 0 where it only pushes.
+    #: The greatest pull of the drive, a negative force; 0: it only pushes.
     pull: Union[ExtremeRecord, None]
-    #: Root of the mean square of the force over time, force units.
+    #: Root mean square of the force over time, force units.
     rms_force: Union[float, None]
-    #: Power of the greatest size, watts; negative where the drive brakes.
+    #: The power of greatest size, watts; negative: the drive brakes.
     power_w: Union[ExtremeRecord, None]
 
 
 class LegSlideRecord(Record):
-    """One leg that moves along the line of two legs with a joint in common: X, Y, Q and F are in one plane at every pose."""
+    """One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose."""
 
-    #: The leg that moves, from 1.
+    #: The moved leg, from 1.
     leg: int
     #: The legs X F and Y F, from 1.
     between: tuple[int, ...]
     #: The names of X and Y.
     ends: tuple[str, ...]
-    #: The name of Q = X + t (Y - X), the joint that the leg gets.
+    #: The name of Q = X + t (Y - X), the new joint of the leg.
     moved: str
-    #: The name of F, the joint that it keeps.
+    #: The name of F, the joint that the leg keeps.
     fixed: str
-    #: t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
+    #: The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
     share: ExactNumberRecord
-    #: 1 - t.
+    #: The number 1 - t.
     rest: ExactNumberRecord
-    #: d^2 = |XY|^2, design units squared.
+    #: The squared edge d^2 = |XY|^2, design units squared.
     square: ExactNumberRecord
     #: |XQ|^2 and |YQ|^2, design units squared.
     squares_to_ends: tuple[ExactNumberRecord, ...]
@@ -2582,44 +2620,44 @@ class LibraryCallsRecord(Record):
     computation: str
     #: Rows and columns of the matrix.
     size: tuple[int, ...]
-    #: How often.
+    #: Number of calls.
     calls: int
 
 
 class LightestDriveRecord(Record):
-    """The lightest drive of the table that a design names with which its requirements are met."""
+    """The lightest drive of the table with which the requirements of a design are met."""
 
-    #: Its name; null: none is proved to suffice.
+    #: The name of the drive; null: no drive is proved to suffice.
     name: Union[str, None]
-    #: Its mass; null: the table has none, or there is no such drive.
+    #: The mass of the drive; null: the table has none, or no drive is proved to suffice.
     mass: Union[float, None]
-    #: Of the mass.
+    #: The unit of the mass.
     mass_unit: str
-    #: Drives that are lighter, or all where none is proved to suffice, of which neither is proved.
+    #: Undecided lighter drives; all undecided drives if none is proved to suffice.
     undecided: tuple[str, ...]
-    #: One sentence.
+    #: The result in one sentence.
     message: str
 
 
 class LimitRecord(Record):
-    """A requirement that binds or is violated."""
+    """A requirement that is active or violated."""
 
     #: The kind; null: a singular pose, where det J vanishes.
     name: Union[TermKind, None]
-    #: By how much it is met, a violation below 0; of a singular pose det J over that at home.
+    #: The margin, negative for a violation; for a singular pose det J divided by its value at home.
     margin: Union[float, None]
-    #: Of the margin; null: a share.
+    #: The unit of the margin; null: a pure ratio.
     unit: Union[str, None]
-    #: Legs, joints, keep-out or load.
+    #: The legs, joints, keep-out or load concerned.
     between: tuple[str, ...]
-    #: The legs among them, from 1.
+    #: The legs concerned, from 1.
     legs: tuple[int, ...]
 
 
 class LimitsAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The convention in which poses were read, of `in_frames` and of `axes`.
     frames: PoseConventionRecord
@@ -2627,74 +2665,73 @@ class LimitsAnswer(Record):
     pose: PoseQuaternionRecord
     #: The same in the convention of `frames`.
     in_frames: PoseInFrames
-    #: Every requirement is met there, and det J has the sign that it has at home.
+    #: Whether every requirement is met at the pose, and det J has the sign that it has at home.
     allowed: bool
-    #: What is violated there, the worst first.
+    #: The requirements violated at the pose, the worst first.
     violated: tuple[LimitRecord, ...]
-    #: x, y, z and the three angles of `frames`, or turns about x, y and z for rotation vectors: how far
-    #: each may move while the others stay; nothing where the pose is not allowed.
+    #: The free travel of x, y, z, roll, pitch and yaw, each while the others stay fixed; empty: the pose
+    #: is not allowed.
     axes: tuple[FreeRangeRecord, ...]
-    #: The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not
-    #: allowed.
+    #: The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is
+    #: not allowed.
     way: Union[StraightWayRecord, None]
-    #: The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all
-    #: that was asked for is allowed, or no allowed pose was found.
+    #: The allowed pose nearest to the pose of `--to`, or nearest to the pose of `--at` if that is not
+    #: allowed. Null: every requested pose is allowed, or no allowed pose was found.
     nearest_allowed: Union[NearestAllowedRecord, None]
-    #: How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
+    #: The size of the workspace around home; null: `--workspace` was not given, or home is not allowed.
     workspace: Union[WorkspaceSizeRecord, None]
     #: The surface that was written; null: none was asked for, or the pose of `--at` is not allowed.
     surface: Union[str, None]
-    #: Of lengths.
+    #: The unit of lengths.
     length_unit: str
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class LineLocusRecord(Record):
     """The polynomial `F(p, v)` whose zeros are the singular poses of the line."""
 
-    #: `architecturally singular`, `quadratic in all`, `linear in the position`, `linear in the direction`,
-    #: or `cubic`.
+    #: The form of the polynomial: `architecturally singular`, `quadratic in all`, `linear in the
+    #: position`, `linear in the direction`, or `cubic`.
     family: str
-    #: Its degree.
+    #: The degree of the polynomial.
     degree: int
-    #: Its degree in the position.
+    #: The degree in the position.
     degree_in_position: int
-    #: Its degree in the direction.
+    #: The degree in the direction.
     degree_in_direction: int
-    #: Its terms. The position is that of the joint of leg 1 in the frame of the other body, and the
-    #: direction is a vector as long as `length`.
+    #: The terms of the polynomial. The position is the joint of leg 1 in the frame of the other body. The
+    #: direction is a vector of length `length`.
     terms: tuple[LineTermRecord, ...]
 
 
 class LinePoseRecord(Record):
     """A pose of a line in the frame of the other body."""
 
-    #: The joint of leg 1, design units.
+    #: The joint of leg 1, frame of the other body, design units.
     position: ComplexRecord
-    #: The unit vector from the joint of leg 1 towards the one farthest from it.
+    #: The unit vector from the joint of leg 1 to the farthest joint, frame of the other body.
     direction: ComplexRecord
-    #: Whether it is real: decided exactly.
+    #: Whether the pose is real, decided exactly.
     real: bool
-    #: How often it counts.
+    #: The multiplicity of the pose.
     multiplicity: int
-    #: No coordinate of the position is farther from the true one.
+    #: Greatest error of a coordinate of the position, design units.
     position_error: Union[float, None]
-    #: No coordinate of the direction is farther from the true one.
+    #: Greatest error of a coordinate of the direction.
     direction_error: Union[float, None]
 
 
 class LinePosesRecord(Record):
     """All poses of a line for given lengths."""
 
-    #: How many there are, real and complex, each as often as its multiplicity says: proved in exact
-    #: arithmetic.
+    #: Number of poses, real and complex, counted with multiplicity: proved in exact arithmetic.
     counted: int
-    #: How many of them are real.
+    #: Number of real poses.
     real: int
-    #: The coefficients of the polynomial that gives them, as decimal text, the constant one first.
+    #: The coefficients of the polynomial for the poses, as decimal text, the constant first.
     coefficients: tuple[str, ...]
     #: The poses, the real ones first.
     poses: tuple[LinePoseRecord, ...]
@@ -2712,37 +2749,37 @@ class LineTermRecord(Record):
 class LocalOptimalityRecord(Record):
     """Evidence of local optimality."""
 
-    #: The model of the last step promised no further gain.
+    #: Whether the search converged: the model of the last step promised no further gain.
     converged: bool
-    #: Gain still promised for a unit of the variables.
+    #: The remaining first-order gain for a unit of the variables.
     stationarity: Union[float, None]
-    #: Gained by a pattern search from there; null: none was made.
+    #: The gain of a pattern search from there; null: none was made.
     pattern_gain: Union[float, None]
-    #: Points it tried.
+    #: Number of points tried by the pattern search.
     pattern_trials: Union[int, None]
 
 
 class LossRecord(Record):
-    """How much far measurements cost."""
+    """The loss function of the fit, which limits the weight of outliers."""
 
-    #: The loss.
+    #: The kind of loss.
     loss: Loss
-    #: What is doubted together.
+    #: The unit that is rejected together: a pose or a single leg length.
     of: LossUnit
 
 
 class MapAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: What the designs have to do with each other; null: undecided, exit 3.
+    #: The relation of the two designs; null: undecided, exit 3.
     relation: Union[Relation, None]
-    #: What the relation is proved about; within rounding: nothing is proved.
+    #: The level of the proof; within rounding: nothing is proved.
     level: Level
-    #: It holds within rounding of the joints, or exactly.
+    #: Whether the relation holds exactly, or within rounding of the joints.
     holds_within_rounding: bool
-    #: One sentence with the numbers that decided.
+    #: The relation in one sentence, with the numbers that decided.
     explanation: str
     #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
     A: tuple[tuple[Union[float, None], ...], ...]
@@ -2750,20 +2787,21 @@ class MapAnswer(Record):
     c: tuple[Union[float, None], ...]
     #: The determinant of A.
     det: Union[float, None]
-    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact
-    #: arithmetic; null elsewhere, and for numbers too long to be read.
+    #: The determinant as an exact number, such as 64/243. Null: the identity of leg vectors is not proved
+    #: in exact arithmetic, or the number is too long to read.
     det_exact: Union[str, None]
-    #: Rows of A as exact numbers; null where `det_exact` is.
+    #: Rows of A as exact numbers; null if `det_exact` is null.
     A_exact: Union[tuple[tuple[str, ...], ...], None]
-    #: The constant terms as exact numbers; null where `det_exact` is.
+    #: The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     c_exact: Union[tuple[str, ...], None]
-    #: For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the
-    #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
-    #: other legs and where there is none; null as a whole where `det_exact` is.
+    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t.
+    #: Its row of A has the entries 1 - t and t, the others zero. The list has the t for which det A
+    #: vanishes while other legs stay fixed. An entry is null for other legs, or if no t exists. The list
+    #: is null if `det_exact` is null.
     singular_shares: Union[tuple[Union[str, None], ...], None]
-    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the
-    #: other legs as they stand: TO is singular where it is zero, and only there; null where there is no
-    #: such leg, and where `det_exact` is.
+    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other
+    #: legs fixed. TO is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is
+    #: null.
     det_of_shares: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
@@ -2775,17 +2813,17 @@ class MapAnswer(Record):
     singular_values: tuple[Union[float, None], ...]
     #: Smallest over largest singular value of A.
     inverse_condition: Union[float, None]
-    #: What the numbers were compared with.
+    #: The thresholds of the decision.
     tolerances: MapTolerancesRecord
-    #: Which leg is which.
+    #: The correspondence of the legs of both designs.
     correspondence: CorrespondenceRecord
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
     #: Leg lengths taken from one design to the other, with `--lengths`.
     lengths: Union[MappedLengthsRecord, None]
-    #: Base and platform of the second design were exchanged first.
+    #: Whether base and platform of the second design were exchanged first.
     exchanged: Union[bool, None]
     #: The rigid motions that make the second design equivalent to the first, with `--align`.
     alignment: Union[AlignmentRecord, None]
@@ -2796,13 +2834,13 @@ class MapAnswer(Record):
 class MapRecord(Record):
     """The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs."""
 
-    #: What the designs have to do with each other; null: undecided, exit 3.
+    #: The relation of the two designs; null: undecided, exit 3.
     relation: Union[Relation, None]
-    #: What the relation is proved about; within rounding: nothing is proved.
+    #: The level of the proof; within rounding: nothing is proved.
     level: Level
-    #: It holds within rounding of the joints, or exactly.
+    #: Whether the relation holds exactly, or within rounding of the joints.
     holds_within_rounding: bool
-    #: One sentence with the numbers that decided.
+    #: The relation in one sentence, with the numbers that decided.
     explanation: str
     #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
     A: tuple[tuple[Union[float, None], ...], ...]
@@ -2810,20 +2848,21 @@ class MapRecord(Record):
     c: tuple[Union[float, None], ...]
     #: The determinant of A.
     det: Union[float, None]
-    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors holds in exact
-    #: arithmetic; null elsewhere, and for numbers too long to be read.
+    #: The determinant as an exact number, such as 64/243. Null: the identity of leg vectors is not proved
+    #: in exact arithmetic, or the number is too long to read.
     det_exact: Union[str, None]
-    #: Rows of A as exact numbers; null where `det_exact` is.
+    #: Rows of A as exact numbers; null if `det_exact` is null.
     A_exact: Union[tuple[tuple[str, ...], ...], None]
-    #: The constant terms as exact numbers; null where `det_exact` is.
+    #: The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     c_exact: Union[tuple[str, ...], None]
-    #: For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the
-    #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
-    #: other legs and where there is none; null as a whole where `det_exact` is.
+    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t.
+    #: Its row of A has the entries 1 - t and t, the others zero. The list has the t for which det A
+    #: vanishes while other legs stay fixed. An entry is null for other legs, or if no t exists. The list
+    #: is null if `det_exact` is null.
     singular_shares: Union[tuple[Union[str, None], ...], None]
-    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs at once, the
-    #: other legs as they stand: TO is singular where it is zero, and only there; null where there is no
-    #: such leg, and where `det_exact` is.
+    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other
+    #: legs fixed. TO is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is
+    #: null.
     det_of_shares: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
@@ -2835,29 +2874,29 @@ class MapRecord(Record):
     singular_values: tuple[Union[float, None], ...]
     #: Smallest over largest singular value of A.
     inverse_condition: Union[float, None]
-    #: What the numbers were compared with.
+    #: The thresholds of the decision.
     tolerances: MapTolerancesRecord
 
 
 class MapTolerancesRecord(Record):
-    """Limits of the decision about a map."""
+    """The thresholds of the decision about a map."""
 
-    #: Of `residual`.
+    #: The greatest `residual` of a map that holds.
     residual: float
-    #: Of the singular values, relative to the largest.
+    #: The threshold of the singular values, relative to the largest.
     rank: float
-    #: Of `inverse_condition`.
+    #: The least `inverse_condition` of a regular map.
     inverse_condition: float
 
 
 class MappedLengthsRecord(Record):
     """Lengths of the legs of both designs at the same poses, as the legs show them, design units."""
 
-    #: Of FROM, as given.
+    #: The given lengths of FROM.
     from_: tuple[Union[float, None], ...]
-    #: Of TO; null: there are none.
+    #: The lengths of TO; null: there are none.
     to: Union[tuple[Union[float, None], ...], None]
-    #: Why there are none: no regular map, or a squared length that is not positive.
+    #: The reason why there are none: no regular map, or a squared length that is not positive.
     why_not: Union[str, None]
 
 
@@ -2866,362 +2905,366 @@ class MarginRecord(Record):
 
     #: The kind.
     name: TermKind
-    #: Least over the poses looked at; a violation below 0.
+    #: The least margin over the sampled poses, negative for a violation.
     margin: Union[float, None]
-    #: What has to remain of the limit, in the unit of the margin; 0: no reserve is asked for.
+    #: The safety margin (reserve) that the design requires for this limit, in the unit of the margin; 0:
+    #: none.
     reserve: Union[float, None]
-    #: The margin less the reserve.
+    #: The margin minus the safety margin.
     margin_with_reserve: Union[float, None]
-    #: The reserve is kept: proved in `assess` (null where it is not), at the poses looked at elsewhere.
+    #: Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at
+    #: the sampled poses.
     reserve_kept: Union[bool, None]
-    #: Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked
-    #: at elsewhere.
+    #: Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other
+    #: answers it holds at the sampled poses.
     met: Union[bool, None]
-    #: Rounding does not tell the margin from 0.
+    #: Whether the margin is 0 to rounding.
     at_limit: bool
-    #: What is known of it.
+    #: The status of the requirement.
     status: MarginVerdict
-    #: No pose of the workspace has a smaller margin; null where nothing is proved.
+    #: The proved lower bound of the margin over the whole workspace; null: nothing is proved.
     proved_margin: Union[float, None]
-    #: Of the margins.
+    #: The unit of the margins.
     unit: str
-    #: Legs, joints, keep-out or load.
+    #: The legs, joints, keep-out or load with the least margin.
     between: tuple[str, ...]
-    #: The legs among them, from 1; those of a joint where the requirement is about joints.
+    #: The legs concerned, from 1; for a requirement on joints, the legs of the joint.
     legs: tuple[int, ...]
-    #: Where it is least; null where the pose has no influence.
+    #: The pose with the least margin; null: the margin is the same at every pose.
     pose: Union[PoseQuaternionRecord, None]
 
 
 class MotionAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
     #: The convention in which poses of options were read, and of the table of instants; a table of poses
     #: may say more in the names of its columns.
     frames: PoseConventionRecord
-    #: No requirement is violated at the instants looked at, and no pose of the motions is singular.
+    #: Whether every requirement is met at the sampled instants, and every pose of the motions is regular.
     met: bool
-    #: Of lengths; speeds are in it per second, accelerations per second squared.
+    #: The unit of lengths; speeds are in this unit per second, accelerations per second squared.
     length_unit: str
-    #: Of forces.
+    #: The unit of forces.
     force_unit: str
-    #: What the file does not say and was taken instead, a sentence each.
+    #: Assumed values that the file does not state, one sentence each.
     assumptions: tuple[str, ...]
-    #: In the order asked for: the trajectory, sines, accelerations.
+    #: The motions in the order trajectory, sines, accelerations.
     motions: tuple[MotionRunRecord, ...]
-    #: How stiff the platform is at the pose of `--about`; null: it was not asked for.
+    #: The stiffness of the platform at the pose of `--about`; null: not requested.
     stiffness: Union[StiffnessRecord, None]
-    #: The table of instants that was written; null: none.
+    #: The table of instants written; null: none.
     csv: Union[str, None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class MotionRecord(Record):
     """A pair of rigid motions of the second design."""
 
-    #: Of its base.
+    #: The motion of its base.
     base: PoseRecord
-    #: Of its platform.
+    #: The motion of its platform.
     platform: PoseRecord
-    #: The residual of the map to the moved design.
+    #: The residual of the leg map to the moved design.
     residual: Union[float, None]
-    #: The determinant of that map.
+    #: The determinant of this map.
     det: Union[float, None]
-    #: What the moved design has to do with the first; null: undecided.
+    #: The relation of the moved design to the first; null: undecided.
     relation: Union[Relation, None]
 
 
 class MotionRunRecord(Record):
-    """The legs along a motion."""
+    """The legs along one motion."""
 
-    #: The file of the trajectory, or the manoeuvre as it was asked for.
+    #: The file of the trajectory, or the manoeuvre as requested.
     motion: str
-    #: Instants looked at.
+    #: Number of sampled instants.
     instants: int
-    #: From the first to the last of them.
+    #: Time from the first to the last instant, seconds.
     duration_s: float
-    #: As in the answer, of this motion.
+    #: Whether this motion meets every requirement at the sampled instants, and every pose is regular.
     met: bool
-    #: By leg; empty where a leg has no length at some instant, and where the legs are rods on cranks.
+    #: The legs in order; empty: a leg has no length at some instant, or the legs are rods on cranks.
     legs: tuple[LegMotionRecord, ...]
-    #: The least margin of each kind of requirement, force and speed by this motion.
+    #: The least margin of each kind of requirement, with the forces and speeds of this motion.
     requirements: tuple[TimedMarginRecord, ...]
     #: Whether every pose of the motion is regular.
     regularity: MotionRegularity
-    #: When the first singular pose is passed; null: none was found.
+    #: The time of the first singular pose, seconds; null: none was found.
     singular_at_s: Union[float, None]
-    #: That pose.
+    #: The first singular pose; null: none was found.
     singular_pose: Union[PoseQuaternionRecord, None]
-    #: What shows that it is singular.
+    #: The evidence that it is singular.
     singular_evidence: Union[SingularEvidenceWord, None]
-    #: By leg, where the legs are rods on cranks; empty where a rod does not reach at some instant.
+    #: The cranks in leg order, for legs that are rods on cranks; empty: a rod does not reach at some
+    #: instant.
     cranks: Union[tuple[CrankMotionRecord, ...], None]
-    #: When a rod first does not reach from its crank to the platform, where one does not.
+    #: The time at which a rod first does not reach from its crank to the platform, seconds.
     unreached_at_s: Union[float, None]
 
 
 class MovesFoundRecord(Record):
-    """A search for equivalent platforms in short."""
+    """A summary of a search for equivalent platforms."""
 
-    #: What came out.
+    #: The outcome of the search.
     outcome: SearchWord
-    #: Legs of the platform written that are not legs of the design, from 1; null: none is written.
+    #: Legs of the written platform that differ from the design's legs, from 1; null: no platform is
+    #: written.
     moved_legs: Union[tuple[int, ...], None]
-    #: det A of the map to it; null: none is written.
+    #: det A of the leg map to the written platform; null: no platform is written.
     det: Union[float, None]
 
 
 class NaturalMotionRecord(Record):
     """A natural motion."""
 
-    #: Its frequency.
+    #: The frequency, hertz.
     frequency_hz: Union[float, None]
-    #: Its shape: shift of the platform origin in design units and rotation vector in radians, base frame,
-    #: for which `v^T M v` is 1 in kilograms and design units.
+    #: The mode shape, base frame: shift of the platform origin in design units and rotation vector in
+    #: radians. It is normalised to `v^T M v = 1` in kilograms and design units.
     shape: tuple[Union[float, None], ...]
 
 
 class NearRecord(Record):
-    """The way from the start to the pose reached, with the numbers that prove it free of singularities."""
+    """The path from the start to the pose reached, with the numbers that prove that it holds no singular pose."""
 
-    #: What came of it.
+    #: The outcome of the tracking.
     outcome: NearWord
-    #: Why it was lost.
+    #: The reason for losing the pose; null: it was not lost.
     reason: Union[str, None]
     #: The pose at the beginning.
     start: PoseRecord
     #: The pose at the end.
     reached: PoseRecord
-    #: How far on the straight line of squared lengths; 1 at its end.
+    #: The fraction of the straight line of squared lengths that was covered; 1: all.
     fraction: float
-    #: Largest error of the leg equations over the squared size.
+    #: Largest error of the leg equations divided by the squared size.
     residual: Union[float, None]
-    #: Of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singularity.
+    #: Inverse condition number of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a
+    #: singular pose.
     inverse_condition: Union[float, None]
-    #: Segments the line was divided into.
+    #: Number of segments of the line.
     segments: int
-    #: Newton steps in all.
+    #: Number of Newton steps in all.
     newton_steps: int
-    #: The largest Kantorovich number; below 1 every segment is free of singularities.
+    #: The largest Kantorovich number; below 1, no segment holds a singular pose.
     kantorovich: Union[float, None]
-    #: How far the centroid of the platform moved, design units.
+    #: Displacement of the platform centroid since the start, design units.
     distance: Union[float, None]
-    #: The angle the platform turned by.
+    #: Angle of rotation since the start, degrees.
     angle_deg: Union[float, None]
-    #: How uncertain the pose reached is, where the design has standard deviations of a calibration and
-    #: joints are ideal.
+    #: Uncertainty of the pose reached. Present for ideal joints and a design with standard deviations of a
+    #: calibration.
     uncertainty: Union[PoseUncertaintyRecord, None]
 
 
 class NearestAllowedRecord(Record):
-    """An allowed pose near one that is not."""
+    """The allowed pose found near a pose that is not allowed."""
 
     #: The pose.
     pose: PoseQuaternionRecord
-    #: Its position, design units.
+    #: The position, base frame, design units.
     position: tuple[float, ...]
-    #: Its roll, pitch and yaw.
+    #: Roll, pitch and yaw, degrees.
     rpy_deg: tuple[float, ...]
     #: The pose in the convention of `frames`.
     in_frames: PoseInFrames
-    #: Distance from the pose asked for, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
+    #: Distance from the requested pose, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     distance: float
-    #: The `L` of the distance, design units a radian.
+    #: The `L` of the distance, design units per radian.
     characteristic_length: float
-    #: What keeps it from being nearer.
+    #: The active requirements that keep the pose from being nearer.
     binds: tuple[LimitRecord, ...]
-    #: Whether no small step leads nearer, as far as margins are smooth: then it is locally nearest. False:
-    #: the search ended before that was so.
+    #: Whether no small step leads nearer, as far as margins are smooth: the pose is then locally nearest.
+    #: False: the search ended early.
     stationary: bool
-    #: Whether the straight way from home to it violates nothing.
+    #: Whether the straight path from home to the pose violates nothing.
     straight_from_home: bool
 
 
 class NearestErrorRecord(Record):
-    """The nearest octahedral platform in short."""
+    """A summary of the nearest octahedral platform."""
 
     #: The largest displacement of a leg end, design units.
     largest_displacement: Union[float, None]
-    #: The same over the size of the design.
+    #: The largest displacement divided by the size of the design.
     relative_displacement: Union[float, None]
-    #: The largest difference of leg lengths over the poses of the workspace.
+    #: The largest difference of leg lengths over the poses of the workspace, design units.
     largest_length_deviation: Union[float, None]
-    #: det A of the map from the octahedral platform to the one beside the design.
+    #: det A of the leg map from the octahedral platform to the equivalent one near the design.
     det: Union[float, None]
 
 
 class NearestMotionRecord(Record):
-    """The pair of rigid motions that comes nearest."""
+    """The pair of rigid motions with the least residual."""
 
-    #: Of the base of the second design.
+    #: Motion of the base of the second design.
     base: PoseRecord
-    #: Of its platform.
+    #: Motion of its platform.
     platform: PoseRecord
     #: The residual it leaves.
     residual: Union[float, None]
 
 
 class NearestPlatformRecord(Record):
-    """The platform that comes nearest to its requirements."""
+    """The platform with the least violation of its requirements."""
 
-    #: What was chosen, axes left out.
+    #: The chosen variables, without axes.
     variables: tuple[VariableRecord, ...]
-    #: The requirements, over many poses and by other code.
+    #: Margins of the requirements, over many poses and computed independently of the search.
     constraint_margins: tuple[MarginRecord, ...]
-    #: What `assess` says of it; null: the design requires nothing.
+    #: The result of `assess`; null: the design has no requirements.
     assessment: Union[AssessAnswer, None]
     #: The platform.
     design: Design
 
 
 class NearestRoundingOutcome(Record):
-    """The nearest rounding, or why there is none."""
+    """The nearest rounding, or the reason why there is none."""
 
     #: The grids used.
     grids: Union[GridsRecord, None]
-    #: What leg map and forward kinematics say of it and the wanted design.
+    #: The verdict of leg map and forward kinematics against the given design.
     verdict: Union[RoundingVerdict, None]
-    #: The residual of the leg map; null where it could not be computed.
+    #: The residual of the leg map; null: it could not be computed.
     map_residual: Union[float, None]
     #: The joints.
     joints: Union[tuple[RoundedJointRecord, ...], None]
-    #: How good it is.
+    #: The figures of the rounded design.
     judgement: Union[JudgementRecord, None]
-    #: The error of the pose by the formula of the wanted design.
+    #: The error of the pose when the formula of the given design is used.
     pose_error: Union[RoundingErrorRecord, None]
-    #: Joints that are not on the nearest hole.
+    #: Number of joints that are not on the nearest hole.
     not_nearest: Union[int, None]
-    #: Turns by 120 degrees take the joints of both bodies to themselves.
+    #: Whether rotations by 120 degrees map the joints of both bodies to themselves.
     three_fold: Union[bool, None]
-    #: What stands against it.
+    #: The obstacle.
     error: Union[NoRoundingError, None]
 
 
 class NearestRoundingRecord(Record):
-    """All joints on holes next to where they are wanted."""
+    """A rounding with all joints on holes near their given positions."""
 
     #: The grids used.
     grids: GridsRecord
-    #: What leg map and forward kinematics say of it and the wanted design.
+    #: The verdict of leg map and forward kinematics against the given design.
     verdict: RoundingVerdict
-    #: The residual of the leg map; null where it could not be computed.
+    #: The residual of the leg map; null: it could not be computed.
     map_residual: Union[float, None]
     #: The joints.
     joints: tuple[RoundedJointRecord, ...]
-    #: How good it is.
+    #: The figures of the rounded design.
     judgement: JudgementRecord
-    #: The error of the pose by the formula of the wanted design.
+    #: The error of the pose when the formula of the given design is used.
     pose_error: RoundingErrorRecord
-    #: Joints that are not on the nearest hole.
+    #: Number of joints that are not on the nearest hole.
     not_nearest: int
-    #: Turns by 120 degrees take the joints of both bodies to themselves.
+    #: Whether rotations by 120 degrees map the joints of both bodies to themselves.
     three_fold: bool
 
 
 class NearestSingularRecord(Record):
-    """The nearest singular design that was found."""
+    """The nearest singular design found."""
 
     #: Norm of the change of all joints, design units.
     distance: Union[float, None]
-    #: The distance found is an upper bound of the least one.
+    #: Always `upper`: the distance is an upper bound of the least distance.
     bound: Literal["upper"]
-    #: No singular design is nearer.
+    #: A lower bound: no singular design is nearer, design units.
     distance_at_least: Union[float, None]
-    #: What becomes singular.
+    #: The kind of singularity.
     kind: str
-    #: The legs in it, from 1.
+    #: The dependent legs, from 1.
     legs: tuple[int, ...]
-    #: The dependency of their leg vectors.
+    #: The coefficients of the dependency of the leg vectors.
     coefficients: Union[tuple[Union[float, None], ...], None]
-    #: What is left of the dependency.
+    #: The residual of the dependency.
     residual: Union[float, None]
-    #: Rounding of the file may be the only difference.
+    #: Whether the two designs differ by no more than rounding of the file.
     within_rounding: bool
-    #: Half a unit of the last digit given, design units, where no coordinate differs by more; null
-    #: otherwise.
+    #: Half a unit of the last digit given, design units; null: some coordinate differs by more.
     within_digits: Union[float, None]
-    #: Its base joints by name, base frame.
+    #: The base joints of the singular design by name, base frame.
     base: dict[str, tuple[Union[float, None], ...]]
-    #: Its platform joints by name, platform frame.
+    #: The platform joints of the singular design by name, platform frame.
     platform: dict[str, tuple[Union[float, None], ...]]
 
 
 class NextPoseRecord(Record):
     """A pose to measure next."""
 
-    #: The pose, in the frames of the design where joints are carried to them, else in those of the
+    #: The pose, in the design frames if joints are carried to them, else in the frames of the
     #: measurements.
     pose: PoseQuaternionRecord
-    #: Roll, pitch and yaw of it, degrees.
+    #: Roll, pitch and yaw of the pose, degrees.
     rpy_deg: tuple[Union[float, None], ...]
     #: The pose in the convention of `frames`.
     in_frames: PoseInFrames
-    #: By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes
-    #: smaller with it.
+    #: The factor by which this measurement shrinks the error ellipsoid: the geometric mean of the
+    #: deviations along its axes.
     shrinks: Union[float, None]
-    #: The greatest standard deviation of a coordinate or offset after it and those before it, design
-    #: units.
+    #: The greatest standard deviation of a coordinate or offset after this pose and those before it,
+    #: design units.
     greatest_deviation: Union[float, None]
 
 
 class NoRoundingError(Record):
-    """What stands against a rounding."""
+    """The obstacle to a rounding."""
 
     #: A short code.
     code: NoRoundingWord
-    #: One sentence.
+    #: The message in one sentence.
     message: str
 
 
 class NoRoundingRecord(Record):
-    """Why there is no rounding."""
+    """The reason why there is no rounding."""
 
-    #: What stands against it.
+    #: The obstacle.
     error: NoRoundingError
 
 
 class NoiseRecord(Record):
     """Standard deviations of measurements."""
 
-    #: Where they come from.
+    #: The source of the values.
     source: NoiseSource
-    #: Of a length, design units.
+    #: Standard deviation of a length, design units.
     length: Union[float, None]
-    #: Of each coordinate of the platform origin, design units.
+    #: Standard deviation of each coordinate of the platform origin, design units.
     position: Union[float, None]
-    #: Of each component of the rotation vector, degrees.
+    #: Standard deviation of each component of the rotation vector, degrees.
     rotation_deg: Union[float, None]
 
 
 class ObjectiveRecord(Record):
     """An objective and its value."""
 
-    #: Which.
+    #: The name of the objective.
     name: Objective
-    #: By the dense evaluation.
+    #: The value over many poses, computed independently of the search.
     value: Union[float, None]
-    #: Over the poses at which the search held the requirements.
+    #: The value over the poses at which the search held the requirements.
     at_held_poses: Union[float, None]
-    #: Empty for a pure number.
+    #: The unit; empty for a pure number.
     unit: str
 
 
 class ObservabilityRecord(Record):
-    """Which changes of the machine the measurements see, and how well."""
+    """Observability of the machine's parameters by the measurements."""
 
-    #: Directions identified.
+    #: Number of identified directions.
     rank: int
-    #: Of the identification matrix, whitened and multiplied by the deviation of a length; largest first,
-    #: without unit.
+    #: Singular values of the identification matrix, whitened and multiplied by the deviation of a length,
+    #: largest first; no unit.
     singular_values: tuple[Union[float, None], ...]
-    #: Smaller values are directions that are not identified.
+    #: The threshold: smaller singular values count as not identified.
     tolerance: Union[float, None]
     #: `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
     volume_index: Union[float, None]
@@ -3231,221 +3274,223 @@ class ObservabilityRecord(Record):
     noise_amplification: Union[float, None]
     #: `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
     harmonic_index: Union[float, None]
-    #: Changes of the machine that are not identified, each of norm 1 over all unknowns.
+    #: Changes of the machine that are not identified, each normalised to 1 over all unknowns.
     unobservable: tuple[UnobservableRecord, ...]
 
 
 class OffsetProductsRecord(Record):
     """Products over the six offsets of the platform without shared joints."""
 
-    #: The product of all `1 - t_i`.
+    #: The product (1 - t1) .. (1 - t6).
     rest: ExactNumberRecord
-    #: The product of all `t_i`.
+    #: The product t1 .. t6.
     own: ExactNumberRecord
 
 
 class OffsetShiftRecord(Record):
-    """How an offset changes."""
+    """The change of an offset."""
 
-    #: From 1.
+    #: The leg, from 1.
     leg: int
-    #: The change.
+    #: The change of the offset; relative, the whole change has norm 1.
     change: Union[float, None]
 
 
 class OnHolesRecord(Record):
-    """A platform with its joints on the holes that its design states, in short."""
+    """A summary of a platform with its joints on the holes that its design states."""
 
-    #: Which rounding was taken; null: there is none.
+    #: The rounding chosen; null: there is none.
     variant: Union[VariantWord, None]
-    #: Turns by 120 degrees take both triangles with their joints to themselves.
+    #: Whether rotations by 120 degrees map both triangles with their joints to themselves.
     three_fold: bool
-    #: The farthest that a joint went to its hole.
+    #: The largest displacement of a joint to its hole, design units.
     largest_displacement: Union[float, None]
-    #: Variables that were chosen again after rounding.
+    #: Variables optimised again after rounding.
     refitted: tuple[str, ...]
-    #: How often a platform was sought and rounded.
+    #: Number of passes of search and rounding.
     passes: int
-    #: Why there is no rounding; null: there is one.
+    #: The reason why there is no rounding; null: there is one.
     error: Union[NoRoundingError, None]
 
 
 class OptimizeAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: What came of the search.
+    #: The status of the search.
     status: OptimizeWord
-    #: What is known of better ones; null: nothing, or there is no platform.
+    #: The evidence of optimality; null: none, or there is no platform.
     optimality: Union[OptimalityWord, None]
     #: Value of the first objective.
     objective: Union[float, None]
-    #: All of them.
+    #: All objectives.
     objectives: Union[tuple[ObjectiveRecord, ...], None]
-    #: What was chosen, axes left out.
+    #: The chosen variables, without axes.
     variables: Union[tuple[VariableRecord, ...], None]
-    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    #: The offsets `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: `t_i d_i`, design units; null as `edge_lengths`.
+    #: The displacements `t_i d_i`, design units; null if `edge_lengths` is null.
     shifts: Union[tuple[Union[float, None], ...], None]
-    #: `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    #: The edges `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     edge_lengths: Union[tuple[Union[float, None], ...], None]
     #: The legs of the cycle, from 1; null: no offsets were chosen.
     cyclic_order: Union[tuple[int, ...], None]
-    #: Zone of each offset: before, inside, beyond its edge; null: no offsets were chosen.
+    #: Zone of each offset: before, inside or beyond its edge; null: no offsets were chosen.
     branch: Union[str, None]
-    #: det A of the leg map; null: the variables do not keep the class of the design.
+    #: det A of the leg map; null: the variables leave the equivalence class of the design.
     det: Union[float, None]
-    #: s' = A s + c, legs in the order of the design; rows. Null as `det`.
+    #: Rows of A: s' = A s + c of squared leg lengths, legs in the order of the design. Null if `det` is
+    #: null.
     A: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: The constant terms, design units squared; null as `det`.
+    #: The constant terms, design units squared; null if `det` is null.
     c: Union[tuple[Union[float, None], ...], None]
-    #: Home, lifted when its height was chosen.
+    #: The home pose, raised if its height was chosen.
     home: Union[PoseQuaternionRecord, None]
-    #: The axes chosen.
+    #: The chosen joint axes.
     joint_axes: Union[JointAxesRecord, None]
-    #: The requirements, over many poses and by other code.
+    #: Margins of the requirements, over many poses and computed independently of the search.
     constraint_margins: Union[tuple[MarginRecord, ...], None]
-    #: By how much what the search demands besides them is met.
+    #: Margins of the extra conditions of the search.
     search_margins: Union[SearchMarginsRecord, None]
-    #: What the platform rides on: ends of ranges and limits of which nothing is left, and how its bodies
-    #: have grown; null: nothing.
+    #: The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null:
+    #: none.
     riding: Union[RidingRecord, None]
-    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    #: Whether the platform is proved to meet its requirements; null: some are unproved.
     requirements_met: Union[bool, None]
-    #: What `assess` says of the platform; null: the design requires nothing.
+    #: The result of `assess` for the platform; null: the design has no requirements.
     assessment: Union[AssessAnswer, None]
-    #: Whether it is equivalent to the design; null: the variables do not keep the class.
+    #: Whether it is equivalent to the design; null: the variables leave the equivalence class.
     verify: Union[VerifiedRecord, None]
-    #: Where the first objective is reached among the poses held; null: it is not the worst conditioning.
+    #: The held pose with the value of the first objective; null: the objective is not the worst
+    #: conditioning.
     worst_pose: Union[WorstPoseRecord, None]
     #: Evidence of local optimality.
     local_optimality: Union[LocalOptimalityRecord, None]
-    #: Steps of the run that found it; null in a front.
+    #: Steps of the run that found it; null: a member of a front.
     history: Union[tuple[SearchStepRecord, ...], None]
-    #: Numbers of poses.
+    #: Numbers of poses held and checked.
     poses: Union[HeldPosesRecord, None]
     #: The platform as a design; null: there is none.
     design: Union[Design, None]
-    #: The file written, with the platform or the one that comes nearest.
+    #: The file written, with the best platform or the one with the least violation.
     output: Union[str, None]
-    #: Where none that meets the requirements was found: the one with the least violation, which misses
-    #: some of them.
+    #: The platform with the least violation; null: a platform meets the requirements.
     nearest: Union[NearestPlatformRecord, None]
-    #: What cannot be met together, where that is why there is no platform.
+    #: The requirements in conflict; null: no conflict is known.
     conflict: Union[ConflictRecord, None]
-    #: Why the search failed to decide, a sentence; null: it decided, or nothing failed.
+    #: The reason why the search did not decide, one sentence; null: it decided, or nothing failed.
     failure: Union[str, None]
-    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; null where none was looked at.
+    #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
+    #: the requirements, or no freedom was tried.
     freedoms: Union[tuple[FreedomRecord, ...], None]
-    #: What became of the three-fold symmetry of the design; null where it has none, names one, or the
-    #: search could not break it or did not look at it.
+    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
+    #: search could not break it or did not check it.
     symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table, with what the search came to with each; null where no table was given. The
-    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
+    #: The drives of a table with the search result for each; null: no table was given. The rest of the
+    #: answer is about the chosen drive, or else about the drive with the best result.
     drive_search: Union[DriveSearchRecord, None]
-    #: Other local optima that meet the requirements at the poses that were held, best first; null where
-    #: they were not asked for.
+    #: Other local optima that meet the requirements at the poses held, best first; null: not requested.
     candidates: Union[tuple[OptimumRecord, ...], None]
-    #: With mode = "pareto": platforms of which none is better in every objective, by falling gain of the
-    #: first objective; else null.
+    #: The Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted
+    #: by falling gain of the first objective; null in other modes.
     front: Union[tuple[FrontMemberRecord, ...], None]
-    #: Why the sizes of the bodies and the height of home are chosen, a sentence; null: the variables are
-    #: those of the design, or the usual ones.
+    #: The reason why the sizes of the bodies and the height of home are chosen, one sentence. Null: the
+    #: variables come from the design or are the usual ones.
     choice: Union[str, None]
-    #: What the search itself was held to.
+    #: Limits of the search itself.
     limits: SearchLimitsRecord
-    #: The poses that were asked for.
+    #: The poses required.
     region: PoseRegionRecord
-    #: How the search went.
+    #: Statistics of the search.
     search: SearchRecord
-    #: What no platform that could be chosen can exceed at the poses held; null: not proved, or there is no
-    #: solution.
+    #: An upper bound on the objective of every platform at the poses held; null: not proved, or there is
+    #: no solution.
     global_bound: Union[GlobalBoundRecord, None]
-    #: Greatest gap to that bound at which the answer counts as optimal; null: the search proves no bound.
+    #: Greatest gap to this bound at which the answer counts as optimal; null: the search proves no bound.
     tolerance: Union[float, None]
-    #: What became of the branches; null: the search has none.
+    #: Numbers of branches by outcome; null: the search has none.
     branch_counts: Union[BranchCountsRecord, None]
     #: The best other branches.
     runners_up: Union[tuple[BranchRecord, ...], None]
-    #: All branches: a zone for each offset.
+    #: All branches, with one zone for each offset.
     branches: Union[tuple[BranchRecord, ...], None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class OptimizedRecord(Record):
-    """The platform in short: the fields of the answer of `optimize` that say most."""
+    """A summary of the platform: the main fields of the answer of `optimize`."""
 
-    #: What came of the search.
+    #: The status of the search.
     status: OptimizeWord
-    #: What is known of better ones; null: nothing.
+    #: The evidence of optimality; null: none.
     optimality: Union[OptimalityWord, None]
     #: Value of the first objective.
     objective: Union[float, None]
-    #: What was chosen, axes left out.
+    #: The chosen variables, without axes.
     variables: tuple[VariableRecord, ...]
-    #: The numbers `t_i` in cyclic order; null: no offsets were chosen.
+    #: The offsets `t_i` in cyclic order; null: no offsets were chosen.
     offsets: Union[tuple[Union[float, None], ...], None]
-    #: `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+    #: The displacements `t_i d_i`, design units; null: no offsets were chosen, or the triangles were
+    #: chosen too.
     shifts: Union[tuple[Union[float, None], ...], None]
-    #: det A of the leg map; null: the variables do not keep the class of the design.
+    #: det A of the leg map; null: the variables leave the equivalence class of the design.
     det: Union[float, None]
-    #: What the platform rides on; null: nothing.
+    #: The active bounds of the platform; null: none.
     riding: Union[RidingRecord, None]
 
 
 class OptimumRecord(Record):
-    """A local optimum beside the best one."""
+    """A local optimum other than the best one."""
 
     #: All objectives.
     objectives: tuple[ObjectiveRecord, ...]
-    #: What was chosen, axes left out.
+    #: The chosen variables, without axes.
     variables: tuple[VariableRecord, ...]
-    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    #: Whether the platform is proved to meet its requirements; null: some are unproved.
     requirements_met: Union[bool, None]
-    #: What `assess` says of it; null: the design requires nothing.
+    #: The result of `assess`; null: the design has no requirements.
     assessment: Union[AssessAnswer, None]
     #: The platform.
     design: Design
-    #: The file it was written to.
+    #: The design file written; null: none.
     output: Union[str, None]
 
 
 class OtherAlignmentRecord(Record):
-    """What was found for the second design taken otherwise."""
+    """The result for the exchanged or mirrored second design."""
 
-    #: Whether there are motions.
+    #: Whether such motions exist.
     status: AlignmentWord
-    #: How many.
+    #: Number of motions.
     motions: int
 
 
 class OutlierRecord(Record):
-    """A measurement that does not belong to the others."""
+    """A measurement that contradicts the others."""
 
     #: Line of the table of measurements.
     line: int
-    #: From 1; null: the whole pose.
+    #: The leg, from 1; null: the whole pose.
     leg: Union[int, None]
-    #: How far it is from the model, standard deviations.
+    #: Distance of the measurement from the model, standard deviations.
     distance: Union[float, None]
-    #: Right measurements are all nearer with a probability of 99 %.
+    #: The rejection threshold, standard deviations: correct measurements all stay below it with a
+    #: probability of 99 %.
     threshold: Union[float, None]
-    #: Its weight in the fit.
+    #: The weight of the measurement in the fit.
     weight: Union[float, None]
 
 
 class PathRecord(Record):
-    """What a path of the homotopy did."""
+    """The report of a path of the homotopy."""
 
     #: Index of the start point.
     start: int
-    #: Where it ended.
+    #: The end of the path.
     end: PathEnd
     #: Index into `solutions`, from 0.
     root: Union[int, None]
@@ -3459,16 +3504,16 @@ class PathRecord(Record):
     winding: int
     #: |e.e| / |e|^2 at the end.
     isotropy: Union[float, None]
-    #: How often it had to be tracked again with smaller steps.
+    #: Number of repeated trackings with smaller steps.
     retracked: int
 
 
 class PatternLegRecord(Record):
     """One leg of a pattern."""
 
-    #: Its base joint.
+    #: The base joint of the leg.
     base: str
-    #: Its platform joint.
+    #: The platform joint of the leg.
     platform: str
     kind: Union[Literal["vertex", "inner"], None]
     #: The side, from 1.
@@ -3480,17 +3525,17 @@ class PatternLegRecord(Record):
 
 
 class PatternRecord(Record):
-    """Which legs are kept and which are moved along which edge."""
+    """A pattern: the kept legs, and the moved legs with their edges."""
 
-    #: Its name: V and the vertices kept, S and the sides of the moved ones.
+    #: The name of the pattern: V and the vertices kept, S and the sides of the moved ones.
     id: str
-    #: Its class up to symmetry, from 1.
+    #: The class of the pattern up to symmetry, from 1.
     class_: int
-    #: Its class up to all symmetries, from 1.
+    #: The class of the pattern up to all symmetries, from 1.
     class_exchange: int
-    #: Its topology, from 1.
+    #: The topology of the pattern, from 1.
     topology: int
-    #: It is reached by offsets introduced one at a time.
+    #: Whether offsets introduced one at a time lead to it.
     sequential: bool
     #: The legs, in the order of the design.
     legs: tuple[PatternLegRecord, ...]
@@ -3500,41 +3545,41 @@ class PatternRecord(Record):
     shared_joints: tuple[SharedJointRecord, ...]
     #: Joints on one line.
     alignments: tuple[tuple[str, ...], ...]
-    #: Formulas of the entries of A, legs in the order of the design.
+    #: Formulas of the entries of A, with legs in the order of the design.
     A: tuple[tuple[str, ...], ...]
     #: The formula of det A.
     det: str
-    #: Equations for det A = 0, one a factor.
+    #: The equations of the factors of det A = 0.
     det_zero: tuple[str, ...]
 
 
 class PentapodAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
-    #: How many legs it has: 5.
+    #: Number of legs: 5.
     legs: int
-    #: A joint is no fraction; the answer is about its nearest doubles.
+    #: Whether a joint is no fraction, so that the answer is about the nearest doubles.
     rounded_joints: bool
-    #: The line that the legs hold; null where no body has all its joints on a line. The other freedom of
-    #: the platform is the turn about this line.
+    #: The line that the legs hold; the platform can still rotate about it. Null: no body has all its
+    #: joints on a line.
     line: Union[HeldLineRecord, None]
     #: Whether the legs are dependent at every pose; null: not decided.
     architecturally_singular: Union[bool, None]
-    #: The sixth legs with which the platform is solved in steps.
+    #: Sixth legs that make the platform solvable in steps.
     sixth_legs: tuple[DecouplingLeg, ...]
-    #: The lengths that poses were asked for; null: none.
+    #: The lengths given, design units; null: none.
     lengths: Union[tuple[float, ...], None]
-    #: All poses of the line for them; null where none were asked for, or there is no answer.
+    #: All poses of the line for these lengths; null: no lengths were given, or there is no answer.
     poses: Union[LinePosesRecord, None]
-    #: Why there are no poses although lengths are given.
+    #: The reason why there are no poses for the given lengths; null: there are poses.
     no_poses: Union[str, None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
@@ -3546,7 +3591,7 @@ class PlacedFirst(Record):
     body: Union[Body, None]
     #: The legs, counted from 1.
     legs: Union[tuple[int, ...], None]
-    #: By which polynomial; null where the legs are dependent, or joints are no fractions.
+    #: The polynomial that places it; null when the legs are dependent, or joints are no fractions.
     class_: Union[LineClass, None]
     #: The five other ends lie in a plane: a line-plane component.
     other_ends_in_plane: Union[bool, None]
@@ -3557,28 +3602,29 @@ class PolynomialRecord(Record):
 
     #: The unknowns by their names.
     unknowns: tuple[str, ...]
-    #: The degree before factors without meaning are removed.
+    #: The degree before spurious factors are removed.
     degree_before: int
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The factors that were removed.
+    #: The spurious factors removed.
     removed: tuple[RemovedFactorRecord, ...]
-    #: Different complex roots; null with several unknowns, and where that is not proved.
+    #: Number of distinct complex roots; null: several unknowns, or not proved.
     distinct_roots: Union[int, None]
-    #: How the coefficients are known.
+    #: The representation of the coefficients.
     coefficients_known: CoefficientsWord
     #: The exponents of the unknowns in each term.
     exponents: tuple[tuple[int, ...], ...]
-    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
+    #: first.
     coefficients: tuple[str, ...]
-    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
-    #: are not exact.
+    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
+    #: that are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: How often each of them is a root.
+    #: The multiplicity of each real root.
     real_root_multiplicities: tuple[int, ...]
-    #: Bounds [low, high] of the coefficients, where they are not exact.
+    #: Bounds [low, high] of the coefficients; null: they are exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
 
 
@@ -3587,7 +3633,7 @@ class PoseBoundRecord(Record):
 
     #: The bound.
     poses: int
-    #: Why there are not more.
+    #: The theorem that gives the bound.
     theorem: str
 
 
@@ -3616,43 +3662,42 @@ class PoseConventionRecord(Record):
 class PoseCountRecord(Record):
     """The finite poses of the design, counted without finding them."""
 
-    #: Their number with multiplicity; null: not finite, or undecided.
+    #: The number with multiplicity; null: not finite, or undecided.
     finite: Union[int, None]
-    #: Standard monomials of each degree.
+    #: Number of standard monomials of each degree.
     by_degree: Union[tuple[int, ...], None]
     #: Dimension of a set of positive dimension.
     dimension: Union[int, None]
     #: Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
     degree: Union[int, None]
-    #: Why there is no count.
+    #: The reason why there is no count.
     undecided: Union[CountUndecided, None]
-    #: The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as
-    #: many isolated poses as any or more. Where the lengths are known to rounding only, as images under a
-    #: leg map are, the latter are counted.
+    #: The counted lengths: the exact ones given, or generic ones, which have at least as many isolated
+    #: poses. Lengths known only to rounding, such as images under a leg map, are counted as generic.
     lengths: CountedLengths
-    #: By a theorem and certificates, or modulo random primes.
+    #: The evidence: a theorem with certificates, or counting modulo random primes.
     evidence: EvidenceWord
-    #: A bound; null: proved, or undecided.
+    #: A bound on the probability of a wrong count; null: proved, or undecided.
     error_probability: Union[float, None]
-    #: In decimal, as text: they have more digits than a double.
+    #: The primes in decimal, as text: they have more digits than a double.
     primes: tuple[str, ...]
 
 
 class PoseErrorRecord(Record):
     """The error of a pose."""
 
-    #: Of the tool point, design units.
+    #: Error of the tool point, design units.
     position: Union[float, None]
-    #: Of the orientation.
+    #: Error of the orientation, degrees.
     rotation_deg: Union[float, None]
 
 
 class PoseErrorsRecord(Record):
-    """How the errors of poses spread."""
+    """Quantiles of pose errors."""
 
-    #: Of the tool point, design units.
+    #: Errors of the tool point, design units.
     position: QuantilesRecord
-    #: Of the orientation.
+    #: Errors of the orientation, degrees.
     rotation_deg: QuantilesRecord
 
 
@@ -3689,39 +3734,39 @@ class PoseRecord(Record):
 
 
 class PoseRegionRecord(Record):
-    """The poses that a design asks for."""
+    """The poses that a design requires."""
 
-    #: Where home comes from.
+    #: The source of home.
     home: SourceWord
-    #: Its position in the design that the search began with.
+    #: The position of home in the starting design, base frame, design units.
     home_position: tuple[Union[float, None], ...]
-    #: Where the workspace comes from.
+    #: The source of the workspace.
     workspace: SourceWord
 
 
 class PoseTotalsRecord(Record):
-    """Poses counted."""
+    """Numbers of poses."""
 
-    #: Where the lengths come from.
+    #: The source of the lengths.
     lengths_from: LengthsOrigin
-    #: Finite poses, real and complex.
+    #: Number of finite poses, real and complex.
     finite_count: int
-    #: Real ones.
+    #: Number of real poses.
     real_count: int
-    #: Poses with a certificate.
+    #: Number of poses with a certificate.
     certified_count: int
-    #: False: poses may be missing.
+    #: Whether every path is accounted for; false: poses may be missing.
     all_paths_accounted: bool
 
 
 class PoseUncertaintyRecord(Record):
-    """How uncertain a pose is that is computed from lengths with the calibrated machine, by what the calibration does not know, to first order; the noise of these lengths comes on top."""
+    """The uncertainty of a pose computed from lengths with the calibrated machine, to first order. It covers the errors of the calibration; the noise of the lengths adds to it."""
 
     #: Whether the design file has correlations.
     correlations: CorrelationsWord
-    #: Root mean square of the distance by which the platform origin is off, design units.
+    #: Root mean square error of the platform origin, design units.
     position: Union[float, None]
-    #: Root mean square of the angle by which the orientation is off, degrees.
+    #: Root mean square error of the orientation, degrees.
     rotation_deg: Union[float, None]
     #: Covariance of the shift of the platform origin (design units) and the rotation vector (degrees),
     #: base frame.
@@ -3731,59 +3776,60 @@ class PoseUncertaintyRecord(Record):
 class PriceRecord(Record):
     """Figures of a design and of the platform with separate joints made from it, in this order."""
 
-    #: Worst conditioning over the poses of the workspace, both by the characteristic length of the design.
+    #: Worst conditioning over the poses of the workspace; both use the characteristic length of the
+    #: design.
     conditioning: tuple[Union[float, None], ...]
-    #: Least distance of the ends of two legs on the base, design units; 0 where they share a joint.
+    #: Least distance of the ends of two legs on the base, design units; 0 for a shared joint.
     base_spacing: tuple[Union[float, None], ...]
-    #: The same on the platform.
+    #: Least distance of the ends of two legs on the platform, design units; 0 for a shared joint.
     platform_spacing: tuple[Union[float, None], ...]
-    #: Greatest distance of a base joint from the centre of the joints.
+    #: Greatest distance of a base joint from the centre of the base joints, design units.
     base_radius: tuple[Union[float, None], ...]
-    #: The same of the platform.
+    #: Greatest distance of a platform joint from the centre of the platform joints, design units.
     platform_radius: tuple[Union[float, None], ...]
-    #: One sentence.
+    #: The comparison in one sentence.
     message: str
 
 
 class ProvenanceRecord(Record):
-    """What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it."""
+    """The data needed to compute an answer again: the program, the seed and the files. It holds no time and no name of a machine."""
 
     #: The version of the program.
     version: str
-    #: The seed that was handed to the computation; null where it takes none.
+    #: The seed of the computation; null: it takes none.
     seed: Union[int, None]
-    #: The designs, in the order in which they were given.
+    #: The designs in the order given.
     designs: tuple[DesignSourceRecord, ...]
-    #: Other texts that were read: tables of lengths or poses, fronts.
+    #: The other files read: tables of lengths or poses, fronts.
     files: tuple[FileSourceRecord, ...]
 
 
 class QuantilesRecord(Record):
-    """How values spread."""
+    """Quantiles of values."""
 
-    #: Half of the values is at most this.
+    #: Half of the values are at most this.
     median: Union[float, None]
-    #: 90 of a hundred.
+    #: 90 % of the values are at most this.
     p90: Union[float, None]
-    #: 99 of a hundred.
+    #: 99 % of the values are at most this.
     p99: Union[float, None]
-    #: All.
+    #: The greatest value.
     max: Union[float, None]
 
 
 class RayEndRecord(Record):
-    """What ends ways."""
+    """A limit that ends paths."""
 
-    #: The kind of requirement; null: a singular pose, or nothing within ten sizes.
+    #: The kind of requirement; null: a singular pose, or no limit within ten sizes of the design.
     name: Union[TermKind, None]
-    #: The same in a word.
+    #: The limit in a word.
     end: str
-    #: The share of the ways, which is one of solid angle.
+    #: The share of the paths that it ends, a share of solid angle.
     share: float
 
 
 class RealPoseRecord(Record):
-    """A real pose in real numbers."""
+    """A real pose as real numbers."""
 
     #: Position of the platform origin, base frame, design units.
     position: tuple[float, ...]
@@ -3795,51 +3841,51 @@ class RealPoseRecord(Record):
     quat_wxyz: tuple[float, ...]
     #: The pose in the convention of `frames`.
     in_frames: PoseInFrames
-    #: On which side of the base the platform is; null: its centre is in the plane of the base, there or at
-    #: home.
+    #: The side of the base on which the platform is; null: its centre is in the plane of the base, here or
+    #: at home.
     mode: Union[SideWord, None]
     #: Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position
-    #: over the size of the design.
+    #: divided by the size of the design.
     distance_from_home: float
-    #: Whether none of the other real poses listed is nearer to home.
+    #: Whether this is the real pose nearest to home.
     nearest_home: bool
     #: Whether the pose meets every requirement and det J has the sign that it has at home, with
     #: `--limits`.
     allowed: Union[bool, None]
-    #: Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks:
-    #: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
+    #: Whether each crank is on the side (elbow) that the design names; null: no cranks. A crank changes
+    #: its side only through a singular pose, with crank, rod and axis in one plane.
     elbow_kept: Union[tuple[bool, ...], None]
 
 
 class RegularBoxRecord(Record):
-    """A box of poses about a pose that holds no singular one."""
+    """A box of regular poses around a pose."""
 
     #: Half widths of positions at scale 1, design units, base frame.
     translation: tuple[float, ...]
-    #: Half widths of the rotation vector at scale 1, base frame.
+    #: Half widths of the rotation vector at scale 1, base frame, degrees.
     rotation_deg: tuple[float, ...]
-    #: Its shape.
+    #: The shape of the region.
     region: RegionWord
-    #: No singular pose up to this scale, proved.
+    #: Proved: no pose up to this scale is singular.
     proved_scale: Union[float, None]
-    #: A pose of the smallest box known to hold a singular one.
+    #: A pose in the smallest box known to hold a singular one; null: no such box is known.
     singular_within: Union[ScaledPoseRecord, None]
-    #: Up to this scale a change of sign was looked for.
+    #: The greatest scale searched for a change of sign.
     searched_scale: Union[float, None]
-    #: Cells the proof took.
+    #: Number of cells in the proof.
     cells: int
 
 
 class RegularityRecord(Record):
-    """Whether det J vanishes at no pose of the workspace."""
+    """Whether det J is nonzero at every pose of the workspace."""
 
-    #: Null: undecided.
+    #: Whether every pose is regular; null: undecided.
     met: Union[bool, None]
-    #: The same in a word.
+    #: The result in a word.
     status: RegularityWord
-    #: Where det J has the other sign than at home, or where it is undecided.
+    #: The pose at which det J has the opposite sign to home, or is undecided.
     pose: Union[PoseQuaternionRecord, None]
-    #: Cells of the workspace that were looked at.
+    #: Number of cells of the workspace examined.
     cells: int
 
 
@@ -3853,73 +3899,76 @@ class RejectedRecord(Record):
 
 
 class RemovedFactorRecord(Record):
-    """A factor that belongs to the way to the polynomial, not to its meaning."""
+    """A spurious factor: it comes from the derivation of the polynomial and has no meaning for the poses."""
 
     #: The factor in the unknowns, or in words.
     factor: str
-    #: Its degree.
+    #: The degree of the factor.
     degree: int
-    #: How often it was removed.
+    #: The number of times it was removed.
     times: int
 
 
 class RequiredSizeRecord(Record):
-    """The region that a design asks for."""
+    """The workspace that a design requires."""
 
-    #: Of its translations, design units cubed.
+    #: Volume of its translations, design units cubed.
     volume: float
-    #: The same over the volume that straight ways reach at the orientation of home.
+    #: The volume of its translations divided by the volume that straight paths reach at the orientation of
+    #: home.
     share: Union[float, None]
-    #: The factor by which its translations and rotations together may be multiplied; 1 and more: the
-    #: region is free.
+    #: The factor by which its translations and rotations together can grow; 1 or more: the whole region is
+    #: free.
     factor: FreeSizeRecord
 
 
 class RequirementMarginRecord(Record):
     """The least margin of a requirement."""
 
-    #: Which.
+    #: The requirement.
     name: TermKind
     #: The margin; a violation below 0.
     margin: Union[float, None]
 
 
 class ResidualsRecord(Record):
-    """Sizes of residuals, design units."""
+    """Statistics of residuals, design units."""
 
-    #: Root mean square.
+    #: Root mean square of the residuals.
     rms: Union[float, None]
-    #: Of each leg.
+    #: Root mean square of the residuals of each leg.
     legs: tuple[Union[float, None], ...]
-    #: The one of the largest size; null: none was counted.
+    #: The residual of greatest size; null: none was counted.
     greatest: Union[GreatestResidualRecord, None]
-    #: Lengths counted.
+    #: Number of lengths counted.
     count: int
 
 
 class RiddenBoundRecord(Record):
-    """A bound of which nothing is left."""
+    """An active bound."""
 
-    #: A variable, a requirement, or `abs_det`.
+    #: The name of a variable or a requirement, or `abs_det`.
     name: str
-    #: What bounds it.
+    #: The kind of bound.
     kind: RiddenWord
-    #: The value of a variable; what is left of a limit.
+    #: The value of the variable, or the margin of the limit.
     value: Union[float, None]
-    #: Of the value; empty for a pure number.
+    #: The unit of the value; empty for a pure number.
     unit: str
 
 
 class RidingRecord(Record):
-    """The bounds that decide about a platform, and the growth of its bodies."""
+    """The active bounds of a platform, and the growth of its bodies."""
 
-    #: Ranges of variables and limits of which nothing is left.
+    #: Active ranges of variables and active limits.
     bounds: tuple[RiddenBoundRecord, ...]
-    #: Greatest distance of a base joint from the centre of the joints, over that in the design.
+    #: Greatest distance of a base joint from the centre of the base joints, divided by its value in the
+    #: design.
     base_growth: Union[float, None]
-    #: The same of the platform.
+    #: Greatest distance of a platform joint from the centre of the platform joints, divided by its value
+    #: in the design.
     platform_growth: Union[float, None]
-    #: One sentence.
+    #: The bounds in one sentence.
     message: str
 
 
@@ -3928,37 +3977,38 @@ class RotationPolynomialRecord(Record):
 
     #: The unknowns by their names.
     unknowns: Union[tuple[str, ...], None]
-    #: The degree before factors without meaning are removed.
+    #: The degree before spurious factors are removed.
     degree_before: Union[int, None]
     #: The degree; null for the zero polynomial.
     degree: Union[int, None]
-    #: The factors that were removed.
+    #: The spurious factors removed.
     removed: Union[tuple[RemovedFactorRecord, ...], None]
-    #: Different complex roots; null with several unknowns, and where that is not proved.
+    #: Number of distinct complex roots; null: several unknowns, or not proved.
     distinct_roots: Union[int, None]
-    #: How the coefficients are known.
+    #: The representation of the coefficients.
     coefficients_known: Union[CoefficientsWord, None]
     #: The exponents of the unknowns in each term.
     exponents: Union[tuple[tuple[int, ...], ...], None]
-    #: The exact coefficient of each term, integers as decimal text; of one unknown the constant one first.
+    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
+    #: first.
     coefficients: Union[tuple[str, ...], None]
-    #: Bounds [low, high] of the coefficients, where they are not exact.
+    #: Bounds [low, high] of the coefficients; null: they are exact.
     coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Different real roots, counted by Sturm's theorem; null with several unknowns, and where coefficients
-    #: are not exact.
+    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
+    #: that are not exact.
     real_roots_by_sturm: Union[int, None]
     #: Real roots as [low, high], rounded outwards.
     real_roots: tuple[tuple[Union[float, None], ...], ...]
-    #: How often each of them is a root.
+    #: The multiplicity of each real root.
     real_root_multiplicities: Union[tuple[int, ...], None]
-    #: Why not.
+    #: The reason.
     error: Union[str, None]
 
 
 class RoundAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
@@ -3966,77 +4016,78 @@ class RoundAnswer(Record):
     units: str
     #: The grids asked for.
     grids: GridsRecord
-    #: Origins and angles of the grids are chosen too.
+    #: Whether origins and angles of the grids are optimised too.
     free_grid: bool
-    #: The design as it is wanted.
+    #: The figures of the given design.
     wanted: JudgementRecord
     #: The best rounding that is exactly equivalent to an octahedral platform.
     exact: ExactRoundingOutcome
-    #: The rounding with every joint next to where it is wanted.
+    #: The rounding of every joint to a hole near its given position.
     nearest: NearestRoundingOutcome
-    #: What `assess` says of the rounded design; null: there is none, or the design requires nothing.
+    #: The result of `assess` for the rounded design; null: there is none, or the design has no
+    #: requirements.
     assessment: Union[AssessAnswer, None]
-    #: Which of them the rule takes; null: none meets the requirements.
+    #: The rounding chosen; null: none meets the requirements.
     chosen: Union[VariantWord, None]
-    #: Where none meets the requirements, the one that misses them least, by the greatest violation as a
-    #: share of what is limited; null otherwise.
+    #: The rounding with the least violation, measured by the greatest violation as a share of its limit;
+    #: null: a rounding meets the requirements.
     least_missed: Union[VariantWord, None]
-    #: The rounded design: the one chosen, or the one that misses the requirements least.
+    #: The rounded design: the chosen one, or the one with the least violation.
     design: Union[Design, None]
     #: The file written.
     output: Union[str, None]
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class RoundedJointRecord(Record):
     """A joint on a hole."""
 
-    #: Its body.
+    #: The body of the joint.
     body: Body
-    #: Its name.
+    #: The name of the joint.
     joint: str
-    #: The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint
-    #: stays where it was.
+    #: The hole: its counts along the axes of the grid, or its circle and its number on the circle. Null:
+    #: the joint stays in place.
     cell: Union[tuple[int, ...], None]
-    #: How it moved, frame of the body.
+    #: The displacement, body frame, design units.
     moved: tuple[Union[float, None], ...]
-    #: How far.
+    #: The size of the displacement, design units.
     distance: Union[float, None]
-    #: Distance from the line of its side; null for corners.
+    #: Distance from the line of its side, design units; null for corners.
     off_line: Union[float, None]
 
 
 class RoundingErrorRecord(Record):
-    """The error of the pose when a rounded platform is controlled as the wanted one."""
+    """The error of the pose if a rounded platform is controlled like the given one."""
 
-    #: To first order.
+    #: The error to first order.
     first_order: PoseErrorRecord
-    #: The same with every joint on the nearest hole.
+    #: The error to first order with every joint on the nearest hole.
     first_order_nearest_points: PoseErrorRecord
-    #: Solved at random poses.
+    #: The error solved at random poses.
     solved: PoseErrorsRecord
-    #: How many.
+    #: Number of random poses.
     solved_poses: int
 
 
 class RoundingSearchRecord(Record):
-    """How an exact rounding was found."""
+    """Statistics of the search for an exact rounding."""
 
-    #: Triangles of base and platform that were combined.
+    #: Numbers of triangles of base and platform that were combined.
     triangles: tuple[int, ...]
-    #: All triangles up to this distance were.
+    #: The distances up to which all triangles of base and platform were combined, design units.
     complete_to: tuple[Union[float, None], ...]
-    #: Improvements by replacing one triangle.
+    #: Number of improvements by replacing one triangle.
     replacements: int
 
 
 class RowFailure(Record):
-    """Why a row has no poses."""
+    """The reason why a row has no poses."""
 
-    #: The failure, as the command would have reported it for this row alone.
+    #: The failure, as the command reports it for this row alone.
     error: FailureRecord
 
 
@@ -4045,38 +4096,38 @@ class SampleRecord(Record):
 
     #: Leg lengths of A, design units.
     lengths_a: tuple[Union[float, None], ...]
-    #: Leg lengths of B.
+    #: Leg lengths of B, design units.
     lengths_b: tuple[Union[float, None], ...]
     #: The poses of A.
     a: SolvedSampleRecord
     #: The poses of B.
     b: SolvedSampleRecord
-    #: Pairs of poses.
+    #: Number of pairs of poses.
     matched: int
-    #: Poses of A without partner.
+    #: Number of unmatched poses of A.
     only_a: int
-    #: Poses of B without partner.
+    #: Number of unmatched poses of B.
     only_b: int
-    #: Poses of A that were set aside.
+    #: Number of poses of A set aside.
     beyond_precision_a: int
-    #: Poses of B that were set aside.
+    #: Number of poses of B set aside.
     beyond_precision_b: int
-    #: The largest distance of a pair.
+    #: The largest distance within a pair.
     worst_distance: Union[float, None]
-    #: Whether this sample speaks for equivalence.
+    #: Whether this sample supports equivalence.
     agrees: bool
 
 
 class SamplingRecord(Record):
     """The random poses at which designs were compared."""
 
-    #: How many.
+    #: Number of poses.
     count: int
-    #: The middle of the box.
+    #: The centre of the box, base frame, design units.
     home_position: tuple[float, ...]
     #: Half widths of the box of positions, design units.
     translation_half_widths: tuple[float, ...]
-    #: Half widths of the box of rotation vectors.
+    #: Half widths of the box of rotation vectors, radians.
     rotation_half_widths_rad: tuple[float, ...]
 
 
@@ -4092,20 +4143,20 @@ class ScaledPoseRecord(Record):
 
 
 class SearchLimitsRecord(Record):
-    """What a search is held to besides the requirements of the design."""
+    """Limits of a search beside the requirements of the design."""
 
-    #: Of joint centres of a body, design units; null: none.
+    #: Least distance of joint centres of a body, design units; null: none.
     min_joint_distance: Union[float, None]
-    #: The least |det A| of platforms equivalent to the design.
+    #: Least |det A| of platforms equivalent to the design.
     min_abs_det: float
-    #: By which the lengths in the Jacobian are divided.
+    #: The characteristic length, by which moments in the Jacobian are divided, design units.
     characteristic_length: float
     #: Label of the length unit.
     units: str
 
 
 class SearchMarginsRecord(Record):
-    """By how much what a search demands besides the requirements is met."""
+    """Margins of the extra conditions of a search."""
 
     #: |det A| less the required value; null: the variables do not keep the class of the design.
     abs_det: Union[float, None]
@@ -4114,72 +4165,74 @@ class SearchMarginsRecord(Record):
 
 
 class SearchRecord(Record):
-    """How a search went."""
+    """Statistics of a search."""
 
-    #: Which search it was.
+    #: The search method.
     method: SearchMethodWord
-    #: Starts that were climbed from; null: it begins in the branches.
+    #: Number of starts; null: the search begins in the branches.
     starts: Union[int, None]
-    #: Starts that led to a feasible point.
+    #: Number of starts that led to a feasible point.
     feasible: Union[int, None]
     #: Gains of the polished runs; null in the list: not feasible.
     polished: Union[tuple[Union[float, None], ...], None]
-    #: Of a front: runs that met their bounds, and were dominated by others or equal to one.
+    #: Number of runs of a Pareto front that met their bounds and were dominated by or equal to others;
+    #: null: no front.
     dominated: Union[int, None]
-    #: Of a front: bounds that no run met.
+    #: Number of bounds of a Pareto front that no run met; null: no front.
     unmet: Union[int, None]
-    #: Conic programs that the library clarabel solved in this search; those with other drives and for
-    #: freedoms are not counted.
+    #: Number of conic programs solved by the library clarabel in this search; searches with other drives
+    #: and for freedoms are not counted.
     conic_programs: int
 
 
 class SearchStepRecord(Record):
-    """A step of the run that found a platform."""
+    """A step of the run that found the platform."""
 
-    #: Value after the step: the weighted gain of the objectives, for offsets the worst inverse condition
+    #: Value after the step: the weighted gain of the objectives; for offsets the worst inverse condition
     #: number.
     objective: Union[float, None]
-    #: In the scale of its constraint; lengths relative to the size.
+    #: Greatest violation in the scale of its constraint; lengths relative to the size.
     violation: Union[float, None]
-    #: Of the trust region.
+    #: Radius of the trust region.
     radius: Union[float, None]
-    #: Poses held.
+    #: Number of poses held.
     poses: int
-    #: The step was taken.
+    #: Whether the step was accepted.
     accepted: bool
-    #: Gain of the merit that the model promised.
+    #: Gain of the merit function predicted by the model.
     predicted: Union[float, None]
-    #: Gain of the merit found; for a refused step at the poses that refused it.
+    #: Actual gain of the merit function; for a rejected step, at the poses that rejected it.
     actual: Union[float, None]
 
 
 class SearchedDriveRecord(Record):
-    """A drive of the table, in the units of the design, with what the search came to."""
+    """A drive of the table in the units of the design, with its search result."""
 
-    #: Its name.
+    #: The name of the drive.
     name: str
     #: Line of the table, from 1.
     line: int
-    #: Price; null: the table does not say it.
+    #: Price; null: not in the table.
     price: Union[float, None]
-    #: Mass; null: the table does not say it.
+    #: Mass; null: not in the table.
     mass: Union[float, None]
-    #: Least and greatest length from joint centre to joint centre.
+    #: Least and greatest length from joint centre to joint centre, design units.
     leg_length: tuple[Union[float, None], ...]
-    #: Greatest force; null: the table does not say it.
+    #: Greatest force; null: not in the table.
     force: Union[float, None]
-    #: Greatest speed; null: the table does not say it.
+    #: Greatest speed; null: not in the table.
     speed: Union[float, None]
-    #: What came of it.
+    #: The outcome for the drive.
     outcome: DriveSearchWord
-    #: Value of the first objective of the platform found; null: none was.
+    #: Value of the first objective of the platform found; null: no platform was found.
     objective: Union[float, None]
-    #: What the platform found, or the one that misses the requirements least, leaves of the lengths, the
-    #: force and the speed of the drive; empty where the drive was not searched.
+    #: Margins against the drive's limits of length, force and speed, for the platform found or the one
+    #: with the least violation. Empty: the drive was not searched.
     margins: tuple[MarginRecord, ...]
-    #: What became of the three-fold symmetry of the design; null as in an answer without a table.
+    #: The result for the three-fold symmetry of the design; null under the same conditions as without a
+    #: table.
     symmetry: Union[SymmetryRecord, None]
-    #: Why it is not the answer, a sentence; null: it is.
+    #: The reason why this drive is not the answer, one sentence; null: it is the answer.
     reason: Union[str, None]
 
 
@@ -4188,7 +4241,7 @@ class SharedJointRecord(Record):
 
     #: The body it is on.
     body: Body
-    #: Its name.
+    #: The name of the joint.
     joint: str
     #: The legs, from 1.
     legs: tuple[int, ...]
@@ -4197,24 +4250,24 @@ class SharedJointRecord(Record):
 class SignPairRecord(Record):
     """The straight path between two assembly modes."""
 
-    #: Their numbers, from 1.
+    #: The numbers of the two modes, from 1.
     modes: tuple[int, ...]
-    #: What det J does on the straight path.
+    #: The sign of det J along the straight path.
     straight: SignOutcome
-    #: Proved changes of sign on it.
+    #: Number of proved changes of sign on the straight path.
     changes: int
-    #: Whether some path without singular pose joins them; null: none was found.
+    #: Whether some path without singular pose joins the two modes; null: none was found.
     joined: Union[bool, None]
 
 
 class SignPairsRecord(Record):
-    """Which assembly modes paths without singular pose join."""
+    """The assembly modes joined by paths without singular pose."""
 
     #: The sign of det J at each assembly mode.
     signs: tuple[SignRecord, ...]
-    #: All pairs.
+    #: All pairs of assembly modes.
     pairs: tuple[SignPairRecord, ...]
-    #: Groups of modes that such paths join, from 1.
+    #: Groups of assembly modes joined by such paths, numbers from 1.
     groups: tuple[tuple[int, ...], ...]
     #: The paths found.
     ways: tuple[WayRecord, ...]
@@ -4223,43 +4276,43 @@ class SignPairsRecord(Record):
 class SignPartRecord(Record):
     """det J along a straight part of a path, with parameter u from 0 to 1."""
 
-    #: What it does.
+    #: The sign of det J along the part.
     outcome: SignOutcome
-    #: Proved changes of sign.
+    #: Number of proved changes of sign.
     changes: int
-    #: Pieces where neither a sign nor a change is proved.
+    #: Number of pieces without a proved sign or change.
     doubtful: int
-    #: Pieces with their signs.
+    #: The pieces with their signs.
     pieces: tuple[SignPieceRecord, ...]
-    #: [u, det J].
+    #: Sampled values [u, det J].
     values: tuple[tuple[Union[float, None], ...], ...]
 
 
 class SignPathRecord(Record):
     """det J along a path of straight parts."""
 
-    #: Number of the assembly mode it begins at, from 1; 0: the pose.
+    #: Number of the first assembly mode, from 1; 0: the given pose.
     from_: int
-    #: Number of the assembly mode it ends at.
+    #: Number of the last assembly mode, from 1.
     to: int
-    #: Its poses.
+    #: The poses that the path joins.
     poses: tuple[PoseQuaternionRecord, ...]
-    #: Whether det J keeps its sign: true and false are proved.
+    #: Whether det J keeps its sign: true and false are proved; null: neither.
     keeps_sign: Union[bool, None]
-    #: One for each straight part.
+    #: The straight parts in order.
     parts: tuple[SignPartRecord, ...]
 
 
 class SignPieceRecord(Record):
     """A piece of a straight path."""
 
-    #: Where it begins.
+    #: The parameter u at the beginning.
     from_: Union[float, None]
-    #: Where it ends.
+    #: The parameter u at the end.
     to: Union[float, None]
-    #: The sign of det J on it.
+    #: The sign of det J on the piece.
     sign: SignRecord
-    #: It holds a singular pose: det J has proved signs before and after it, and they differ.
+    #: Whether the piece holds a singular pose: det J has proved, opposite signs before and after it.
     singular: bool
 
 
@@ -4270,63 +4323,63 @@ class SingularFactorRecord(Record):
     step: int
     #: Its degree.
     degree: int
-    #: How often it was removed.
+    #: Number of removals.
     removed: int
 
 
 class SingularLocusAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
     #: The unit of its lengths.
     units: str
-    #: The poses over which det J is a polynomial.
+    #: The family of poses on which det J is a polynomial.
     family: PoseFamilyWord
-    #: The position of the pose given, as exact expressions.
+    #: The position of the given pose, as exact expressions, base frame.
     position: tuple[str, ...]
-    #: A quaternion of its orientation, scalar part first, of any norm, as exact expressions.
+    #: A quaternion of the given orientation, scalar part first, of any norm, as exact expressions.
     quaternion: tuple[str, ...]
-    #: The direction of the line, or the axis of the rotations, in the base frame; null for positions.
+    #: The direction of the line, or the axis of the rotations, base frame; null: a family of positions.
     direction: Union[tuple[str, ...], None]
-    #: The square of the length of the axis: u is the tangent of half the angle over that length; null
-    #: without an axis.
+    #: The squared length of the axis; u is the tangent of half the angle divided by this length. Null: no
+    #: axis.
     axis_squared: Union[float, None]
-    #: det J up to a constant factor. The zero polynomial: every pose is singular.
+    #: det J up to a constant factor; the zero polynomial means that every pose is singular.
     polynomial: PolynomialRecord
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class SingularPosesAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
     #: The name of the design.
     name: str
     #: The unit of its lengths.
     units: str
-    #: Whether the workspace of the design, or the region of `--box`, about the pose is free of singular
-    #: poses; null where neither is given.
+    #: Whether the workspace of the design, or the region of `--box` about the pose, holds no singular
+    #: pose; null: no region is given.
     regular: Union[RegularityRecord, None]
-    #: The pose asked about.
+    #: The given pose.
     pose: JudgedPoseRecord
     #: The leg lengths, design units.
     lengths: tuple[float, ...]
     #: The real poses with these lengths.
     assembly_modes: tuple[JudgedPoseRecord, ...]
-    #: False: some may be missing.
+    #: Whether every path is accounted for; false: poses may be missing.
     assembly_modes_accounted: bool
-    #: A box of poses about the pose that holds no singular one.
+    #: A box of regular poses around the pose.
     box: RegularBoxRecord
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
     #: det J along a path, with `--path`.
     path: Union[SignPathRecord, None]
@@ -4341,26 +4394,26 @@ class SolutionRecord(Record):
     R: ComplexRecord3
     #: Position, base frame, design units.
     p: ComplexRecord4
-    #: Null: undecided.
+    #: Whether the pose is real; null: undecided.
     real: Union[bool, None]
     #: Whether there is a certificate.
     certified: bool
-    #: The proof; null where there is none.
+    #: The proof; null: there is none.
     certificate: Union[CertificateRecord, None]
-    #: Paths, or roots of a polynomial, that end here.
+    #: Number of paths, or roots of a polynomial, that end here.
     multiplicity: int
-    #: Largest error of the leg equations over the squared size.
+    #: Largest error of the leg equations divided by the squared size.
     residual: Union[float, None]
-    #: Estimate of the condition number.
+    #: An estimate of the condition number.
     condition: Union[float, None]
-    #: (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
+    #: The dual quaternion (e, g): scalar part of e first, g = p e in design units, `max |e_k| = 1`.
     dual_quaternion: Union[ComplexRecord5, None]
-    #: The pose in real numbers, where it is real.
+    #: The pose in real numbers; null: it is not real.
     real_pose: Union[RealPoseRecord, None]
 
 
 class Solvability(Record):
-    """How the poses can be found in steps."""
+    """The ways to find the poses in steps."""
 
     #: A chain of quadratic equations gives all poses.
     quadratic: bool
@@ -4369,13 +4422,13 @@ class Solvability(Record):
 
 
 class SolvedBudgetRecord(Record):
-    """What solving says about the radius, which is of first order."""
+    """The exact check of the first-order radius."""
 
-    #: No error looked at in the budget goes beyond the bound when its pose is solved.
+    #: Whether the solved pose stays within the bound for every sampled error in the budget.
     within_bound: bool
-    #: The largest share of the bound that was used up; null: a pose was lost.
+    #: The largest share of the bound that was reached; null: a pose was lost.
     largest_share: Union[float, None]
-    #: The worst errors of this length at their pose keep the bound when they are solved.
+    #: A radius for which the worst joint errors keep the bound, solved exactly at their pose.
     radius: Union[float, None]
 
 
@@ -4384,41 +4437,41 @@ class SolvedSampleRecord(Record):
 
     #: The method.
     method: Method
-    #: Whether these are known to be all poses.
+    #: The level of completeness of the list.
     completeness: CompletenessWord
-    #: One sentence on what is known.
+    #: The evidence for completeness in one sentence.
     completeness_reason: str
-    #: False: poses may be missing.
+    #: Whether every path is accounted for; false: poses may be missing.
     all_paths_accounted: bool
-    #: Finite poses, real and complex.
+    #: Number of finite poses, real and complex.
     finite_count: int
-    #: Real poses.
+    #: Number of real poses.
     real_count: int
-    #: Poses with a certificate.
+    #: Number of poses with a certificate.
     certified_count: int
 
 
 class StageRecord(Record):
-    """What a stage of `explore` did."""
+    """The result of one stage of `explore`."""
 
-    #: Which.
+    #: The name of the stage.
     stage: StageWord
-    #: What came out, a sentence.
+    #: The result in one sentence.
     explanation: str
 
 
 class StartRecord(Record):
-    """Where the fit began, and what came of the other start."""
+    """The start that was taken, and the result of the other one."""
 
-    #: The start whose end was taken.
+    #: The start whose result was taken.
     taken: StartName
-    #: Whether both starts ended at the same machine; null: only one was tried.
+    #: Whether both starts led to the same machine; null: only one was tried.
     agree: Union[bool, None]
-    #: Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the
+    #: Sum of the losses, or the estimated deviation of a length, from the nominal joints; smaller is
     #: better; null: not tried.
     nominal: Union[float, None]
-    #: The same from the linear equations for squared lengths, which need no design; null: not tried, or
-    #: the poses do not determine them.
+    #: The same measure from the linear equations for squared lengths, which need no design; null: not
+    #: tried, or not determined by the poses.
     closed_form: Union[float, None]
 
 
@@ -4427,40 +4480,40 @@ class StiffnessRecord(Record):
 
     #: The pose.
     pose: PoseQuaternionRecord
-    #: `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base
-    #: frame; force units, design units and radians.
+    #: The stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units
+    #: and radians. It maps a shift and a small rotation to force and torque.
     K: tuple[tuple[Union[float, None], ...], ...]
     #: Least stiffness against a force through the platform origin, force units per design unit; 0 at a
     #: singular pose.
     linear: Union[float, None]
     #: Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
     angular: Union[float, None]
-    #: The natural motions, the slowest first; null: masses are not known, or no inertia is held against
-    #: turns.
+    #: The natural motions, the slowest first; null: masses are unknown, or no inertia resists some
+    #: rotation.
     natural: Union[tuple[NaturalMotionRecord, ...], None]
 
 
 class StraightWayRecord(Record):
-    """The straight way to another pose: the platform origin moves on a line while the platform turns about one axis."""
+    """The straight path to another pose: the platform origin moves on a line while the platform rotates about one axis."""
 
-    #: Where it ends.
+    #: The end of the path.
     to: PoseQuaternionRecord
-    #: The share of it that is free from its beginning, 1: all.
+    #: The free share of the path from its beginning; 1: the whole path.
     free: float
-    #: Where that share ends.
+    #: The pose at the end of the free share.
     pose: PoseQuaternionRecord
     #: The same in the convention of `frames`.
     in_frames: PoseInFrames
-    #: What is violated beyond; null: nothing.
+    #: The requirement violated beyond this pose; null: none.
     binds: Union[LimitRecord, None]
 
 
 class SymmetryRecord(Record):
-    """What became of the three-fold symmetry that a design has at home and does not ask for."""
+    """The search result for the three-fold symmetry that a design has at home and does not require."""
 
-    #: What became of it.
+    #: The result for the symmetry.
     three_fold: SymmetryWord
-    #: One sentence: why, and how it is turned off.
+    #: The reason, and the way to switch this off, in one sentence.
     message: str
 
 
@@ -4469,170 +4522,171 @@ class TightestRecord(Record):
 
     #: The kind.
     name: TermKind
-    #: Its least margin over its limit (travel of the legs, greatest force and so on); below 0 for a
-    #: violation.
+    #: The least margin divided by its limit, such as the travel of the legs or the greatest force;
+    #: negative for a violation.
     share: Union[float, None]
 
 
 class TimedMarginRecord(Record):
-    """A margin with its time."""
+    """A least margin with its time."""
 
-    #: When the margin is least.
+    #: The time of the least margin, seconds.
     time_s: float
     #: The margin.
     margin: MarginRecord
 
 
 class TolerancesAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: What `assess` says of the design; null: it requires nothing.
+    #: The result of `assess` for the design; null: it has no requirements.
     assessment: Union[AssessAnswer, None]
-    #: The greatest error allowed.
+    #: The greatest error of the pose allowed.
     bound: PoseErrorRecord
     #: The tool point, platform frame.
     tool: tuple[Union[float, None], ...]
     #: The unit of lengths.
     units: str
-    #: How far every joint may be off in any direction, to first order.
+    #: The error allowed at all joints at once, in any direction, to first order.
     all_joints_radius: JointLimitRecord
-    #: How far every coordinate may be off, to first order.
+    #: The error allowed in all coordinates at once, to first order.
     all_coordinates: JointLimitRecord
     #: The joints, the most critical first.
     joints: tuple[JointBudgetRecord, ...]
-    #: Errors of the pose with the joints off in the worst way, solved.
+    #: Errors of the pose for the worst joint errors, solved exactly.
     worst_errors: WorstErrorsRecord
-    #: What solving says about the radius.
+    #: The exact check of the first-order radius.
     solved: SolvedBudgetRecord
-    #: Random errors in the budget.
+    #: Statistics of random errors in the budget.
     trials: TrialsRecord
-    #: Random errors of joints and leg offsets with the covariance of the calibration; null: not asked for.
+    #: Statistics of random errors of joints and leg offsets with the covariance of the calibration; null:
+    #: not requested.
     calibrated: Union[TrialsRecord, None]
-    #: How uncertain computed poses are by what the calibration does not know, to first order; null: not
-    #: asked for.
+    #: Uncertainty of computed poses due to the errors of the calibration, to first order; null: not
+    #: requested.
     calibrated_poses: Union[CalibratedPosesRecord, None]
-    #: The greatest errors by joints, leg lengths and temperature together; null: not asked for.
+    #: The greatest errors due to joints, leg lengths and temperature together; null: not requested.
     map: Union[ErrorMapRecord, None]
-    #: The poses looked at.
+    #: The poses evaluated.
     poses: BudgetPosesRecord
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
 
 
 class TravelRecord(Record):
-    """A free way and its end."""
+    """A free travel and its end."""
 
-    #: How far, not negative.
+    #: The length of the travel, not negative.
     free: float
     #: The value at the end.
     value: float
-    #: What is violated beyond; null: nothing within half a turn, or ten sizes of the design.
+    #: The requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
     binds: Union[LimitRecord, None]
 
 
 class TrialsRecord(Record):
-    """Random errors in the budget."""
+    """Statistics of random errors in the budget."""
 
-    #: How many.
+    #: Number of random samples.
     count: int
-    #: Poses that were lost.
+    #: Number of poses that were lost.
     lost: int
-    #: Poses within the bound.
+    #: Number of poses within the bound.
     within_bound: int
-    #: Poses beyond it.
+    #: Number of poses beyond the bound.
     beyond_bound: int
-    #: Errors of the pose by the nominal formula.
+    #: Errors of the pose computed by the nominal formula.
     formula: PoseErrorsRecord
-    #: By how much their first order is off.
+    #: Differences between these errors and their first-order values.
     first_order_discrepancy: PoseErrorsRecord
-    #: Errors after one Newton step with the joints as they are.
+    #: Errors after one Newton step with the actual joints.
     after_one_step: PoseErrorsRecord
-    #: Errors after two.
+    #: Errors after two Newton steps with the actual joints.
     after_two_steps: PoseErrorsRecord
 
 
 class TrilaterationStepRecord(Record):
     """One trilateration: a joint placed by its distances from three others."""
 
-    #: Three joints in place.
+    #: Three joints already placed.
     from_: tuple[str, ...]
     #: The joint placed.
     place: str
-    #: All four are on one body: one place instead of two.
+    #: Whether all four joints are on one body: the joint then has one place instead of two.
     rigid: bool
 
 
 class UnobservableRecord(Record):
-    """A change of joints and offsets that changes no measured length, or hardly."""
+    """A change of joints and offsets that leaves all measured lengths almost unchanged."""
 
-    #: Joints that move, the farthest first.
+    #: The displaced joints, the farthest first.
     joints: tuple[JointShiftRecord, ...]
-    #: Offsets that change.
+    #: The changed offsets.
     offsets: tuple[OffsetShiftRecord, ...]
 
 
 class VariableRecord(Record):
-    """A quantity that was chosen."""
+    """A chosen quantity."""
 
-    #: Which.
+    #: The name of the quantity.
     name: str
-    #: Its value in the design that the search began with.
+    #: Its value in the initial design.
     start: Union[float, None]
     #: Its value in the platform.
     value: Union[float, None]
-    #: Least and greatest value that it may have.
+    #: Its least and greatest allowed value.
     bounds: tuple[Union[float, None], ...]
 
 
 class VerifiedRecord(Record):
-    """A verification in short."""
+    """A summary of a verification."""
 
     #: The verdict.
     verdict: VerdictWord
     #: The largest distance of matched poses.
     worst_distance: Union[float, None]
-    #: Sets of lengths at which both were solved.
+    #: Number of length sets; both designs were solved at each.
     sample_count: int
 
 
 class VerifyAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """One JSON document: an answer with the fields that all answers have."""
 
     #: The verdict.
     verdict: VerdictWord
-    #: One sentence with the numbers that decided.
+    #: The verdict in one sentence, with the numbers that decided.
     explanation: str
-    #: Whether the verdict is proved, in exact arithmetic on the leg vectors; `level` of the map says about
-    #: which joints.
+    #: Whether exact arithmetic on the leg vectors proves the verdict; `level` of the map names the joints
+    #: it holds for.
     proved: bool
-    #: The algebraic side; that of the designs as they are given where no motion was found.
+    #: The algebraic evidence; if no motion was found, the map between the designs as given.
     map: MapRecord
-    #: For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`,
-    #: design units squared, whatever the tolerance of the map; null where the map is proved, so that there
-    #: is no difference, where it is singular, and where no motion was found.
+    #: For each leg of B, a bound on the difference between its squared length and A s + c, design units
+    #: squared. It holds at all poses of `sampling`, for any tolerance of the map. Null: the map is exact
+    #: by proof, or singular, or no motion was found.
     deviation_bounds: Union[tuple[Union[float, None], ...], None]
-    #: The largest distance of matched poses over all samples; null where none were compared.
+    #: The largest distance of matched poses over all samples; null: none were compared.
     worst_distance: Union[float, None]
-    #: The numerical side.
+    #: The numerical evidence.
     samples: tuple[SampleRecord, ...]
-    #: Always 1: the version of these definitions.
+    #: The version of the answer format, always 1.
     schema_version: int
-    #: What the answer was made from.
+    #: The program, seed and files behind the answer.
     provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
+    #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
-    #: Poses without partner that were set aside: the rounding of the joints decides whether they exist.
-    #: Absent where no motion was found.
+    #: Unmatched poses set aside, because rounding of the joints decides whether they exist. Absent: no
+    #: motion was found.
     beyond_precision: Union[BeyondPrecisionRecord, None]
-    #: A pose that tells the designs apart.
+    #: A pose that distinguishes the designs; null: none was found.
     counterexample: Union[CounterexampleRecord, None]
-    #: The box of random poses; absent where no motion was found.
+    #: The box of random poses; absent: no motion was found.
     sampling: Union[SamplingRecord, None]
-    #: Base and platform of the second design were exchanged first.
+    #: Whether base and platform of the second design were exchanged first.
     exchanged: Union[bool, None]
     #: The rigid motions that make the second design equivalent to the first, with `--align`.
     alignment: Union[AlignmentRecord, None]
@@ -4641,7 +4695,7 @@ class VerifyAnswer(Record):
 
 
 class ViolationRecord(Record):
-    """One thing that is wrong with a design file."""
+    """One fault of a design file."""
 
     #: A stable short code.
     code: str
@@ -4649,33 +4703,33 @@ class ViolationRecord(Record):
     line: int
     #: The column, from 1.
     column: int
-    #: What is wrong.
+    #: The fault.
     message: str
-    #: What to write instead.
+    #: The correction to write.
     help: str
 
 
 class WarningRecord(Record):
-    """Something odd about a design file that does not keep it from being used."""
+    """A warning about a design file that can still be used."""
 
     #: A stable short code.
     code: str
     #: The design file.
     path: str
-    #: The line it is about, from 1.
+    #: The line concerned, from 1.
     line: int
-    #: What is odd.
+    #: The problem.
     message: str
-    #: What to do about it.
+    #: The remedy.
     help: str
 
 
 class WayRecord(Record):
     """A path without singular pose between two assembly modes."""
 
-    #: Their numbers, from 1.
+    #: The numbers of the two modes, from 1.
     modes: tuple[int, ...]
-    #: Its poses, joined by straight paths.
+    #: The poses of the path, joined by straight segments.
     poses: tuple[PoseQuaternionRecord, ...]
 
 
@@ -4686,57 +4740,57 @@ class WitnessRecord(Record):
     R: tuple[tuple[Union[float, None], ...], ...]
     #: Position of the platform origin, base frame, design units.
     p: tuple[Union[float, None], ...]
-    #: A quaternion of any norm, scalar part first.
+    #: The orientation as a quaternion of any norm, scalar part first.
     quaternion: tuple[int, ...]
 
 
 class WorkspaceSizeRecord(Record):
-    """How large the workspace is around home."""
+    """The size of the workspace around home."""
 
-    #: Volume of the positions that straight ways from home at its orientation reach, design units cubed;
-    #: an estimate from the ways that were followed.
+    #: Volume of the positions reached by straight paths from home at its orientation, design units cubed;
+    #: an estimate from the paths that were followed.
     volume: float
-    #: The share by which the estimates from every second way and from the others differ.
+    #: The relative difference between the volume estimates from every second path and from the others.
     volume_doubt: float
-    #: Ways that were followed.
+    #: Number of paths followed.
     rays: int
-    #: What ends them, the most frequent first.
+    #: The limits that end the paths, the most frequent first.
     ends: tuple[RayEndRecord, ...]
-    #: Radius of the largest ball of positions around home, at the orientation of home, design units.
+    #: Radius of the largest free ball of positions around home, at the orientation of home, design units.
     ball_radius: FreeSizeRecord
-    #: Half widths of the largest box of positions found around home, at the orientation of home, along the
-    #: axes of the base frame, design units: those proved to be free.
+    #: Half widths of the largest box of positions proved free around home, at its orientation, along the
+    #: axes of the base frame, design units.
     box_proved: tuple[float, ...]
-    #: The same: those in which no violation was found.
+    #: Half widths of the largest such box in which no violation was found, design units.
     box_searched: tuple[float, ...]
-    #: What is violated in a box that is larger by a little; null: nothing that was looked at.
+    #: The requirement violated in a slightly larger box; null: none was found.
     box_binds: Union[LimitRecord, None]
-    #: Turns about x, y and z of the base frame through the platform origin, at home.
+    #: Rotations about x, y and z of the base frame through the platform origin, at home.
     turns: tuple[FreeTurnRecord, ...]
-    #: Largest angle up to which the platform may turn about every axis of the xy plane of the base at the
-    #: position of home, degrees.
+    #: Largest free angle of rotation about every axis in the xy plane of the base, at the position of
+    #: home, degrees.
     tilt_deg: FreeSizeRecord
-    #: Largest angle up to which it may turn about every axis there, degrees.
+    #: Largest free angle of rotation about every axis, at the position of home, degrees.
     turn_deg: FreeSizeRecord
-    #: The region that the design asks for; null: none.
+    #: The workspace that the design requires; null: none.
     required: Union[RequiredSizeRecord, None]
 
 
 class WorstErrorsRecord(Record):
-    """Errors of the pose with all joints off in the worst way, solved."""
+    """Errors of the pose for the worst errors of all joints, solved exactly."""
 
-    #: By the radius; null: the pose was lost.
+    #: Errors of the pose for joint errors of this radius; null: the pose was lost.
     in_budget: Union[PoseErrorRecord, None]
-    #: By one and a half times the radius; null: the pose was lost.
+    #: Errors of the pose for joint errors of 1.5 times the radius; null: the pose was lost.
     times_1_5: Union[PoseErrorRecord, None]
-    #: The pose.
+    #: The pose at which the errors were solved.
     pose: PoseQuaternionRecord
 
 
 class WorstPoseRecord(Record):
     """The pose with the worst conditioning."""
 
-    #: Its place among the poses held, from 0.
+    #: Index of the pose among the poses held, from 0.
     index: int
     #: Rows of the rotation matrix.
     R: tuple[tuple[Union[float, None], ...], ...]
