@@ -136,11 +136,12 @@ mod tests {
     #[test]
     fn lengths_have_units_where_the_design_has_one() {
         let shown = |text, units| six(text, &[0.0; 6], units).map(|six| six.shown);
-        assert_eq!(
-            shown("1 in,36/19 in,12/5 mm,2,5 ft + 3 in,sqrt(4) cm", "mm"),
-            Ok([25.4, 25.4 * 36.0 / 19.0, 2.4, 2.0, 1600.2, 20.0])
-        );
-        assert_eq!(shown("1 m,1,1,1,1,1", "ft").map(|six| six[0]), Ok(1.0 / 0.3048));
+        let found = shown("1 in,36/19 in,12/5 mm,2,5 ft + 3 in,sqrt(4) cm", "mm").unwrap();
+        for (found, meant) in found.into_iter().zip([25.4, 25.4 * 36.0 / 19.0, 2.4, 2.0, 1600.2, 20.0]) {
+            assert!((found - meant).abs() <= 1e-15 * meant, "{found} {meant}");
+        }
+        let foot = shown("1 m,1,1,1,1,1", "ft").unwrap()[0];
+        assert!((foot - 1.0 / 0.3048).abs() < 1e-15, "{foot}");
         assert!(shown("1 m,1,1,1,1,1", "1").unwrap_err().contains("no known length"));
         assert!(shown("1 parsec,1,1,1,1,1", "mm").unwrap_err().contains("value 1 is not a length"));
     }
