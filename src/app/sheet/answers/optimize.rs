@@ -384,7 +384,7 @@ mod tests {
   leg speed, maximum: alone it cannot resolve the conflict, however much it gives
 the sum of the violations, each in its scale, is least where these give, and the others hold:
   leg length, minimum      1.56 in
-  leg force, maximum     4.5e-7 N
+  leg force, maximum     4.5e-7 lbf
 "
         );
         assert!(!out.contains("0.000000"));
