@@ -3281,9 +3281,9 @@ class ObservabilityRecord(Record):
 class OffsetProductsRecord(Record):
     """Products over the six offsets of the platform without shared joints."""
 
-    #: The product (1 - t1) .. (1 - t6).
+    #: The product of the six numbers 1 - t.
     rest: ExactNumberRecord
-    #: The product t1 .. t6.
+    #: The product of the six offsets t.
     own: ExactNumberRecord
 
 
