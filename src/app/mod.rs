@@ -2,7 +2,7 @@
 //! Python, C and sweeps.
 //!
 //! It knows everything below. It proves nothing: each "proved", "singular", "equivalent" and "met" is copied from one
-//! value of the rooms below.
+//! value of the packages below.
 //!
 //! * `ask` (a package): one function for each question.
 //! * `records` (a package): every answer as plain data.

@@ -14,7 +14,7 @@ fn plan(class: Class, count: u64) -> Plan {
     Plan {
         class,
         lengths,
-        digits: None,
+        decimals: None,
         count,
         first: 0,
         seed: 1,
@@ -122,7 +122,7 @@ fn poses_far_out_are_found_and_certified() {
 #[test]
 fn rounded_members_of_special_classes_have_all_real_poses_proved() {
     for class in [Class::GriffisDuffy, Class::Hexapod, Class::Similar, Class::Affine, Class::Collinear] {
-        let rounded = Plan { digits: Some(12), ..plan(class, 2) };
+        let rounded = Plan { decimals: Some(12), ..plan(class, 2) };
         let report = run(&rounded, solver(None).as_ref(), &Homotopy).unwrap();
         assert!(report.passed(), "{class}: {:?}", report.failures);
         assert_eq!((report.proved, report.proved_bounded, report.open.len()), (0, 2, 0), "{class}");

@@ -143,9 +143,9 @@ pub struct BenchClassRecord {
     pub threads: usize,
     /// The source of the leg lengths: a random pose or random numbers.
     pub lengths_from: LengthsFrom,
-    /// Digits behind the point that joints are rounded to, with `--digits`.
+    /// The decimals of the rounded joints, with `--decimals`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub digits: Option<u32>,
+    pub decimals: Option<u32>,
     /// Poses of the class, without rounding.
     pub expected_count: usize,
     /// Number of problems by their number of correct finite roots.
@@ -196,7 +196,7 @@ impl BenchClassRecord {
             first: r.plan.first,
             threads: r.plan.threads,
             lengths_from: r.plan.lengths,
-            digits: r.plan.digits,
+            decimals: r.plan.decimals,
             expected_count: r.expected,
             finite_counts: Histogram(r.finite_counts.clone()),
             real_counts: Histogram(r.real_counts.clone()),

@@ -71,9 +71,9 @@ pub struct FactorRecord {
 /// Products over the six offsets of the platform without shared joints.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OffsetProductsRecord {
-    /// The product (1 - t1) .. (1 - t6).
+    /// The product of the six numbers 1 - t.
     pub rest: ExactNumberRecord,
-    /// The product t1 .. t6.
+    /// The product of the six offsets t.
     pub own: ExactNumberRecord,
 }
 

@@ -43,7 +43,7 @@ fn calibration(out: &mut String, export: &Export) {
     let column = |values: &[f64]| values.iter().map(|x| vec![x * m]).collect::<Vec<_>>();
     if let Some(offsets) = &export.leg_offsets {
         out.push_str(
-            "% offsets: 6x1, what the length that each leg shows is longer than the distance of its joints; l, L and lengths are shown lengths\n",
+            "% offsets: 6x1, length that each leg shows, minus the distance of its joints; l, L and lengths are shown lengths\n",
         );
         matrix(out, "offsets", &column(offsets));
     }

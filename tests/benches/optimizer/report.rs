@@ -46,6 +46,12 @@ fn seconds(s: Spent) -> String {
 }
 
 const HEAD: &str = "\
+# Results of the optimiser
+
+This table is for readers of the [benchmarks](../benchmarks.md#optimiser), which define its columns.
+`tests/optimizer/run` writes it.
+The table compares the best value, its proved bound and the times with random designs and CMA-ES.
+
 | problem | value | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | times processor time | s | optimiser against CMA-ES |
 |---|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|---|
 ";

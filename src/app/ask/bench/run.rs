@@ -25,7 +25,7 @@ pub struct Plan {
     /// The source of the leg lengths.
     pub lengths: LengthsFrom,
     /// Digits behind the point that coordinates of joints are rounded to, as people type them; `None` for those drawn.
-    pub digits: Option<u32>,
+    pub decimals: Option<u32>,
     /// Number of problems.
     pub count: u64,
     /// Index of the first problem, to repeat a failed one.
@@ -47,7 +47,7 @@ impl Plan {
     /// As [`problem`].
     pub fn problem(&self, k: u64) -> Result<Problem, NotDrawn> {
         let drawn = problem(self.class, self.lengths, self.seed, k)?;
-        self.digits.map_or(Ok(drawn.clone()), |digits| drawn.rounded(digits))
+        self.decimals.map_or(Ok(drawn.clone()), |decimals| drawn.rounded(decimals))
     }
 }
 

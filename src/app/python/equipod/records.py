@@ -1083,7 +1083,7 @@ class Design(Record):
     source: Union[str, None]
     #: free text
     description: Union[str, None]
-    #: of the design, as its drawings and parts name it
+    #: revision of the design, as drawings and parts name it
     revision: Union[str, None]
     #: `prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks,
     #: the base joints are the centres of the cranks, and `[cranks]` is required
@@ -1092,8 +1092,7 @@ class Design(Record):
     lengths: Union[tuple[DesignNotNegative, ...], None]
     #: numbers and expressions that expressions of joints and of other parameters name
     parameters: Union[dict[str, DesignQuantity], None]
-    #: cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base
-    #: joints for what is different at one
+    #: cranks and rods of a rotary design: keys for all, and tables named by base joints for single cranks
     cranks: Union[dict[str, DesignCrank], None]
     #: the pose the platform is built for
     home: Union[DesignHomePose, None]
@@ -1101,29 +1100,29 @@ class Design(Record):
     frames: Union[dict[str, Any], None]
     #: the poses to reach
     workspace: Union[dict[str, Any], None]
-    #: what the optimiser chooses, and by what
+    #: variables and objectives of the optimiser
     optimize: Union[dict[str, Any], None]
     #: sizes and limits of joints, legs and drives
     hardware: Union[dict[str, Any], None]
-    #: the platform has to move so fast in every direction
+    #: speed that the platform has to reach in every direction
     speed: Union[dict[str, Any], None]
-    #: the platform has to be so stiff on its legs at every pose; needs `leg_stiffness` of `[hardware]`
+    #: stiffness that the platform needs on its legs at every pose; needs `leg_stiffness` of `[hardware]`
     stiffness: Union[dict[str, Any], None]
     #: wrenches the legs have to hold, one at a time
     loads: Union[tuple[dict[str, Any], ...], None]
     #: bodies the legs must not touch, each a box, a sphere or a capsule
     keep_out: Union[tuple[Any, ...], None]
-    #: what the platform carries
+    #: mass, inertia and size of the payload
     payload: Union[dict[str, Any], None]
-    #: room that plates and machine may take up
+    #: space that plates and machine may occupy
     envelope: Union[dict[str, Any], None]
-    #: grids of holes that the joints have to be put on, of both plates or of one
+    #: grids of holes for the joints, in both plates or in one
     holes: Union[dict[str, Any], None]
     #: the plates that carry the joints: sizes, material, holes and bolts
     plates: Union[dict[str, Any], None]
-    #: what has to remain of each limit
+    #: safety margins to each limit
     limits: Union[dict[str, Any], None]
-    #: what `equipod calibrate` found beside the joints
+    #: results of `equipod calibrate` beside the joints
     calibration: Union[dict[str, Any], None]
 
 
@@ -1167,7 +1166,7 @@ class DesignCrank(Record):
     rod_length: Union[DesignQuantity, None]
     #: direction of the axis, base frame; angles count about it by the right hand
     axis: Union[tuple[DesignQuantity, ...], None]
-    #: direction of the tip at the angle 0, base frame; what of it is along the axis is left out
+    #: direction of the tip at the angle 0, base frame; its part along the axis is ignored
     zero: Union[tuple[DesignQuantity, ...], None]
     #: the side that the crank stays on: the greater or the smaller of the two angles around the one at
     #: which the tip is nearest to the platform joint
@@ -1247,7 +1246,7 @@ class DesignJointModel(Record):
     angle_deg: Union[tuple[float, float], None]
     #: universal: distance of the two axes, which meet when it is 0
     offset: Union[DesignNotNegative, None]
-    #: the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box
+    #: space that the joint occupies, in place of that of the body: a diameter, or edge lengths of a box
     #: along the axes of the body
     housing: Union[DesignHousing, None]
     #: greatest angle between the leg and the axis of the joint, in place of that of the body
@@ -3281,9 +3280,9 @@ class ObservabilityRecord(Record):
 class OffsetProductsRecord(Record):
     """Products over the six offsets of the platform without shared joints."""
 
-    #: The product (1 - t1) .. (1 - t6).
+    #: The product of the six numbers 1 - t.
     rest: ExactNumberRecord
-    #: The product t1 .. t6.
+    #: The product of the six offsets t.
     own: ExactNumberRecord
 
 

@@ -59,19 +59,19 @@ fn classes(rows: &[BenchClassRecord], seed: u64) -> Sheet {
         if r.failures.len() > LISTED {
             say!(out, "  and {} more, see --json", r.failures.len() - LISTED);
         }
-        if let Some(digits) = r.digits {
-            open(&mut out, r, digits, seed);
+        if let Some(decimals) = r.decimals {
+            open(&mut out, r, decimals, seed);
         }
     }
     out
 }
 
 /// Rounded designs whose poses are not proved to be all.
-fn open(out: &mut Sheet, r: &BenchClassRecord, digits: u32, seed: u64) {
+fn open(out: &mut Sheet, r: &BenchClassRecord, decimals: u32, seed: u64) {
     for o in r.open.iter().take(LISTED) {
         say!(
             out,
-            "  OPEN --class {} --digits {digits} --seed {seed} --first {}: {}",
+            "  OPEN --class {} --decimals {decimals} --seed {seed} --first {}: {}",
             r.counts.class,
             o.problem,
             o.solver

@@ -36,7 +36,7 @@ pub(super) struct CalibrationKeys {
 pub(super) static CALIBRATION: KeyTable<CalibrationKeys> = KeyTable {
     keys: &[
         key!("offsets" { default = "[0, 0, 0, 0, 0, 0]" }: numbers_of(&OFFSETS, unit::LENGTH), table.offsets;
-            "what the length that each leg shows is longer than the distance of its joints"),
+            "length that each leg shows, minus the distance of its joints"),
         key!("offset_deviations": list_of(6, &not_negative(unit::LENGTH)),
             |found, to| {
                 found.kind = numbers_of(&DEVIATIONS, unit::LENGTH);
@@ -60,7 +60,7 @@ pub(super) static CALIBRATION: KeyTable<CalibrationKeys> = KeyTable {
                 }
             },
             |of| CORRELATIONS.put(of);
-            "how coordinates and offsets are off together; each for itself where it is absent"),
+            "correlations of the errors of coordinates and offsets; independent when absent"),
     ],
     ..KeyTable::EMPTY
 };

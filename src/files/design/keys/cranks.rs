@@ -45,7 +45,7 @@ static CRANK: KeyTable<CrankKeys> = KeyTable {
         key!("zero": quantities(3, unit::NONE),
             |found, to| to.written.zero = three(found, &mut to.places, 5),
             |of| of.written.zero.as_ref().map(|list| stored::quantities(list));
-            "direction of the tip at the angle 0, base frame; what of it is along the axis is left out"),
+            "direction of the tip at the angle 0, base frame; its part along the axis is ignored"),
         key!("elbow": word(Elbow::words),
             |found, to| to.written.elbow = elbow(found), |of| of.written.elbow.written();
             "the side that the crank stays on: the greater or the smaller of the two angles around the one at which the tip is nearest to the platform joint"),
@@ -94,11 +94,11 @@ static LIMITS: KeyTable<CrankLimits> = KeyTable {
         key!("max_speed_deg": positive(unit::DEGREES), max_speed_deg;
             "greatest speed of a crank, degrees per second"),
         key!("least_transmission_deg": angle(Range::Below(90)), least_transmission_deg;
-            "least transmission angle of a crank, degrees: the angle whose sine is that part of a push along the rod which turns the crank; 0 when absent"),
+            "least transmission angle of a crank, degrees: its sine is the share of a force along the rod that drives the crank; 0 when absent"),
         key!("tip_swing_deg": angle(Range::Below(90)), tip_swing_deg;
-            "how far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees"),
+            "greatest angle between a rod and the plane of its crank, degrees"),
         key!("platform_swing_deg": angle(Range::Below(180)), platform_swing_deg;
-            "how far the joint at the platform lets a rod swing from its direction at home, degrees"),
+            "greatest angle between a rod and its direction at home, degrees"),
     ],
     ..KeyTable::EMPTY
 };

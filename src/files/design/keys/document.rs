@@ -44,7 +44,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
         key!("mass_units": word(MassUnit::words), mass_units; "unit of all masses; kilograms where none is named"),
         key!("source": TEXT, source; "where the numbers come from"),
         key!("description": TEXT, description; "free text"),
-        key!("revision": TEXT, revision; "of the design, as its drawings and parts name it"),
+        key!("revision": TEXT, revision; "revision of the design, as drawings and parts name it"),
         key!("drive" { default = r#""prismatic""# }: own(r#"{"enum": ["prismatic", "rotary"]}"#, unit::NONE),
             |_, _| (), |of| of.has_cranks().then(|| json!("rotary"));
             "`prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks, the base joints are the centres of the cranks, and `[cranks]` is required"),
@@ -61,7 +61,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
         key!("platform" { required = "add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`" }: table(&BODY), |_, _| (), |of| Some(joints_of(of, Body::Platform));
             "joints in the platform frame, each as `[x, y, z]` or as a construction"),
         key!("cranks": table(&CRANKS), |_, _| (), |of| Some(cranks::written(of.constructions.cranks.as_ref()?, of.base_names()));
-            "cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base joints for what is different at one"),
+            "cranks and rods of a rotary design: keys for all, and tables named by base joints for single cranks"),
         key!("home": table(&HOME), |_, _| (), |of| of.home.and_then(|_| HOME.put(of));
             "the pose the platform is built for"),
         key!("frames": table(&FRAMES),
@@ -73,29 +73,29 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
         key!("workspace": table(&WORKSPACE), |_, _| (), |of| Some(&of.workspace).filter(|w| **w != Workspace::default()).and_then(|w| WORKSPACE.put(w));
             "the poses to reach"),
         key!("optimize": table(&OPTIMIZE), |_, _| (), |of| OPTIMIZE.put(&OptimizeKeys::of(of));
-            "what the optimiser chooses, and by what"),
+            "variables and objectives of the optimiser"),
         key!("hardware": table(&HARDWARE), |_, _| (), |of| HARDWARE.put(&HardwareKeys::of(&of.hardware, of.drive_table.as_ref()));
             "sizes and limits of joints, legs and drives"),
         key!("speed": table(&SPEED), |_, _| (), |of| SPEED.put(of.speed.as_ref()?);
-            "the platform has to move so fast in every direction"),
+            "speed that the platform has to reach in every direction"),
         key!("stiffness": table(&STIFFNESS), |_, _| (), |of| Some(json!(STIFFNESS.write(of.stiffness.as_ref()?)));
-            "the platform has to be so stiff on its legs at every pose; needs `leg_stiffness` of `[hardware]`"),
+            "stiffness that the platform needs on its legs at every pose; needs `leg_stiffness` of `[hardware]`"),
         key!("loads": list(&table(&LOAD)), |_, _| (), |of| all(&of.loads, |load| LOAD.write(load));
             "wrenches the legs have to hold, one at a time"),
         key!("keep_out": list(&table(&KEEP_OUT)), |_, _| (), |of| all(&of.keep_outs, |keep_out| KEEP_OUT.write(&keep_out.into()));
             "bodies the legs must not touch, each a box, a sphere or a capsule"),
         key!("payload": table(&PAYLOAD), |_, _| (), |of| PAYLOAD.put(of.payload.as_ref()?);
-            "what the platform carries"),
+            "mass, inertia and size of the payload"),
         key!("envelope": table(&ENVELOPES), |_, _| (), |of| ENVELOPES.put(&of.envelopes);
-            "room that plates and machine may take up"),
+            "space that plates and machine may occupy"),
         key!("holes": table(&HOLES_SHAPE), |_, _| (), |of| HOLES.put(of.holes.as_ref()?);
-            "grids of holes that the joints have to be put on, of both plates or of one"),
+            "grids of holes for the joints, in both plates or in one"),
         key!("plates": table(&PLATES), |_, _| (), |of| PLATES.put(&of.plates);
             "the plates that carry the joints: sizes, material, holes and bolts"),
         key!("limits": table(&LIMITS), |_, _| (), |of| LIMITS.put(&of.reserves);
-            "what has to remain of each limit"),
+            "safety margins to each limit"),
         key!("calibration": table(&CALIBRATION), |_, _| (), |of| CALIBRATION.put(&CalibrationKeys::of(of, of.calibration.as_ref()?));
-            "what `equipod calibrate` found beside the joints"),
+            "results of `equipod calibrate` beside the joints"),
     ],
     ..KeyTable::EMPTY
 };

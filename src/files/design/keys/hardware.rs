@@ -47,7 +47,7 @@ const AXES: KeyKind = own(r##"{"$ref": "#/$defs/axes"}"##, unit::NONE);
 pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
     keys: &[
         key!("joint_diameter": positive(unit::LENGTH), hardware.joint_diameter;
-            "diameter of the sphere a joint takes up, both bodies"),
+            "diameter of the sphere that a joint occupies, both bodies"),
         key!("base_housing": HOUSING, hardware.base_housing;
             "the same for the base: a diameter, or edge lengths of a box along the axes of the body"),
         key!("platform_housing": HOUSING, hardware.platform_housing; "the same for the platform"),
@@ -74,7 +74,7 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
             |of| of.hardware.leg_body?.rod?.0.written();
             "length of the cylinder"),
         key!("leg_clearance" { default = "0", needs = &["leg_diameter"] }: not_negative(unit::LENGTH), hardware.leg_clearance;
-            "gap that has to remain between legs, and between legs and keep-outs"),
+            "least gap between legs, and between legs and keep-outs"),
         key!("leg_length": list_of(2, &not_negative(unit::LENGTH)),
             |found, to| to.leg_length = leg_length(found), |of| of.leg_length.written();
             "`[least, greatest]` length of a leg"),
@@ -95,13 +95,13 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
         key!("base_joint": JOINT_MODELS,
             |found, to| to.base_joint = joint_models::models(found).unwrap_or_default(),
             |of| joint_models::written(&of.hardware, Body::Base);
-            "what kinds of joints the base has: one table for all, or six in leg order; ball joints when absent"),
+            "kinds of the base joints: one table for all, or six in leg order; ball joints when absent"),
         key!("platform_joint": JOINT_MODELS,
             |found, to| to.platform_joint = joint_models::models(found).unwrap_or_default(),
             |of| joint_models::written(&of.hardware, Body::Platform);
             "the same for the platform"),
         key!("screw_lead" { default = "0" }: any(unit::LENGTH), hardware.screw_lead;
-            "what a leg becomes longer by when its platform end makes a turn about it against the base end, by the right hand about the direction from base to platform; needs universal joints at both ends"),
+            "growth of a leg when its platform end makes one turn against its base end, right-handed about the direction from base to platform; needs universal joints at both ends"),
         key!("max_leg_force": positive(unit::FORCE), hardware.max_leg_force;
             "greatest push or pull of a leg under each of the loads, force units"),
         key!("max_leg_speed": positive(unit::SPEED), hardware.max_leg_speed;
@@ -109,19 +109,19 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
         key!("leg_stiffness": positive(unit::STIFFNESS), hardware.leg_stiffness;
             "stiffness of a leg along its line, force units per design unit"),
         key!("cylinder_mass" { needs = &["cylinder_center"] }: positive(unit::MASS), cylinder.mass;
-            "mass of what turns about the base joint, mass units"),
+            "mass of the part that rotates about the base joint, mass units"),
         key!("cylinder_center" { needs = &["cylinder_mass"] }: not_negative(unit::LENGTH), cylinder.center;
             "distance of its centre of mass from the base joint"),
         key!("cylinder_inertia" { needs = &["cylinder_mass"] }: not_negative(unit::INERTIA), cylinder.inertia;
             "its moment of inertia about an axis across the leg through that centre, mass units times the square of the length unit; without it that of a thin rod from the joint with this middle, `m c^2 / 3`"),
         key!("rod_mass" { needs = &["rod_center"] }: positive(unit::MASS), rod.mass;
-            "mass of what slides in it, mass units"),
+            "mass of the part that slides in the cylinder, mass units"),
         key!("rod_center" { needs = &["rod_mass"] }: not_negative(unit::LENGTH), rod.center;
             "distance of its centre of mass from the platform joint"),
         key!("rod_inertia" { needs = &["rod_mass"] }: not_negative(unit::INERTIA), rod.inertia;
             "the same for the rod as `cylinder_inertia`"),
         key!("reflected_mass": positive(unit::MASS), reflected_mass;
-            "what turns in the drive, as a mass that moves along the leg"),
+            "inertia of the rotating parts of the drive, as a mass that moves along the leg"),
         key!("drives": TEXT, drives;
             "table of drives (CSV), a path relative to the folder of the design, from which one is chosen: `optimize` and `explore` do so as with `--drives`, `assess` and `compare` name the lightest that suffices"),
     ],

@@ -79,7 +79,7 @@ static JOINT: KeyTable<JointKeys> = KeyTable {
             |found, to| found.fill(&mut to.offset), |of| Some(of.offset).filter(|x| *x != 0.0).written();
             "universal: distance of the two axes, which meet when it is 0"),
         key!("housing": HOUSING, housing;
-            "the room that the joint takes up, in place of that of the body: a diameter, or edge lengths of a box along the axes of the body"),
+            "space that the joint occupies, in place of that of the body: a diameter, or edge lengths of a box along the axes of the body"),
         key!("swing_deg": angle(Range::HalfTurn), swing_deg;
             "greatest angle between the leg and the axis of the joint, in place of that of the body (`base_swing_deg`, `platform_swing_deg`)"),
         key!("bending_stiffness": positive(unit::TORQUE), bending;

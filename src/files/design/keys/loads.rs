@@ -83,7 +83,7 @@ pub(super) static LOAD: KeyTable<Load> = KeyTable {
         key!("at" { default = "[0, 0, 0]" }: vector(unit::LENGTH), at;
             "where the force acts, platform frame"),
         key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
-            "whose directions force and torque have; a weight has those of the base"),
+            "body whose axes force and torque follow; a weight follows the base"),
     ],
     ..KeyTable::EMPTY
 };
@@ -135,7 +135,7 @@ pub(super) static KEEP_OUT: KeyTable<KeepOutKeys> = KeyTable {
     keys: &[
         key!("name": TEXT, name; "for answers"),
         key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
-            "in whose frame it is and with which body it moves"),
+            "body that gives its frame and that it moves with"),
         key!("box": table_of(&BOX),
             |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
             "edges along the axes of the frame"),

@@ -61,18 +61,18 @@ pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
         key!("min_abs_det": positive(unit::NONE), limits.min_abs_det;
             "least `|det A|`; left to the optimiser where it is absent"),
         key!("characteristic_length": positive(unit::LENGTH), limits.characteristic_length;
-            "by which moments are divided in the Jacobian, design units; else the RMS distance of the platform joints from their centroid"),
+            "length that divides moments in the Jacobian, design units; else the RMS distance of the platform joints from their centroid"),
         key!("variables" { default = r#"["offsets"]"# }: list_of(&word(VariableKind::words)),
             |found, to| to.search.variables = variables(found),
             |of| list(&of.search.variables, |v| json!(v.code()));
-            "what is chosen; `components` without offsets and triangles"),
+            "chosen quantities; `components` excludes offsets and triangles"),
         key!("symmetry": word(KeptSymmetry::words),
             |found, to| to.search.symmetry = named(found.report, &found.entry.node, "a symmetry"),
             |of| of.search.symmetry.written();
             "of the platform found: `three_fold` takes turns by 120 degrees at home, which the design has to have (offsets alternate, triangles change in size alone, two kinds of leg at most); `mirror` is refused, since no regular platform without shared joints has a mirror plane; where the key is absent `three_fold` is tried first for a design that has it, and `none` is taken otherwise"),
         key!("objective" { default = r#""worst_conditioning""# }: OBJECTIVE,
             |found, to| to.objective = objective(found.report, &found.entry.node), |_| None;
-            "what is to be best"),
+            "objective of the search"),
         key!("objectives": list_of(&either(&[OBJECTIVE, table(&WEIGHTED)])),
             |found, to| to.search.objectives = objectives(found),
             |of| list(&of.search.objectives, |(objective, weight)| {
@@ -85,7 +85,7 @@ pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
             |of| of.mode.written();
             "how several objectives are weighed: by their weights, in the order of the list, or as a front"),
         key!("slack" { default = "0.01" }: positive(unit::NONE), slack;
-            "share of the earlier levels that later ones may take, with `lexicographic`"),
+            "share of the earlier levels that later ones may give up, with `lexicographic`"),
         key!("points" { default = "10" }: whole(2, 100),
             |found, to| to.points = points(found), |of| Some(json!(of.points?));
             "steps of the front, with `pareto`"),

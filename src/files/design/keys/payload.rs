@@ -31,7 +31,7 @@ pub(super) static PAYLOAD: KeyTable<Payload> = KeyTable {
             "whether `mass`, `center` and `inertia` have the plate of `[plates.platform]` in them, or it comes on top"),
         key!("box": table(&BOX),
             |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
-            "the room it takes up, which the legs keep clear of: edges along the axes of the platform frame"),
+            "the space it occupies, which the legs keep clear of: edges along the axes of the platform frame"),
         key!("sphere": table(&SPHERE),
             |found, to| if to.shape.is_none() {
                 to.shape = shape(found);

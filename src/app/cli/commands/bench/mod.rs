@@ -38,9 +38,9 @@ pub(crate) struct BenchArgs {
     /// class allows it
     #[arg(long, value_enum, value_name = "SOURCE")]
     lengths_from: Option<Source>,
-    /// Round the coordinates of the joints to so many digits behind the point, as people type them
+    /// Round the coordinates of the joints to this number of decimals, as people type them
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=17))]
-    digits: Option<u32>,
+    decimals: Option<u32>,
     /// Search for missed roots from two other starts in every N-th problem; 0 means never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
@@ -50,7 +50,7 @@ pub(crate) struct BenchArgs {
     count_poses: bool,
     /// Measure the effect of noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to
     /// 1e-1
-    #[arg(long, conflicts_with_all = ["first", "lengths_from", "digits", "recheck_every", "count_poses"])]
+    #[arg(long, conflicts_with_all = ["first", "lengths_from", "decimals", "recheck_every", "count_poses"])]
     noise: bool,
     /// Write a picture of the displacements of the poses caused by noise
     #[arg(long, value_name = "FILE", requires = "noise")]
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Fai
         let plan = Plan {
             class,
             lengths,
-            digits: args.digits,
+            decimals: args.decimals,
             count: args.count,
             first: args.first,
             seed: context.seed(),
