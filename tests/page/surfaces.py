@@ -39,7 +39,7 @@ def stays_while_the_mark_moves(shown):
     page.focus("#plane")
     page.keyboard.press("ArrowRight")
     page.wait_for_timeout(100)
-    assert "being looked at" not in words(shown), words(shown)
+    assert "Checking requirements" not in words(shown), words(shown)
     shown.settle()
 
 

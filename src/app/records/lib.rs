@@ -11,8 +11,8 @@
 //! truth value that may be undecided is an `Option<bool>`, `null` for undecided. Names of fields carry their unit
 //! (`angle_deg`) if it differs from the units of the design. Legs are counted from 1.
 
-#[cfg(feature = "lab")]
 mod at_pose;
+#[cfg(feature = "lab")]
 mod bench;
 mod calibrate;
 mod check;
@@ -61,8 +61,8 @@ mod written;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-#[cfg(feature = "lab")]
 pub use self::at_pose::*;
+#[cfg(feature = "lab")]
 pub use self::bench::*;
 pub use self::calibrate::*;
 pub use self::check::*;

@@ -76,7 +76,7 @@ pub enum Demand {
 impl std::fmt::Display for Demand {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Requirement(kind) => kind.code(),
+            Self::Requirement(kind) => kind.label(),
             Self::Determinant => "|det A|",
             Self::Reach => "the reach of sliding joints",
             Self::Level(objective) => objective.code(),

@@ -77,10 +77,7 @@ impl std::fmt::Display for Progress {
         match (self.best, self.violation) {
             (Some(best), _) => write!(f, "best {best:.6}; ")?,
             (None, Some((demand, x))) if x > 0.0 => {
-                write!(
-                    f,
-                    "nothing meets the requirements yet, {demand} is missed by {x:.1e} of its scale; "
-                )?;
+                write!(f, "nothing meets the requirements yet, {demand} is off by {x:.1e} of its scale; ")?;
             }
             _ => {}
         }

@@ -232,7 +232,7 @@ impl std::fmt::Display for AssessReport {
             Some(false) => write!(f, "violates requirements: {}", self.names(Some(false)))?,
             None => write!(
                 f,
-                "violates no requirement at the poses looked at; not all is proved: {}",
+                "violates no requirement at the sampled poses; not all is proved: {}",
                 self.names(None)
             )?,
         }
@@ -247,7 +247,7 @@ impl std::fmt::Display for AssessReport {
                 None => write!(f, "; that the reserve is kept is not proved: {}", short(None))?,
             }
         }
-        write!(f, " ({} looked at)", poses(self.proof.poses))
+        write!(f, " ({} evaluated)", poses(self.proof.poses))
     }
 }
 

@@ -1,10 +1,10 @@
-// Where the picture is looked at from: one camera for both views, turned by pointer and keys.
+// The viewpoint of the picture: one camera for both views, turned by pointer and keys.
 
 const START = { azimuth: -0.95, elevation: 0.42, zoom: 1 };
 
 /** Directions among which the first one is chosen. */
 const AROUND = { azimuths: 48, elevations: [0.3, 0.42, 0.55, 0.7, 0.85] };
-/** Points of a leg that are looked at, and the distance, as a share of the picture, at which two legs no longer hide each other. */
+/** Sampled points of a leg, and the distance, as a share of the picture, at which two legs no longer hide each other. */
 const [ALONG, APART] = [[0.15, 0.3, 0.45, 0.6, 0.75, 0.85], 0.035];
 
 /** The distance of a point from a line between two points of the page. */

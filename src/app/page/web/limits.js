@@ -15,8 +15,8 @@ const Limits = {
     const singular = second ? Limits.singular(app, state) : open.singular;
     if (singular) return ["bad", "architecturally singular"];
     if (!second && open.singular === null && open.reason) return ["", open.reason];
-    if (!limits) return ["", app.core.live ? "workspace: being looked at" : "workspace: not looked at"];
-    if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not looked at"];
+    if (!limits) return ["", app.core.live ? "workspace: checking .." : "workspace: not checked"];
+    if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not checked"];
     if (limits.regular.met === false) return ["bad", "singular pose in the workspace"];
     if (limits.met === false || limits.requirements.some((m) => m.met === false)) return ["bad", "violates requirements"];
     if (limits.met) return limits.judged.region ? ["good", "meets all requirements"] : ["good", `requirements ${limits.judged.met_in_words}`];
@@ -45,7 +45,7 @@ const Limits = {
     const { limits } = app;
     const whose = state.platforms.length > 1 ? "the equivalent" : "the platform";
     if (!app.core.live) return "The least margin of each requirement at the pose shown, not over the workspace; below zero the requirement is violated.";
-    if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being looked at.`;
+    if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being checked.`;
     if (limits.error) return limits.error.code === "nothing_required" ? "The design requires nothing: it has no [hardware], loads or keep-outs." : limits.error.message;
     const over = limits.judged.stated ? `over ${limits.poses} poses of the workspace` : "at home";
     if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof are on their way" : "a browser with workers looks at more of them"}.`;

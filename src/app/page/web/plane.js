@@ -143,7 +143,7 @@ class Plane {
 
   /** What is known of the platforms of the plane, and of the one next to the mark, in words. */
   static words(feasible, at) {
-    if (!feasible) return "Where the requirements are violated is being looked at.";
+    if (!feasible) return "Checking requirements ..";
     if (feasible.error) return feasible.error.code === "nothing_required" ? "" : feasible.error.message;
     const { points: n, low, high, poses, violated } = feasible;
     const name = (kind) => REQUIREMENTS[kind] || (kind === "no_platform" ? "joints coincide" : kind.replaceAll("_", " "));
@@ -157,7 +157,7 @@ class Plane {
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];
     const next = here ? `violates: ${name(here)}` : "violates none at these poses; the judgement at the top of the page has the proof for the mark";
-    return `${all} Of those looked at, the platform next to the mark ${next}.`;
+    return `${all} The checked platform next to the mark ${next}.`;
   }
 
   pixels(n) {

@@ -1074,8 +1074,7 @@ class Design(Record):
     base: DesignBody
     #: joints in the platform frame, each as `[x, y, z]` or as a construction
     platform: DesignBody
-    #: unit of all forces; torques are in it times the length unit; where none is named a payload and the
-    #: simulator take newtons
+    #: unit of all forces, newtons where none is named; torques are in it times the length unit
     force_units: Union[Literal["N", "kN", "kgf", "lbf"], None]
     #: unit of all masses; kilograms where none is named
     mass_units: Union[Literal["g", "kg", "t", "lb"], None]

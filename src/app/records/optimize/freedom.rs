@@ -90,7 +90,7 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
             format!("with {what} the requirements can be met, proved for the platform found")
         }
         FreedomWord::Undecided => format!(
-            "with {what} a platform was found that violates nothing at the poses looked at; not all is proved"
+            "with {what} a platform was found that violates nothing at the sampled poses; not all is proved"
         ),
         FreedomWord::Unresolved if !opened.eased.is_empty() => {
             let less = |e: &EasedDemand| {

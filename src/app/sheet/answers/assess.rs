@@ -19,8 +19,9 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
     sheet.line("The proved margin is a lower bound over the poses judged; the least margin was found at the worst pose.");
     if found.met.is_none() {
-        sheet
-            .line("Poses between those looked at may violate what is not proved; more --cells may prove it.");
+        sheet.line(
+            "Poses between the sampled ones may violate what is not proved; more --cells may prove it.",
+        );
     }
     sheet.add(assumptions(found));
     sheet

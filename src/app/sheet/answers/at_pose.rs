@@ -1,6 +1,7 @@
 //! Forces, small motions and stiffness at one pose.
 
 use super::limits::named;
+use super::poses::{words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
@@ -12,7 +13,7 @@ use records::{
 #[must_use]
 pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "{} at {}", answer.name, pose(&answer.in_frames));
+    say!(out, "{} at {} = {}", answer.name, words(&answer.frames), pose(&answer.in_frames));
     out.line(&answer.frames.sentence);
     let point = answer.point.map(|x| x.0);
     say!(
@@ -38,7 +39,7 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
         Some(evidence) => say!(out, "SINGULAR: {evidence}"),
         None => {
             if let Some(x) = answer.inverse_condition {
-                say!(out, "inverse condition {}", figure(x.0));
+                say!(out, "conditioning {}", figure(x.0));
             }
         }
     }
@@ -72,9 +73,8 @@ fn listed(numbers: impl IntoIterator<Item = f64>) -> String {
 }
 
 fn pose(found: &PoseInFrames) -> String {
-    let numbers = found.position.iter().chain(&found.angles).map(|x| figure(x.0));
     let many = if found.angles_unique { "" } else { " (angles not unique)" };
-    numbers.collect::<Vec<_>>().join(", ") + many
+    written(found).map(figure).join(",") + many
 }
 
 fn row(name: &str, numbers: &[Number], unit: &str) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! All poses for given lengths, or one pose that is tracked.
 
-use super::poses::{POSE, numbers, pose};
+use super::poses::{POSE, numbers, pose, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use fk::{CompletenessWord, NearWord};
@@ -280,7 +280,7 @@ fn real_poses(
         ["x", "y", "z"].map(|axis| if units == "1" { axis.to_owned() } else { format!("{axis} {units}") });
     let angles = match frames {
         None => ["roll", "pitch", "yaw"].map(|angle| format!("{angle} deg")),
-        Some(frames) => ["1", "2", "3"].map(|k| format!("angle {k} {}", frames.angles)),
+        Some(frames) => ["a", "b", "c"].map(|angle| format!("{angle} {}", frames.angles)),
     };
     let columns = position.into_iter().chain(angles).map(|title| right(title, 8).gap(2));
     let columns = [right("pose", 0)].into_iter().chain(columns);
@@ -297,8 +297,7 @@ fn real_poses(
         if let Some(pose) = r.real_pose {
             let own = pose.in_frames;
             if frames.is_some() {
-                let all: Vec<f64> = own.position.iter().chain(&own.angles).map(|x| x.0).collect();
-                numbers = all.try_into().unwrap_or(numbers);
+                numbers = written(&own);
             }
             if pose.nearest_home {
                 kind.push_str(", nearest to home");

@@ -1,6 +1,6 @@
 //! The free travel of the platform.
 
-use super::poses::{POSE, pose};
+use super::poses::{pose, words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
@@ -12,15 +12,15 @@ use records::{
 #[must_use]
 pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     let mut out = Sheet::new();
-    let at = shown(answer, &answer.pose, &answer.in_frames);
+    let (numbers, at) = (words(&answer.frames), shown(answer, &answer.pose, &answer.in_frames));
     if answer.allowed {
-        say!(out, "{name} may be at {POSE} = {at}, and move from there, one number at a time:\n");
+        say!(out, "{name} may be at {numbers} = {at}, and move from there, one number at a time:\n");
         let columns =
             [left("axis", 6), right("value", 9), right("down to", 9), left("limited there by", 0).gap(2)];
         let more = [right("up to", 9), left("limited there by", 0).gap(2), left("unit", 0)];
         out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
     } else {
-        say!(out, "{name} may not be at {POSE} = {at}:");
+        say!(out, "{name} may not be at {numbers} = {at}:");
         for limit in &answer.violated {
             let unit = limit.unit.as_deref().unwrap_or("of det J at home");
             say!(out, "  {}: missed by {} {unit}", named(limit), figure(-limit.margin.0));
@@ -76,8 +76,7 @@ fn shown(answer: &LimitsAnswer, record: &PoseQuaternionRecord, in_frames: &PoseI
     if answer.frames.is_usual() {
         return pose(record);
     }
-    let numbers = in_frames.position.iter().chain(&in_frames.angles);
-    numbers.map(|x| figure(x.0)).collect::<Vec<_>>().join(",")
+    written(in_frames).map(figure).join(",")
 }
 
 fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightWayRecord) {
@@ -96,9 +95,10 @@ fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightWayRecord) {
 
 fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord) {
     let binds = found.binds.iter().map(named).collect::<Vec<_>>().join(", ");
+    let numbers = words(&answer.frames);
     say!(
         out,
-        "\n{} is {POSE} = {}, {} {} away (a radian counts as {} {}).\nLimits there: {binds}.",
+        "\n{} is {numbers} = {}, {} {} away (a radian counts as {} {}).\nLimits there: {binds}.",
         if found.stationary {
             "The nearest allowed pose, locally,"
         } else {

@@ -63,7 +63,7 @@ fn sentence(answer: &MotionAnswer) -> String {
     }
     let limited = answer.motions.iter().any(|m| !m.requirements.is_empty());
     if limited {
-        "stays within its limits at the instants looked at"
+        "stays within its limits at the sampled instants"
     } else {
         "has no limits along its motions"
     }

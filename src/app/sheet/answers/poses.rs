@@ -2,7 +2,7 @@
 
 use crate::figure::figure;
 use platform::geom::Pose;
-use records::PoseQuaternionRecord;
+use records::{PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 
 /// The numbers of a pose in their order.
 pub(super) const POSE: &str = "x,y,z,roll,pitch,yaw";
@@ -28,6 +28,18 @@ pub(super) fn numbers(pose: &Pose) -> [f64; 6] {
     let [x, y, z] = without_rounding(pose.position.into(), 0.0);
     let [roll, pitch, yaw] = without_rounding([roll, pitch, yaw].map(f64::to_degrees), 360.0);
     [x, y, z, roll, pitch, yaw]
+}
+
+/// Position and angles as the convention of an answer has them; numbers that are rounding are zero.
+pub(super) fn written(found: &PoseInFrames) -> [f64; 6] {
+    let [x, y, z] = without_rounding(found.position.map(|x| x.0), 0.0);
+    let [a, b, c] = without_rounding(found.angles.map(|x| x.0), 1.0);
+    [x, y, z, a, b, c]
+}
+
+/// The names of the six numbers of a pose in the convention of an answer.
+pub(super) fn words(frames: &PoseConventionRecord) -> &'static str {
+    if frames.is_usual() { POSE } else { "x,y,z,a,b,c" }
 }
 
 fn without_rounding(numbers: [f64; 3], least_scale: f64) -> [f64; 3] {

@@ -60,7 +60,12 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
         return;
     }
     let proved = b.proved_scale.0;
-    say!(out, "Around the pose a {shape} of half widths {} has no singular pose, proved;", widths(proved));
+    let article = if shape.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+    say!(
+        out,
+        "Around the pose {article} {shape} of half widths {} has no singular pose, proved;",
+        widths(proved)
+    );
     say!(
         out,
         "  the same holds for every equivalent platform ({} times the {shape} asked for).",

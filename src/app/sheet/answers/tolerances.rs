@@ -150,7 +150,7 @@ fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
         format!("; solved, the worst errors found keep it with {} {units}", figure(r.0))
     });
     match solved.largest_share {
-        _ if solved.within_bound => "Solved, no error looked at in this budget exceeds the bounds".into(),
+        _ if solved.within_bound => "Solved, no sampled error in this budget exceeds the bounds".into(),
         Some(share) => format!(
             "The first order is too wide: solved, errors in the budget exceed the bounds by {} %{radius}",
             figure(100.0 * (share.0 - 1.0))

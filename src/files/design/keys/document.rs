@@ -40,7 +40,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
         key!("units" { required = "add `units = \"mm\"` (a label; all lengths are in it) at the top" }: TEXT, units;
             "label of the length unit; every length of the file is in it"),
         key!("force_units": word(ForceUnit::words), force_units;
-            "unit of all forces; torques are in it times the length unit; where none is named a payload and the simulator take newtons"),
+            "unit of all forces, newtons where none is named; torques are in it times the length unit"),
         key!("mass_units": word(MassUnit::words), mass_units; "unit of all masses; kilograms where none is named"),
         key!("source": TEXT, source; "where the numbers come from"),
         key!("description": TEXT, description; "free text"),

@@ -74,7 +74,9 @@ fn what_is_not_finite_is_null_with_a_word_of_explanation() {
 fn people_are_told_when_roots_may_be_missing() {
     let answer = FkAnswer::One(Box::new(FkOneAnswer::from(SolvedRecord::from(&solutions(10.0)))));
     let shown = sheet::answers::fk("x", "mm", &answer).to_string();
-    assert!(shown.starts_with("x: 3 finite poses, 1 of them real, 1 undecided (method homotopy)\nINCOMPLETE"));
+    assert!(
+        shown.starts_with("x: 3 finite poses, 1 of them real, 1 undecided (method homotopy)\nINCOMPLETE")
+    );
 }
 
 #[test]
