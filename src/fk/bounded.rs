@@ -42,20 +42,34 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Proves, where poses are missing, that those listed are all up to a distance; whether that succeeds.
+    pub(super) fn conclude_far(
+        &mut self,
+        found: &mut FkSolutions,
+        s: &SquaredLegLengths,
+    ) -> Result<bool, FkError> {
+        if !may_lack_far_poses(found) {
+            return Ok(false);
+        }
+        conclude_far(found, self.manipulator, s, self.search.points())
+    }
+
+    /// Proves that the list has all real poses; whether that succeeds. Complex poses may be missing, so that this comes
+    /// last.
+    pub(super) fn conclude_real(&self, found: &mut FkSolutions, s: &SquaredLegLengths) -> bool {
+        if !may_lack_far_poses(found) {
+            return false;
+        }
+        let neighbour = self.neighbour.get_or_init(|| Neighbour::of(self.manipulator));
+        conclude_by_neighbour(found, neighbour.as_ref(), self.manipulator, s)
+    }
+
+    /// Both proofs, that of all poses first.
     pub(super) fn conclude(
         &mut self,
         found: &mut FkSolutions,
         s: &SquaredLegLengths,
     ) -> Result<bool, FkError> {
-        let near = found.certified_count();
-        if near == 0 || near >= Theorem::SixLegs.bound() || !are_distinct(found) {
-            return Ok(false);
-        }
-        let neighbour = self.neighbour.get_or_init(|| Neighbour::of(self.manipulator));
-        if conclude_by_neighbour(found, neighbour.as_ref(), self.manipulator, s) {
-            return Ok(true);
-        }
-        conclude_far(found, self.manipulator, s, self.search.points())
+        Ok(self.conclude_far(found, s)? || self.conclude_real(found, s))
     }
 
     /// The part that does not depend on lengths, as far as it was needed.
@@ -76,11 +90,17 @@ impl KnownSurroundings {
         if !are_distinct(found) {
             return Ok(false);
         }
-        if conclude_by_neighbour(found, self.neighbour.as_ref(), m, s) {
+        if conclude_far(found, m, s, self.points.iter().copied())? {
             return Ok(true);
         }
-        conclude_far(found, m, s, self.points.iter().copied())
+        Ok(conclude_by_neighbour(found, self.neighbour.as_ref(), m, s))
     }
+}
+
+/// Whether there are certified, distinct poses, fewer than a theorem allows.
+fn may_lack_far_poses(found: &FkSolutions) -> bool {
+    let near = found.certified_count();
+    near > 0 && near < Theorem::SixLegs.bound() && are_distinct(found)
 }
 
 /// All real poses are next to those of the neighbour.

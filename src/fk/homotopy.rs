@@ -57,66 +57,83 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };
-        let mut far = Surroundings::new(m, o.seed);
-        let mut best: Option<FkSolutions> = None;
-        let mut count: Option<PoseCount> = None;
-        let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
-        let planar = SectionProblem::planar(m, s).map(|p| (p, 0));
-        // without the count nothing asks for poses that doubles cannot see
-        let quick = o.pose_count == PoseCounting::Never;
-        let (plain, fine) = if quick { (ATTEMPTS, 0) } else { (1, FINE_ATTEMPTS) };
-        let plans = (0..plain).map(|k| whole(k, false)).chain((0..fine).map(|k| whole(k, true)));
-        for (problem, attempt) in planar.into_iter().chain(plans) {
-            let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
-            let (mut found, certificates) = problem.solve(m, s, o, seed)?;
-            attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
-            if found.completeness.is_proved() || far.conclude(&mut found, s)? {
-                return Ok(found);
-            }
-            // the kind of the set has to be known before any end without a proof is taken for a pose
-            if count.is_none() {
-                count = counted(m, s, o);
-            }
-            let uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone());
-            let judgement = count.as_ref().map_or(Ok(RealityJudgement::Silent), |c| judge(&mut found, c))?;
-            match judgement {
-                RealityJudgement::Complete => {
-                    return Ok(moving_within_rounding(uncertified, m, s, count).unwrap_or(found));
-                }
-                RealityJudgement::PositiveDimensional { dimension } => {
-                    return positive_dimensional(found, m, s, o, &frame, dimension);
-                }
-                RealityJudgement::Short => {}
-                RealityJudgement::Silent => detect_curves(&mut found, m, s),
-            }
-            if nearly {
-                // the answer depends on digits that nobody knows
-                found.completeness.doubt(Reason::LegsNearlyDependent);
-            }
-            set_unproved_apart(&mut found);
-            let settled = (nearly && quick) || found.solution_set != SolutionSet::Isolated;
-            if settled || (found.all_accounted() && (quick || problem.fine)) {
-                return Ok(found);
-            }
-            let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
-            let rank = |f: &FkSolutions| (std::cmp::Reverse(certified(f)), failures(f));
-            // where every path has an end, other paths have the same; where nothing is gained, they fail as well
-            let gained = best.as_ref().is_none_or(|b| certified(&found) > certified(b));
-            let ended = failures(&found) == 0 && found.rejected.is_empty();
-            let last = problem.fine && (ended || !gained);
-            if best.as_ref().is_none_or(|b| rank(&found) < rank(b)) {
-                best = Some(found);
-            }
-            if last {
-                break;
-            }
+        let mut surroundings = Surroundings::new(m, o.seed);
+        let mut found = attempts((frame, sections), nearly, m, s, o, &mut surroundings)?;
+        let unproved = matches!(found.completeness, Completeness::Unproved { .. });
+        if unproved && found.solution_set == SolutionSet::Isolated {
+            surroundings.conclude_real(&mut found, s);
         }
-        best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
+        Ok(found)
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         Some(Box::new(PreparedHomotopy::new(m, o)?))
     }
+}
+
+/// Tracks the paths, again and more finely as long as poses are missing.
+fn attempts(
+    (frame, sections): (ScaledFrames, Sections),
+    nearly: bool,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+    far: &mut Surroundings<'_>,
+) -> Result<FkSolutions, FkError> {
+    let mut best: Option<FkSolutions> = None;
+    let mut count: Option<PoseCount> = None;
+    let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
+    let planar = SectionProblem::planar(m, s).map(|p| (p, 0));
+    // without the count nothing asks for poses that doubles cannot see
+    let quick = o.pose_count == PoseCounting::Never;
+    let (plain, fine) = if quick { (ATTEMPTS, 0) } else { (1, FINE_ATTEMPTS) };
+    let plans = (0..plain).map(|k| whole(k, false)).chain((0..fine).map(|k| whole(k, true)));
+    for (problem, attempt) in planar.into_iter().chain(plans) {
+        let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
+        let (mut found, certificates) = problem.solve(m, s, o, seed)?;
+        attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
+        if found.completeness.is_proved() || far.conclude_far(&mut found, s)? {
+            return Ok(found);
+        }
+        // the kind of the set has to be known before any end without a proof is taken for a pose
+        if count.is_none() {
+            count = counted(m, s, o);
+        }
+        let uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone());
+        let judgement = count.as_ref().map_or(Ok(RealityJudgement::Silent), |c| judge(&mut found, c))?;
+        match judgement {
+            RealityJudgement::Complete => {
+                return Ok(moving_within_rounding(uncertified, m, s, count).unwrap_or(found));
+            }
+            RealityJudgement::PositiveDimensional { dimension } => {
+                return positive_dimensional(found, m, s, o, &frame, dimension);
+            }
+            RealityJudgement::Short => {}
+            RealityJudgement::Silent => detect_curves(&mut found, m, s),
+        }
+        if nearly {
+            // the answer depends on digits that nobody knows
+            found.completeness.doubt(Reason::LegsNearlyDependent);
+        }
+        set_unproved_apart(&mut found);
+        let settled = (nearly && quick) || found.solution_set != SolutionSet::Isolated;
+        if settled || (found.all_accounted() && (quick || problem.fine)) {
+            return Ok(found);
+        }
+        let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
+        let rank = |f: &FkSolutions| (std::cmp::Reverse(certified(f)), failures(f));
+        // where every path has an end, other paths have the same; where nothing is gained, they fail as well
+        let gained = best.as_ref().is_none_or(|b| certified(&found) > certified(b));
+        let ended = failures(&found) == 0 && found.rejected.is_empty();
+        let last = problem.fine && (ended || !gained);
+        if best.as_ref().is_none_or(|b| rank(&found) < rank(b)) {
+            best = Some(found);
+        }
+        if last {
+            break;
+        }
+    }
+    best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
 }
 
 /// The answer for lengths of a self-motion that were rounded. Rounded lengths allow no motion: the design as written

@@ -213,7 +213,7 @@ mod tests {
     fn joints_with_their_own_unit_are_the_same_in_every_design() {
         let text = |units: &str| {
             format!(
-                "name = \"own\"\nunits = \"{units}\"\nlegs = [[\"A\", \"a\"], [\"B\", \"a\"], [\"B\", \"b\"], [\"C\", \"b\"], [\"C\", \"c\"], [\"A\", \"c\"]]\n[parameters]\nr = 3\n[base]\nA = [\"-6 in\", 0, 0]\nB = {{ radius = \"r ft\", angle_deg = 30 }}\nC = {{ on = [\"A\", \"B\"], offset = \"12/5 in\" }}\n[platform]\na = [0, 0, 0]\nb = [1, 0, 0]\nc = [0, 1, \"5 ft + 3 in\"]\n"
+                "name = \"own\"\nunits = \"{units}\"\nlegs = [[\"A\", \"a\"], [\"B\", \"a\"], [\"B\", \"b\"], [\"C\", \"b\"], [\"C\", \"c\"], [\"D\", \"c\"]]\n[parameters]\nr = 3\n[base]\nA = [\"-6 in\", 0, 0]\nB = {{ radius = \"r ft\", angle_deg = 30 }}\nC = [\"1 ft\", \"-2 ft\", 0]\nD = {{ on = [\"A\", \"B\"], offset = \"12/5 in\" }}\n[platform]\na = [0, 0, 0]\nb = [1, 0, 0]\nc = [0, 1, \"5 ft + 3 in\"]\n"
             )
         };
         let inches = design(&text("in"));

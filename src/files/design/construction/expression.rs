@@ -503,7 +503,7 @@ mod tests {
             ("12/5", Some(1000), "12/5 false"),
             ("12/5", None, "12/5 false"),
             ("1 + 2 mm", Some(1000), &format!("0..8 {mixed}")),
-            ("(1 mm)*2", Some(1000), "0..2 a parenthesis is not closed"),
+            ("(1 mm)*2", Some(1000), "0..3 a parenthesis is not closed"),
             ("2 mm mm", Some(1000), "5..6 `m` is out of place in the expression"),
             ("2 parsec", Some(1000), "2..3 `p` is out of place in the expression"),
         ] {

@@ -395,6 +395,6 @@ mod tests {
         assert_eq!(design.in_units("in").unwrap().revision, design.revision);
         let slip = parse(&format!("revison = \"B\"\n{text}"), Format::Toml).unwrap_err().remove(0);
         assert_eq!((slip.code, slip.help.as_str()), (Code::UnknownKey, "did you mean `revision`?"));
-        assert!(SCHEMA.contains("as its drawings and parts name it"));
+        assert!(SCHEMA.contains("as drawings and parts name it"));
     }
 }
