@@ -165,13 +165,17 @@ fn rounded_affine_hexagons_have_all_real_poses_next_to_those_of_their_neighbour(
     for digits in [16, 9] {
         let m = affine_hexagons(&mut Rng::new(6), digits);
         let s = lengths(&m, &mut Rng::new(7));
-        let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+        let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+        // the far poses may be found as well; the proof is for lists without them
+        found.roots.retain(|root| root.pose.rotation.iter().all(|x| x.norm() < 1e3));
+        found.completeness = Completeness::unproved([]);
+        assert!(Surroundings::new(&m, 1).conclude_real(&mut found, &s), "{digits}: {found}");
         let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{digits}: {found}") };
         assert_eq!((proof.poses, proof.far, proof.rotation), (16, None, None));
         assert!(proof.neighbour.unwrap() < 10f64.powi(1 - digits.min(14)) && found.is_complete());
         let surroundings = |m: &Manipulator, found: &mut FkSolutions| {
             found.completeness = Completeness::unproved([]);
-            Surroundings::new(m, 1).conclude(found, &s).unwrap()
+            Surroundings::new(m, 1).conclude_real(found, &s)
         };
         for k in 0..found.roots.len() {
             let mut less = found.clone();

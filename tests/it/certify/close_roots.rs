@@ -1,7 +1,7 @@
 //! Multiple roots have no certificate, separate ones do, however close.
 
 use equipod::methods::design::{Format, parse};
-use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy};
+use equipod::methods::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy};
 use equipod::methods::geom::{ComplexPose, Pose, random_rotation};
 use equipod::methods::manipulator::{LegLengths, Manipulator};
 use equipod::methods::num::Rng;
@@ -166,8 +166,8 @@ fn refinement_satisfies_integer_leg_equations_to_27_digits() {
 }
 
 #[test]
-fn far_poses_with_equal_leading_digits_are_told_apart_by_their_study_coordinates() {
-    // |R| about 8e12: entries of R and p agree to eleven digits, g differs in the first
+fn far_poses_that_rounding_makes_are_proved_to_be_far_and_not_listed() {
+    // |R| about 8e12
     let text = include_str!("../../../designs/worked/isolator-1.toml");
     let (design, _) = parse(text, Format::Toml).unwrap();
     let lengths = [
@@ -183,7 +183,8 @@ fn far_poses_with_equal_leading_digits_are_told_apart_by_their_study_coordinates
     let rounded = Manipulator::from_legs(design.manipulator().legs()).unwrap();
     let found = Homotopy.solve(&rounded, &s, &FkOptions::default()).unwrap();
     assert!(found.roots.iter().all(equipod::methods::fk::FkRoot::certified), "{:?}", found.completeness);
-    let far = found.roots.iter().filter(|r| r.pose.position.norm() > 1e12).count();
-    // 16 poses of the platform that is meant; most or all of the 24 that the rounding of its joints makes
-    assert!(found.roots.len() == 16 + far && far >= 4, "{} roots, {far} far out", found.roots.len());
+    // 16 poses of the platform that is meant; the 24 that the rounding of its joints makes are certified far out
+    let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{}", found.completeness) };
+    assert_eq!((found.roots.len(), proof.poses, proof.far), (16, 16, Some(24)));
+    assert!(proof.rotation.unwrap() > 1e9, "{proof:?}");
 }
