@@ -21,7 +21,7 @@ def shaded_as_assess(shown, program, folder):
         put(shown, [t1, 0.3, 0.2, 0.3, 0.2, 0.3])
         said = words(shown)
         poses = int(said.split(" poses of the workspace")[0].split(" ")[-1])
-        next_to = said.split("the platform next to the mark ")[1]
+        next_to = said.split("The platform next to the mark ")[1]
         if "joints coincide" in next_to:
             continue
         design = shown.download("equivalent, TOML", folder / "shaded.toml")

@@ -157,7 +157,7 @@ class Plane {
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];
     const next = here ? `violates: ${name(here)}` : "violates none at these poses; the judgement at the top of the page has the proof for the mark";
-    return `${all} The checked platform next to the mark ${next}.`;
+    return `${all} The platform next to the mark ${next}.`;
   }
 
   pixels(n) {
