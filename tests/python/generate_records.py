@@ -15,6 +15,7 @@ import textwrap
 
 ANSWERS = {
     "assess": "AssessAnswer",
+    "at": "AtAnswer",
     "build-drives": "DrivesAnswer",
     "build-round": "RoundAnswer",
     "build-tolerances": "TolerancesAnswer",

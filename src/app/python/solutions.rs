@@ -140,7 +140,8 @@ impl NativeSolutions {
             SolvedFor::Lengths(design, _) => {
                 let frames = design.pose_frames(PoseConvention::default());
                 let solved = solved.with_real_poses(design.manipulator(), &frames);
-                (design, FkOneAnswer::from(solved))
+                let frames = Some((&frames.convention).into());
+                (design, FkOneAnswer { frames, ..solved.into() })
             }
             SolvedFor::Angles(design, platform, angles) => {
                 let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
@@ -148,7 +149,8 @@ impl NativeSolutions {
                 let solved = solved.with_real_poses(&tips, &frames);
                 let solved = solved.with_elbows(platform, angles);
                 let symmetric_finite = platform.symmetric_pose_count(angles);
-                let answer = FkOneAnswer { symmetric_finite, ..solved.into() };
+                let frames = Some((&frames.convention).into());
+                let answer = FkOneAnswer { symmetric_finite, frames, ..solved.into() };
                 (design, answer.with_angles(platform, angles, angles.map(f64::to_degrees)))
             }
         };

@@ -372,7 +372,7 @@ class Tracker:
             if array.shape != (6,):
                 raise DesignError(f"step takes six lengths, not {array.shape}: use follow for many", code="shape")
             found = given(self._native.step(array))
-        return Track._make(found)
+        return Track(*found)
 
     def follow(self, lengths: npt.ArrayLike, *, skip: bool = False) -> Track:
         """Continues through rows of lengths, until one is not reached or, with `skip`, through all of them.

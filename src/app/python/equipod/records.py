@@ -267,6 +267,63 @@ class AssessAnswer(Record):
     assumptions: Union[tuple[str, ...], None]
 
 
+class AtAnswer(Record):
+    """One JSON document: an answer with the fields that all answers have."""
+
+    #: The version of the answer format, always 1.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: Of lengths.
+    length_unit: str
+    #: Of forces; torques are in it times the unit of length.
+    force_unit: str
+    #: The convention in which poses were read, and of `in_frames`.
+    frames: PoseConventionRecord
+    #: The pose.
+    pose: PoseQuaternionRecord
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
+    #: The point of the platform that wrenches, shifts and stiffness are about, platform frame of `frames`.
+    point: tuple[Union[float, None], ...]
+    #: The body whose axes all vectors have: `base` or `platform`.
+    axes: str
+    #: The lengths that the legs show; null: the legs are rods on cranks.
+    lengths: Union[tuple[float, ...], None]
+    #: Every requirement is met, and det J has the sign that it has at home.
+    allowed: bool
+    #: Requirements that are violated, the worst first.
+    violated: tuple[LimitRecord, ...]
+    #: What shows that the pose is singular; null: it is not.
+    singular: Union[SingularEvidenceWord, None]
+    #: Smallest over largest singular value of the Jacobian of legs or rods with the characteristic length:
+    #: 1 at best.
+    inverse_condition: Union[float, None]
+    #: The forces that hold the loads of the design and the wrench of `--wrench`, at rest.
+    held: tuple[HeldWrenchRecord, ...]
+    #: The wrench that the forces of `--forces` hold; null: none were given.
+    wrench: Union[WrenchRecord, None]
+    #: A six-axis load cell: rows of the matrix that maps forces of the legs (torques of the cranks) to the
+    #: wrench that they hold, force before torque; null where a rod does not reach or a crank is singular.
+    wrench_matrix: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Stiffness at the point; null: the design does not say that of its legs.
+    stiffness: Union[PointStiffnessRecord, None]
+    #: The motion of the point for a step of the drives; null at a singular pose.
+    resolution: Union[ResolutionRecord, None]
+    #: What is left when the leg of `--leg` is stuck, or free; null: none was named.
+    stuck: Union[StuckLegRecord, None]
+    #: The nearest singular pose found; null: it was not asked for, or no way met one.
+    nearest_singular: Union[NearestSingularPoseRecord, None]
+    #: The program, seed and files behind the answer.
+    provenance: ProvenanceRecord
+    #: Warnings about the design files read.
+    warnings: tuple[WarningRecord, ...]
+    #: The angles of the cranks, where a design has some and all rods reach.
+    angles_deg: Union[tuple[float, ...], None]
+    #: The first rod that does not reach, where one does not; nothing else is then known.
+    out_of_reach: Union[OutOfReachRecord, None]
+
+
 class BestLineRecord(Record):
     """A line that joints of a body lie nearly on, body frame, design units."""
 
@@ -2400,6 +2457,18 @@ class HeldPosesRecord(Record):
     checked: int
 
 
+class HeldWrenchRecord(Record):
+    """A wrench on the platform and what holds it."""
+
+    #: The name of the load; null: the wrench of `--wrench`.
+    load: Union[str, None]
+    #: What acts on the platform.
+    wrench: WrenchRecord
+    #: Forces of the legs, positive where they push the platform, or torques of the cranks about their
+    #: axes; null at a singular pose.
+    forces: Union[tuple[Union[float, None], ...], None]
+
+
 class HoleCircleRecord(Record):
     """Holes on a circle, equally spaced."""
 
@@ -2606,6 +2675,15 @@ class LegSlideRecord(Record):
     squares_to_ends: tuple[ExactNumberRecord, ...]
     #: The entry of c: -t (1 - t) d^2, design units squared.
     constant: ExactNumberRecord
+
+
+class LegWayRecord(Record):
+    """A pose with all lengths but one."""
+
+    #: The distance of the joints of the leg.
+    length: float
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
 
 
 class LibraryCallsRecord(Record):
@@ -3167,6 +3245,23 @@ class NearestRoundingRecord(Record):
     three_fold: bool
 
 
+class NearestSingularPoseRecord(Record):
+    """A singular pose near the one asked about."""
+
+    #: The pose.
+    pose: PoseQuaternionRecord
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
+    #: `sqrt(|p - p'|^2 + (L angle)^2)`, design units.
+    distance: float
+    #: The `L` of the distance, design units a radian.
+    characteristic_length: float
+    #: Whether no small step on singular poses leads nearer: then it is locally nearest.
+    stationary: bool
+    #: A pose with det J = 0 is proved to be within this distance; null: not proved.
+    proved_within: Union[float, None]
+
+
 class NearestSingularRecord(Record):
     """The nearest singular design found."""
 
@@ -3467,6 +3562,15 @@ class OtherAlignmentRecord(Record):
     motions: int
 
 
+class OutOfReachRecord(Record):
+    """A rod that does not reach from the circle of its crank to the platform joint."""
+
+    #: The leg, from 1.
+    leg: int
+    #: The missing length of the rod, design units; negative: the rod is too long.
+    too_short_by: float
+
+
 class OutlierRecord(Record):
     """A measurement that contradicts the others."""
 
@@ -3593,6 +3697,20 @@ class PlacedFirst(Record):
     class_: Union[LineClass, None]
     #: The five other ends lie in a plane: a line-plane component.
     other_ends_in_plane: Union[bool, None]
+
+
+class PointStiffnessRecord(Record):
+    """Stiffness at a point of the platform."""
+
+    #: Force and torque for a shift of the point and a small turn: force units, design units and radians.
+    K: tuple[tuple[Union[float, None], ...], ...]
+    #: Its inverse: shift and turn for a force and a torque; null at a singular pose.
+    compliance: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Least stiffness against a force through the point, force units per design unit; 0 at a singular
+    #: pose.
+    linear: Union[float, None]
+    #: Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+    angular: Union[float, None]
 
 
 class PolynomialRecord(Record):
@@ -3942,6 +4060,19 @@ class ResidualsRecord(Record):
     count: int
 
 
+class ResolutionRecord(Record):
+    """How the point moves for a step of the drives."""
+
+    #: The step: design units of legs, degrees of cranks.
+    step: float
+    #: Of the step.
+    step_unit: str
+    #: The motion for a step of each drive alone, in leg order.
+    drives: tuple[SmallMotionRecord, ...]
+    #: Greatest change of each coordinate when every drive is off by up to a step: sums of the sizes.
+    all: SmallMotionRecord
+
+
 class RiddenBoundRecord(Record):
     """An active bound."""
 
@@ -4138,6 +4269,17 @@ class ScaledPoseRecord(Record):
     q: tuple[Union[float, None], ...]
     #: The scale.
     scale: Union[float, None]
+
+
+class ScrewRecord(Record):
+    """A turn about an axis with a shift along it."""
+
+    #: Unit vector of the axis; of the shift where nothing turns.
+    direction: tuple[Union[float, None], ...]
+    #: The point of the axis nearest to the point asked about, from there, design units.
+    point: tuple[Union[float, None], ...]
+    #: Shift along the axis, design units per radian; null: a shift without a turn.
+    pitch: Union[float, None]
 
 
 class SearchLimitsRecord(Record):
@@ -4385,6 +4527,15 @@ class SingularPosesAnswer(Record):
     between: Union[SignPairsRecord, None]
 
 
+class SmallMotionRecord(Record):
+    """A small motion."""
+
+    #: Of the point, design units.
+    shift: tuple[Union[float, None], ...]
+    #: Rotation vector, degrees.
+    turn_deg: tuple[Union[float, None], ...]
+
+
 class SolutionRecord(Record):
     """One pose with its evidence."""
 
@@ -4504,6 +4655,25 @@ class StraightWayRecord(Record):
     in_frames: PoseInFrames
     #: The requirement violated beyond this pose; null: none.
     binds: Union[LimitRecord, None]
+
+
+class StuckLegRecord(Record):
+    """What is left when a leg is stuck, or free."""
+
+    #: The leg, from 1.
+    leg: int
+    #: How far its drive has to move for each of the six numbers of the pose alone: design units of legs,
+    #: degrees of cranks, per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a
+    #: number with 0 can still be changed alone; five independent changes are left.
+    rates: tuple[Union[float, None], ...]
+    #: The motion that is lost, and the only one left when the leg is free and the others hold; null at a
+    #: singular pose.
+    screw: Union[ScrewRecord, None]
+    #: Poses of that motion with smaller lengths of the leg, up to its limit, a tenth of its length, or the
+    #: first singular pose; none for cranks.
+    shorter: tuple[LegWayRecord, ...]
+    #: The same with greater lengths.
+    longer: tuple[LegWayRecord, ...]
 
 
 class SymmetryRecord(Record):
@@ -4794,6 +4964,15 @@ class WorstPoseRecord(Record):
     R: tuple[tuple[Union[float, None], ...], ...]
     #: Position of the platform origin, base frame, design units.
     p: tuple[Union[float, None], ...]
+
+
+class WrenchRecord(Record):
+    """A force and a torque."""
+
+    #: Force units.
+    force: tuple[Union[float, None], ...]
+    #: About the point, force units times design units.
+    torque: tuple[Union[float, None], ...]
 
 
 DemandWord = Union[TermKind, Objective, SpecialDemand]
