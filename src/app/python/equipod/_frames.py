@@ -93,7 +93,8 @@ class Frames:
         array = as_matrices(poses)
         position, angles, quaternion, _ = self._written(array, home)
         rotation = angles if form == "angles" else quaternion
-        return np.concatenate([position, rotation], axis=-1).reshape(*array.shape[:-2], -1)
+        rows: Floats = np.concatenate([position, rotation], axis=-1).reshape(*array.shape[:-2], -1)
+        return rows
 
     def angles_unique(self, poses: PoseLike, *, home: PoseLike | None = None) -> npt.NDArray[np.bool_]:
         """Whether the rotations have no other angles: False near the ends of the middle angle, where only a combination of the others is determined.
