@@ -10,8 +10,6 @@
 
 mod neighbour;
 
-use std::cell::OnceCell;
-
 use super::evidence::reject_others;
 use super::judge::are_distinct;
 use super::{BoundedProof, Completeness, FarPoses, FkError, FkRoot, FkSolutions, Reason, Theorem};
@@ -25,20 +23,16 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 /// Knowledge about the joints of a design that proofs up to a distance need: computed when it is asked for.
 pub(super) struct Surroundings<'a> {
     manipulator: &'a Manipulator,
-    neighbour: OnceCell<Option<Neighbour>>,
     search: FarSearch,
 }
 
-/// The same, kept for many lengths of the design.
+/// Starts of the proof of far poses, kept for many lengths of a design.
 #[derive(Debug)]
-pub(super) struct KnownSurroundings {
-    neighbour: Option<Neighbour>,
-    points: Vec<FarPoint>,
-}
+pub(super) struct KnownFarPoints(Vec<FarPoint>);
 
 impl<'a> Surroundings<'a> {
     pub(super) fn new(m: &'a Manipulator, seed: u64) -> Self {
-        Self { manipulator: m, neighbour: OnceCell::new(), search: FarSearch::new(m, seed) }
+        Self { manipulator: m, search: FarSearch::new(m, seed) }
     }
 
     /// Proves, where poses are missing, that those listed are all up to a distance; whether that succeeds.
@@ -53,47 +47,21 @@ impl<'a> Surroundings<'a> {
         conclude_far(found, self.manipulator, s, self.search.points())
     }
 
-    /// Proves that the list has all real poses; whether that succeeds. Complex poses may be missing, so that this comes
-    /// last.
-    pub(super) fn conclude_real(&self, found: &mut FkSolutions, s: &SquaredLegLengths) -> bool {
-        if !may_lack_far_poses(found) {
-            return false;
-        }
-        let neighbour = self.neighbour.get_or_init(|| Neighbour::of(self.manipulator));
-        conclude_by_neighbour(found, neighbour.as_ref(), self.manipulator, s)
-    }
-
-    /// Both proofs, that of all poses first.
-    pub(super) fn conclude(
-        &mut self,
-        found: &mut FkSolutions,
-        s: &SquaredLegLengths,
-    ) -> Result<bool, FkError> {
-        Ok(self.conclude_far(found, s)? || self.conclude_real(found, s))
-    }
-
     /// The part that does not depend on lengths, as far as it was needed.
-    pub(super) fn known(self) -> KnownSurroundings {
-        let points = self.search.known().to_vec();
-        KnownSurroundings { neighbour: self.neighbour.into_inner().flatten(), points }
+    pub(super) fn known(self) -> KnownFarPoints {
+        KnownFarPoints(self.search.known().to_vec())
     }
 }
 
-impl KnownSurroundings {
-    /// As [`Surroundings::conclude`], with what is known.
+impl KnownFarPoints {
+    /// As [`Surroundings::conclude_far`], with the starts that are known.
     pub(super) fn conclude(
         &self,
         found: &mut FkSolutions,
         m: &Manipulator,
         s: &SquaredLegLengths,
     ) -> Result<bool, FkError> {
-        if !are_distinct(found) {
-            return Ok(false);
-        }
-        if conclude_far(found, m, s, self.points.iter().copied())? {
-            return Ok(true);
-        }
-        Ok(conclude_by_neighbour(found, self.neighbour.as_ref(), m, s))
+        Ok(are_distinct(found) && conclude_far(found, m, s, self.0.iter().copied())?)
     }
 }
 
@@ -103,14 +71,13 @@ fn may_lack_far_poses(found: &FkSolutions) -> bool {
     near > 0 && near < Theorem::SixLegs.bound() && are_distinct(found)
 }
 
-/// All real poses are next to those of the neighbour.
-fn conclude_by_neighbour(
-    found: &mut FkSolutions,
-    neighbour: Option<&Neighbour>,
-    m: &Manipulator,
-    s: &SquaredLegLengths,
-) -> bool {
-    let Some(proof) = neighbour.and_then(|n| n.prove(found, m, s)) else { return false };
+/// Proves that the list has all real poses, each next to one of the neighbour; whether that succeeds. Complex poses may
+/// be missing, so that this comes last.
+pub(super) fn conclude_real(found: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths) -> bool {
+    if !may_lack_far_poses(found) {
+        return false;
+    }
+    let Some(proof) = Neighbour::of(m).and_then(|n| n.prove(found, m, s)) else { return false };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     true

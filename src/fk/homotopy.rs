@@ -8,7 +8,7 @@ use super::bounded::Surroundings;
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
-use super::judge::{RealityJudgement, counted, judge, set_counted};
+use super::judge::{RealityJudgement, counted, judge, set_counted, with_real_poses_proved};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,
@@ -57,12 +57,8 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };
-        let mut surroundings = Surroundings::new(m, o.seed);
-        let mut found = attempts((frame, sections), nearly, m, s, o, &mut surroundings)?;
-        let unproved = matches!(found.completeness, Completeness::Unproved { .. });
-        if unproved && found.solution_set == SolutionSet::Isolated {
-            surroundings.conclude_real(&mut found, s);
-        }
+        let mut found = attempts((frame, sections), nearly, m, s, o)?;
+        with_real_poses_proved(&mut found, m, s);
         Ok(found)
     }
 
@@ -78,8 +74,8 @@ fn attempts(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    far: &mut Surroundings<'_>,
 ) -> Result<FkSolutions, FkError> {
+    let mut far = Surroundings::new(m, o.seed);
     let mut best: Option<FkSolutions> = None;
     let mut count: Option<PoseCount> = None;
     let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);

@@ -46,6 +46,11 @@ fn lengths(m: &Manipulator, rng: &mut Rng) -> SquaredLegLengths {
     Pose { rotation, position }.squared_lengths(m).unwrap()
 }
 
+/// Whether one of both proofs succeeds.
+fn concludes(m: &Manipulator, found: &mut FkSolutions, s: &SquaredLegLengths) -> bool {
+    Surroundings::new(m, 1).conclude_far(found, s).unwrap() || conclude_real(found, m, s)
+}
+
 fn usual_hexapod() -> (Manipulator, SquaredLegLengths) {
     let m = hexapod([500.0, 300.0], [20.0, 20.0], 12);
     let s = lengths(&m, &mut Rng::new(5));
@@ -70,17 +75,16 @@ fn a_hexapod_typed_in_digits_has_all_real_poses_and_twelve_far_ones() {
 fn a_list_without_one_of_its_poses_is_not_proved() {
     let (m, s) = usual_hexapod();
     let whole = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
-    let mut surroundings = Surroundings::new(&m, 1);
     for k in 0..whole.roots.len() {
         let mut less = whole.clone();
         less.completeness = Completeness::unproved([]);
         less.roots.remove(k);
-        assert!(!surroundings.conclude(&mut less, &s).unwrap() && !less.is_complete());
+        assert!(!concludes(&m, &mut less, &s) && !less.is_complete());
     }
     let mut twice = whole.clone();
     twice.completeness = Completeness::unproved([]);
     twice.roots[3] = twice.roots[4].clone();
-    assert!(!surroundings.conclude(&mut twice, &s).unwrap());
+    assert!(!concludes(&m, &mut twice, &s));
 }
 
 #[test]
@@ -92,7 +96,7 @@ fn designs_without_a_gap_between_near_and_far_poses_are_not_proved_so() {
     let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
     found.completeness = Completeness::unproved([]);
     found.roots.pop();
-    assert!(!Surroundings::new(&m, 1).conclude(&mut found, &s).unwrap());
+    assert!(!concludes(&m, &mut found, &s));
 }
 
 #[test]
@@ -136,7 +140,7 @@ fn pairs_of_far_poses_are_proved_together() {
             less.completeness = Completeness::unproved([]);
             // one that is listed and far is found again as a far one
             let is_near = size(&less.roots.remove(k)).unwrap().0 < reach;
-            assert_eq!(Surroundings::new(&m, 1).conclude(&mut less, &s).unwrap(), !is_near, "pose {k}");
+            assert_eq!(concludes(&m, &mut less, &s), !is_near, "pose {k}");
             if is_near {
                 let said = less.completeness.to_string();
                 assert!(said.contains("15 poses and 24 that are far out are certified"), "{said}");
@@ -166,25 +170,35 @@ fn rounded_affine_hexagons_have_all_real_poses_next_to_those_of_their_neighbour(
         let m = affine_hexagons(&mut Rng::new(6), digits);
         let s = lengths(&m, &mut Rng::new(7));
         let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
-        // the far poses may be found as well; the proof is for lists without them
-        found.roots.retain(|root| root.pose.rotation.iter().all(|x| x.norm() < 1e3));
-        found.completeness = Completeness::unproved([]);
-        assert!(Surroundings::new(&m, 1).conclude_real(&mut found, &s), "{digits}: {found}");
-        let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{digits}: {found}") };
-        assert_eq!((proof.poses, proof.far, proof.rotation), (16, None, None));
-        assert!(proof.neighbour.unwrap() < 10f64.powi(1 - digits.min(14)) && found.is_complete());
-        let surroundings = |m: &Manipulator, found: &mut FkSolutions| {
+        let proves = |found: &mut FkSolutions| {
             found.completeness = Completeness::unproved([]);
-            Surroundings::new(m, 1).conclude_real(found, &s)
+            conclude_real(found, &m, &s)
         };
+        // all 40 need no proof: the farthest is left out
+        found.roots.sort_by(|a, b| size(a).unwrap().0.total_cmp(&size(b).unwrap().0));
+        found.roots.truncate(39);
+        assert!(proves(&mut found), "{digits}: {found}");
+        // the 24 far poses may be listed as well: the proof needs the 16 near ones, and each of them
+        for k in (0..found.roots.len()).rev() {
+            let mut less = found.clone();
+            less.roots.remove(k);
+            if proves(&mut less) {
+                found.roots.remove(k);
+            }
+        }
+        assert_eq!(found.roots.len(), 16);
         for k in 0..found.roots.len() {
             let mut less = found.clone();
             less.roots.remove(k);
-            assert!(!surroundings(&m, &mut less), "without pose {k}");
+            assert!(!proves(&mut less), "without pose {k}");
         }
+        assert!(proves(&mut found));
+        let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{digits}: {found}") };
+        assert_eq!((proof.poses, proof.far, proof.rotation), (16, None, None));
+        assert!(proof.neighbour.unwrap() < 10f64.powi(1 - digits.min(14)) && found.is_complete());
         let mut twice = found.clone();
         twice.roots[3] = twice.roots[4].clone();
-        assert!(!surroundings(&m, &mut twice));
+        assert!(!proves(&mut twice));
     }
 }
 
@@ -215,7 +229,7 @@ fn times_of_rounded_designs() {
             let mut found = Homotopy.solve(&m, &rows[0], &options).unwrap();
             found.completeness = Completeness::unproved([]);
             let start = std::time::Instant::now();
-            assert!(Surroundings::new(&m, 1).conclude(&mut found, &rows[0]).unwrap());
+            assert!(concludes(&m, &mut found, &rows[0]));
             println!("  proof alone {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
         });
         let prepared = Homotopy.prepare(&m, &options).unwrap();

@@ -7,7 +7,7 @@
 use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
-use crate::bounded::{KnownSurroundings, Surroundings};
+use crate::bounded::{KnownFarPoints, Surroundings};
 use crate::evidence::{Bounds, attach};
 use crate::harvest::harvest;
 use crate::judge::{RealityJudgement, judge};
@@ -35,7 +35,7 @@ pub(super) struct PreparedHomotopy {
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
     /// The proof that the others are far out, when the start poses are all up to a distance.
-    far: Option<KnownSurroundings>,
+    far: Option<KnownFarPoints>,
 }
 
 impl PreparedHomotopy {
@@ -50,9 +50,10 @@ impl PreparedHomotopy {
         }
         let (theorem, count, far) = match found.completeness {
             Completeness::Proved { theorem } => (theorem, None, None),
-            Completeness::ProvedBounded { .. } => {
+            // a proof for real poses alone says nothing of complex starts
+            Completeness::ProvedBounded { ref proof } if proof.far.is_some() => {
                 let mut surroundings = Surroundings::new(m, o.seed);
-                surroundings.conclude(&mut found.clone(), &from).ok()?;
+                surroundings.conclude_far(&mut found.clone(), &from).ok()?;
                 (Theorem::SixLegs, None, Some(surroundings.known()))
             }
             _ if o.pose_count == PoseCounting::Never => return None,

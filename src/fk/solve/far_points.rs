@@ -1,4 +1,4 @@
-//! Where poses of a special design have gone: common points at infinity of its legs, as far as doubles know them.
+//! The far poses of a special design: common points at infinity of its legs, as far as doubles know them.
 //!
 //! With isotropic `u`, `v` a leg holds at infinity when `r - 2 eta a.u - 2 xi b.v - 2 (a.u)(b.v) = 0` (`special`). A
 //! rounded design fulfils six such equations nearly. `u` and `v` have one parameter each; the five unknowns are found

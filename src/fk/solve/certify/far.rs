@@ -78,7 +78,7 @@ const CLOSE: f64 = 1e-2;
 const RADII: [f64; 6] = [1e-8, 1e-6, 1e-10, 1e-12, 1e-14, 1e-4];
 /// The smallest and the largest disc about two zeros, and how the ones between follow each other.
 const PAIR_RADII: [f64; 3] = [1e-9, 1e-2, 32.0];
-/// How often a polydisc is widened before it is given up.
+/// The number of times that a polydisc is widened.
 const WIDENED: usize = 4;
 
 /// Numbers of the equations.
@@ -451,7 +451,7 @@ struct Tube {
 }
 
 impl Tube {
-    /// How far coordinate `k` is from that of the centre for `|t| <= tau`.
+    /// The distance of coordinate `k` from that of the centre for `|t| <= tau`.
     fn radius(&self, k: usize, tau: f64) -> f64 {
         (self.direction[k] * tau + self.rest[k]) * UP
     }
