@@ -86,12 +86,21 @@ fn mesh(export: &Export, body: &ExportBody, plate: &Plate) -> String {
     let mm = export.unit.millimetres;
     let name = ascii(&export.name, |_| "?".to_string());
     let title = format!("{} plate of {name} - mm - frame of the {}", body.body, body.body);
+    solid(&title, triangles(plate), mm)
+}
+
+/// ASCII STL of triangles, counter-clockwise seen from outside, with their coordinates times `factor`.
+pub(super) fn solid(
+    title: &str,
+    triangles: impl IntoIterator<Item = [Point3<f64>; 3]>,
+    factor: f64,
+) -> String {
     let mut out = format!("solid {title}\n");
-    for [a, b, c] in triangles(plate) {
+    for [a, b, c] in triangles {
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
         let _ = writeln!(out, "facet normal {}\n outer loop", scaled(&normal, 1.0, " "));
         for p in [a, b, c] {
-            let _ = writeln!(out, "  vertex {}", scaled(&p.coords, mm, " "));
+            let _ = writeln!(out, "  vertex {}", scaled(&p.coords, factor, " "));
         }
         out.push_str(" endloop\nendfacet\n");
     }

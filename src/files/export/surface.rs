@@ -3,15 +3,16 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use nalgebra::Vector3;
+use nalgebra::Point3;
 
+use super::stl::solid;
 use super::text::{ascii, csv_field};
 use num::names::{UnknownName, named};
 
 /// A closed surface of triangles, counter-clockwise seen from outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleSurface {
-    /// What it shows, with its unit.
+    /// The title, with its unit.
     pub title: String,
     /// Label of the unit of length.
     pub units: String,
@@ -59,20 +60,8 @@ impl TriangleSurface {
     }
 
     fn stl(&self) -> String {
-        let name = ascii(&self.title, |_| "?".into());
-        let mut out = format!("solid {name}\n");
-        for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|k| Vector3::from(self.points[k]));
-            let normal = (b - a).cross(&(c - a));
-            let normal = if normal.norm() > 0.0 { normal.normalize() } else { normal };
-            // writing to a string cannot fail
-            let _ = writeln!(out, "facet normal {:?} {:?} {:?}\n outer loop", normal.x, normal.y, normal.z);
-            for corner in [a, b, c] {
-                let _ = writeln!(out, "  vertex {:?} {:?} {:?}", corner.x, corner.y, corner.z);
-            }
-            out.push_str(" endloop\nendfacet\n");
-        }
-        out + "endsolid " + &name + "\n"
+        let corners = self.triangles.iter().map(|triangle| triangle.map(|k| Point3::from(self.points[k])));
+        solid(&ascii(&self.title, |_| "?".into()), corners, 1.0)
     }
 
     fn ply(&self) -> String {
