@@ -194,7 +194,7 @@ fn the_nearest_singular_pose_is_one_and_others_are_farther() {
 
 #[test]
 fn a_singular_pose_is_an_answer_of_no() {
-    let (code, doc) = asked(&["at", "/work/no/such.toml"]);
+    let (code, doc) = asked(&["at", "no/such.toml"]);
     assert_eq!(code, Some(2), "{doc}");
     let mut home = home_pose();
     home[5] = 90.0;

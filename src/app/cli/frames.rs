@@ -7,7 +7,7 @@ use platform::geom::{AngleUnit, ListedFrom, PoseConvention, QuaternionOrder, Rot
 use super::context::Context;
 use super::numbers;
 
-/// How poses of a command are written, those that it takes and those that it answers; `[frames]` of the design where an
+/// The notation of the poses of a command, those that it takes and those that it answers; `[frames]` of the design where an
 /// option is absent.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 #[command(next_help_heading = "Convention of poses, as [frames] of the design where absent")]
@@ -19,7 +19,7 @@ pub(crate) struct FrameArgs {
     /// Point of the platform whose position poses state, platform frame
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
     pivot: Option<Vector3<f64>>,
-    /// What poses are measured from: `base` or `home`
+    /// The origin of poses: `base` or `home`
     #[arg(long, value_name = "FRAME", value_parser = |word: &str| one(word, &[ListedFrom::Base, ListedFrom::Home], ListedFrom::name))]
     relative_to: Option<ListedFrom>,
     /// Axis that points up: `z` or `y`

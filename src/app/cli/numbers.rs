@@ -27,7 +27,7 @@ pub(crate) struct Length(String);
 /// The value of an option that is one length.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The fault of the text.
 pub(crate) fn length(text: &str) -> Result<Length, String> {
     // in some unit it has to be a finite number; whether the design has one is not known yet
     one_length(text, "mm").map(|_| Length(text.to_owned()))
@@ -55,12 +55,12 @@ impl Length {
 /// An offset as it is typed: a share, or a length along an edge with a unit.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The fault of the text.
 pub(crate) fn offset(text: &str) -> Result<String, String> {
     one_length(text, "mm").map(|_| text.to_owned())
 }
 
-/// What to do about a unit that cannot be converted.
+/// The help for a unit that cannot be converted.
 const WITHOUT_UNIT: &str =
     "write the number in the unit of the design, or name a unit in the design: units = \"mm\"";
 
@@ -73,7 +73,7 @@ fn one_length(text: &str, units: &str) -> Result<f64, String> {
 /// So many lengths separated by commas, in the unit of a design; `word` is how many.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The fault of the text.
 pub(crate) fn lengths<const N: usize>(text: &str, word: &str, units: &str) -> Result<[f64; N], String> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let fields: [&str; N] =

@@ -23,7 +23,7 @@ pub(crate) struct Answer {
     text: AnswerText,
 }
 
-/// What people read: a sheet whose numbers are rounded where it is printed, or a text as it is.
+/// The text for people: a sheet whose numbers are rounded where it is printed, or a text as it is.
 #[derive(Debug)]
 pub(crate) enum AnswerText {
     Sheet(Sheet),

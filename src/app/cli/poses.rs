@@ -6,7 +6,7 @@ use files::design::Workspace;
 use machine::requirements::PoseSpace;
 use platform::geom::Pose;
 
-/// What a pose looks like in an option.
+/// The form of a pose in an option.
 pub(super) const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz, or say how poses are written (--rotation-order and the like); `base:` before the numbers means the usual order whatever is stated";
 
 /// The home pose of the design, or the default one.

@@ -62,7 +62,7 @@ pub(super) enum PageRequest {
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
     Confirm { pose: PoseRecord, chosen: Chosen },
-    /// How the leg map follows from coplanar joints.
+    /// The derivation of the leg map from coplanar joints.
     Derivation { chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },

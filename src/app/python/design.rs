@@ -36,7 +36,7 @@ pub(super) struct NativeDesign {
     design: Arc<Design>,
     /// The cranks, for rods on cranks.
     cranks: Result<Option<RotaryPlatform>, InvalidRotary>,
-    /// What the last batch was prepared with, for the next one with the same options.
+    /// The prepared design of the last batch, for the next one with the same options.
     solver: Mutex<Option<(FkOptions, Solver)>>,
 }
 

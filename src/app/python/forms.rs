@@ -166,7 +166,7 @@ pub(super) fn poses_as_numbers<'py>(
     ))
 }
 
-/// What [`poses_as_numbers`] gives.
+/// The arrays that [`poses_as_numbers`] gives.
 type WrittenArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,

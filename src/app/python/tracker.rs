@@ -149,13 +149,13 @@ type Followed<'py> = (
     Vec<SkippedRow>,
 );
 
-/// What became of rows of lengths.
+/// The outcome of rows of lengths.
 #[derive(Default)]
 struct Way {
     poses: Vec<Pose>,
     residuals: Vec<f64>,
     ratios: Vec<f64>,
-    /// Which rows the poses belong to.
+    /// The row of each pose.
     rows: Vec<i64>,
     skipped: Vec<SkippedRow>,
 }

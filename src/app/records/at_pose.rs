@@ -17,9 +17,9 @@ use synthesis::singularity::{NearestSingularPose, SingularEvidence};
 pub struct AtPoseAnswer {
     /// The name of the design.
     pub name: String,
-    /// Of lengths.
+    /// The unit of lengths.
     pub length_unit: String,
-    /// Of forces; torques are in it times the unit of length.
+    /// The unit of forces; torques are in this unit times the unit of length.
     pub force_unit: String,
     /// The convention in which poses were read, and of `in_frames`.
     pub frames: PoseConventionRecord,
@@ -43,7 +43,7 @@ pub struct AtPoseAnswer {
     pub allowed: bool,
     /// Requirements that are violated, the worst first.
     pub violated: Vec<LimitRecord>,
-    /// What shows that the pose is singular; null: it is not.
+    /// The evidence of a singular pose; null: the pose is regular.
     pub singular: Option<SingularEvidence>,
     /// Smallest over largest singular value of the Jacobian of legs or rods with the characteristic length: 1 at best.
     pub inverse_condition: Option<Number>,
@@ -58,7 +58,7 @@ pub struct AtPoseAnswer {
     pub stiffness: Option<PointStiffnessRecord>,
     /// The motion of the point for a step of the drives; null at a singular pose.
     pub resolution: Option<ResolutionRecord>,
-    /// What is left when the leg of `--leg` is stuck, or free; null: none was named.
+    /// The remaining motion with the leg of `--leg` stuck, or free; null: no leg was named.
     pub stuck: Option<StuckLegRecord>,
     /// The nearest singular pose found; null: it was not asked for, or no way met one.
     pub nearest_singular: Option<NearestSingularPoseRecord>,
@@ -78,7 +78,7 @@ pub struct WrenchRecord {
 pub struct HeldWrenchRecord {
     /// The name of the load; null: the wrench of `--wrench`.
     pub load: Option<String>,
-    /// What acts on the platform.
+    /// The wrench on the platform.
     pub wrench: WrenchRecord,
     /// Forces of the legs, positive where they push the platform, or torques of the cranks about their axes; null at a
     /// singular pose.
@@ -99,12 +99,12 @@ pub struct PointStiffnessRecord {
     pub angular: Number,
 }
 
-/// How the point moves for a step of the drives.
+/// The motion of the point for a step of the drives.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResolutionRecord {
     /// The step: design units of legs, degrees of cranks.
     pub step: f64,
-    /// Of the step.
+    /// The unit of the step.
     pub step_unit: String,
     /// The motion for a step of each drive alone, in leg order.
     pub drives: Vec<SmallMotionRecord>,
@@ -115,19 +115,19 @@ pub struct ResolutionRecord {
 /// A small motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SmallMotionRecord {
-    /// Of the point, design units.
+    /// The shift of the point, design units.
     pub shift: [Number; 3],
     /// Rotation vector, degrees.
     pub turn_deg: [Number; 3],
 }
 
-/// What is left when a leg is stuck, or free.
+/// The remaining motion with a leg stuck, or free.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StuckLegRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// How far its drive has to move for each of the six numbers of the pose alone: design units of legs, degrees of
-    /// cranks, per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still
+    /// The travel of its drive for each of the six numbers of the pose alone: design units of legs, degrees of cranks,
+    /// per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still
     /// be changed alone; five independent changes are left.
     pub rates: [Number; 6],
     /// The motion that is lost, and the only one left when the leg is free and the others hold; null at a singular
@@ -200,7 +200,7 @@ impl SmallMotionRecord {
 }
 
 impl AtPoseAnswer {
-    /// What was found at a pose.
+    /// The answer for a pose.
     #[must_use]
     pub fn new(
         design: &Design,

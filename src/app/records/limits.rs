@@ -193,7 +193,7 @@ pub struct LimitRecord {
 /// The free travel of one of the six numbers of a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeRangeRecord {
-    /// Which number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    /// The number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
     pub axis: String,
     /// `deg` or `rad`, or the unit of length.
     pub unit: String,

@@ -208,7 +208,7 @@ impl<'a> Reach<'a> {
         })
     }
 
-    /// How far a way is free backwards and forwards: over half a turn where the platform turns, else over ten sizes.
+    /// The free travel of a way backwards and forwards: over half a turn where the platform turns, else over ten sizes.
     #[must_use]
     pub fn both_ways(&self, way: &StraightWay) -> [Travel; 2] {
         let most = if way.turn.norm() > 0.0 { std::f64::consts::PI } else { FARTHEST * self.size };

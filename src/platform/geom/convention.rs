@@ -1,4 +1,4 @@
-//! How others write a pose: the order of the turns, the point whose position is given, the frame it is measured from,
+//! Conventions for poses: the order of the turns, the point whose position is given, the frame it is measured from,
 //! the axis that points up, units of angles, and the order of a quaternion.
 //!
 //! A pose written as `(q, Q)` in a convention with the pivot `c`, the map `C` of its axes to ours (`C = Rx(90 deg)`
@@ -67,7 +67,7 @@ pub enum TurnAxes {
     Moving,
 }
 
-/// How three numbers state a rotation.
+/// The meaning of three numbers that state a rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotationOrder {
     /// Angles of three turns, one after the other, in the order in which they are written.
@@ -286,7 +286,7 @@ impl AngleUnit {
     }
 }
 
-/// Where the scalar of a quaternion stands.
+/// The place of the scalar in a quaternion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum QuaternionOrder {
     /// In front.
@@ -388,7 +388,7 @@ pub struct PoseConvention {
     pub quaternion: Option<QuaternionOrder>,
     /// The point of the platform whose position is given, in the frame of the platform with the axes of the convention.
     pub pivot: Option<Vector3<f64>>,
-    /// What poses are measured from.
+    /// The pose from which poses are measured.
     pub relative_to: Option<ListedFrom>,
     /// The axis that points up.
     pub up: Option<UpAxis>,
@@ -408,7 +408,7 @@ pub struct WrittenPose {
 }
 
 impl PoseConvention {
-    /// What this convention states, and what the other one states where this one is silent.
+    /// This convention, filled by the other one where this one states nothing.
     #[must_use]
     pub fn over(self, below: &Self) -> Self {
         Self {
@@ -439,7 +439,7 @@ impl PoseConvention {
         self.quaternion.unwrap_or_default()
     }
 
-    /// What poses are measured from.
+    /// The pose from which poses are measured.
     #[must_use]
     pub fn measured_from(&self) -> ListedFrom {
         self.relative_to.unwrap_or_default()

@@ -79,7 +79,7 @@ pub struct PoseConventionRecord {
     pub quaternion: String,
     /// The point of the platform whose position is given, platform frame, design units.
     pub pivot: [Number; 3],
-    /// What poses are measured from: `base` or `home`.
+    /// The origin of poses: `base` or `home`.
     pub relative_to: String,
     /// The axis that points up: `z` or `y`.
     pub up: String,

@@ -13,7 +13,7 @@ use num::Rng;
 use platform::geom::{Pose, turn_between};
 use platform::manipulator::{Manipulator, leg_determinant};
 
-/// What is looked at in the search for the nearest singular pose.
+/// Options of the search for the nearest singular pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestPoseSearch {
     /// A radian counts as this length.

@@ -56,7 +56,7 @@ impl Plan {
 pub struct OpenAnswer {
     /// Index of the problem: with class and seed it names the problem.
     pub k: u64,
-    /// What the solver said of its own answer.
+    /// The solver's statement about its own answer.
     pub solver: String,
 }
 

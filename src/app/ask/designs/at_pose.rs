@@ -15,7 +15,7 @@ use synthesis::singularity::{
     NearestPoseSearch, NearestSingularPose, SingularEvidence, nearest_singular_pose,
 };
 
-/// What is asked at a pose.
+/// The questions at a pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtPoseOptions {
     /// The pose.
@@ -47,7 +47,7 @@ pub enum NoAtPose {
     Cranks(&'static str),
 }
 
-/// What the drives are at.
+/// The state of the drives.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DrivesAt {
     /// The lengths that the legs show.
@@ -69,12 +69,12 @@ pub struct HeldWrench {
     pub efforts: Option<[f64; 6]>,
 }
 
-/// What is left of the motion when a leg is stuck, or free.
+/// The remaining motion with a leg stuck, or free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StuckLeg {
     /// The leg, by its index.
     pub leg: usize,
-    /// How fast its drive has to move when each of the six numbers of the pose grows alone: what is 0 is still free.
+    /// The speed of its drive when each of the six numbers of the pose grows alone; a number with 0 is still free.
     pub rates: [f64; 6],
     /// The motion that is lost, and the only one left when the leg is free and the others hold, in the axes asked for;
     /// `None` at a singular pose.
@@ -83,14 +83,15 @@ pub struct StuckLeg {
     pub ways: [Vec<(f64, Pose)>; 2],
 }
 
-/// What was found at a pose.
+/// The answer for a pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtPoseReport {
     /// Lengths or angles.
     pub drives: DrivesAt,
-    /// What shows that the pose is singular; `None`: it is not.
+    /// The evidence of a singular pose; `None`: the pose is regular.
     pub singular: Option<SingularEvidence>,
-    /// Of the Jacobian of legs or rods with the characteristic length; `None` where a rod does not reach.
+    /// The inverse condition of the Jacobian of legs or rods with the characteristic length; `None` where a rod does
+    /// not reach.
     pub inverse_condition: Option<f64>,
     /// The loads of the design, and the wrench asked for.
     pub held: Vec<HeldWrench>,

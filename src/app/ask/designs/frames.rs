@@ -13,7 +13,7 @@ pub struct PoseFrames {
     pub home: Pose,
 }
 
-/// What stands before a pose in the usual convention, whatever else is stated.
+/// The prefix of a pose in the usual convention, whatever else is stated.
 pub const USUAL: &str = "base:";
 
 impl PoseFrames {
@@ -51,7 +51,7 @@ impl PoseFrames {
 }
 
 impl Design {
-    /// What is stated, and the design's own convention where nothing is, with the design's home.
+    /// The stated convention, filled by the design's own one, with the design's home.
     #[must_use]
     pub fn pose_frames(&self, stated: PoseConvention) -> PoseFrames {
         PoseFrames { convention: stated.over(&self.frames), home: self.home_or_default() }

@@ -1,4 +1,4 @@
-//! Which platform do moves of legs make, and is it equivalent to the design?
+//! The platform that moves of legs make, and its equivalence to the design.
 
 use std::str::FromStr;
 
@@ -79,12 +79,12 @@ impl FromStr for LegMoveRequest {
     }
 }
 
-/// How legs are moved.
+/// Options of a move of legs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MoveOptions {
     /// All at once, along families of the given design, instead of one after another.
     pub together: bool,
-    /// How the families are found.
+    /// Options of the search for families.
     pub search: ComponentOptions,
 }
 

@@ -338,7 +338,7 @@ impl Answers {
         own_properties(schema).filter(move |(field, _)| !in_part(field))
     }
 
-    /// What stands behind a key, with `?` for a value that may be null and `[]` for a list.
+    /// The type behind a key, with `?` for a value that may be null and `[]` for a list.
     fn kind(&self, schema: &Value) -> String {
         if let Some((name, found)) = self.definition(schema) {
             return match name {

@@ -57,10 +57,10 @@ fn spelling(arg: &Arg) -> String {
     if value.is_empty() { name } else { format!("{name} {value}") }
 }
 
-/// What begins the meaning of an argument that the manual describes once for all commands.
+/// The beginning of the text of an argument that the manual describes once for all commands.
 const DESIGN: &str = "Design file (.toml or .json)";
 
-/// Where the fields of the answer of a command are; empty for groups.
+/// The link to the fields of the answer of a command; empty for groups.
 fn answer(command: &Command) -> String {
     let name = path(command).replace(' ', "-");
     let known = schema_names().any(|schema| schema == name);

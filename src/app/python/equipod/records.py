@@ -274,9 +274,9 @@ class AtAnswer(Record):
     schema_version: int
     #: The name of the design.
     name: str
-    #: Of lengths.
+    #: The unit of lengths.
     length_unit: str
-    #: Of forces; torques are in it times the unit of length.
+    #: The unit of forces; torques are in this unit times the unit of length.
     force_unit: str
     #: The convention in which poses were read, and of `in_frames`.
     frames: PoseConventionRecord
@@ -294,7 +294,7 @@ class AtAnswer(Record):
     allowed: bool
     #: Requirements that are violated, the worst first.
     violated: tuple[LimitRecord, ...]
-    #: What shows that the pose is singular; null: it is not.
+    #: The evidence of a singular pose; null: the pose is regular.
     singular: Union[SingularEvidenceWord, None]
     #: Smallest over largest singular value of the Jacobian of legs or rods with the characteristic length:
     #: 1 at best.
@@ -310,7 +310,7 @@ class AtAnswer(Record):
     stiffness: Union[PointStiffnessRecord, None]
     #: The motion of the point for a step of the drives; null at a singular pose.
     resolution: Union[ResolutionRecord, None]
-    #: What is left when the leg of `--leg` is stuck, or free; null: none was named.
+    #: The remaining motion with the leg of `--leg` stuck, or free; null: no leg was named.
     stuck: Union[StuckLegRecord, None]
     #: The nearest singular pose found; null: it was not asked for, or no way met one.
     nearest_singular: Union[NearestSingularPoseRecord, None]
@@ -2201,7 +2201,7 @@ class FrameMotionsRecord(Record):
 class FreeRangeRecord(Record):
     """The free travel of one of the six numbers of a pose."""
 
-    #: Which number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    #: The number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
     axis: str
     #: `deg` or `rad`, or the unit of length.
     unit: str
@@ -2462,7 +2462,7 @@ class HeldWrenchRecord(Record):
 
     #: The name of the load; null: the wrench of `--wrench`.
     load: Union[str, None]
-    #: What acts on the platform.
+    #: The wrench on the platform.
     wrench: WrenchRecord
     #: Forces of the legs, positive where they push the platform, or torques of the cranks about their
     #: axes; null at a singular pose.
@@ -3767,7 +3767,7 @@ class PoseConventionRecord(Record):
     quaternion: str
     #: The point of the platform whose position is given, platform frame, design units.
     pivot: tuple[Union[float, None], ...]
-    #: What poses are measured from: `base` or `home`.
+    #: The origin of poses: `base` or `home`.
     relative_to: str
     #: The axis that points up: `z` or `y`.
     up: str
@@ -4061,11 +4061,11 @@ class ResidualsRecord(Record):
 
 
 class ResolutionRecord(Record):
-    """How the point moves for a step of the drives."""
+    """The motion of the point for a step of the drives."""
 
     #: The step: design units of legs, degrees of cranks.
     step: float
-    #: Of the step.
+    #: The unit of the step.
     step_unit: str
     #: The motion for a step of each drive alone, in leg order.
     drives: tuple[SmallMotionRecord, ...]
@@ -4530,7 +4530,7 @@ class SingularPosesAnswer(Record):
 class SmallMotionRecord(Record):
     """A small motion."""
 
-    #: Of the point, design units.
+    #: The shift of the point, design units.
     shift: tuple[Union[float, None], ...]
     #: Rotation vector, degrees.
     turn_deg: tuple[Union[float, None], ...]
@@ -4658,13 +4658,13 @@ class StraightWayRecord(Record):
 
 
 class StuckLegRecord(Record):
-    """What is left when a leg is stuck, or free."""
+    """The remaining motion with a leg stuck, or free."""
 
     #: The leg, from 1.
     leg: int
-    #: How far its drive has to move for each of the six numbers of the pose alone: design units of legs,
-    #: degrees of cranks, per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a
-    #: number with 0 can still be changed alone; five independent changes are left.
+    #: The travel of its drive for each of the six numbers of the pose alone: design units of legs, degrees
+    #: of cranks, per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a number
+    #: with 0 can still be changed alone; five independent changes are left.
     rates: tuple[Union[float, None], ...]
     #: The motion that is lost, and the only one left when the leg is free and the others hold; null at a
     #: singular pose.

@@ -97,7 +97,7 @@ pub fn assumptions(found: &AssessAnswer) -> Sheet {
     assumed(&found.assumptions)
 }
 
-/// What an answer assumes, a line for each sentence at its end.
+/// The assumptions of an answer, a line for each sentence at its end.
 pub(super) fn assumed(sentences: &[String]) -> Sheet {
     let mut sheet = Sheet::new();
     if !sentences.is_empty() {

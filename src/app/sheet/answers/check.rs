@@ -62,7 +62,7 @@ pub fn check(c: &CheckAnswer, with_details: bool) -> Sheet {
     out
 }
 
-/// How many poses given lengths have, and how many of those of a general platform lie at infinity.
+/// The number of poses for given lengths, and the number of those of a general platform that lie at infinity.
 fn ways_to_assemble(out: &mut Sheet, answer: &CheckAnswer) {
     let (c, bound) = (&answer.pose_count, answer.pose_bound.poses);
     match (c.finite, c.dimension) {

@@ -83,7 +83,7 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     out
 }
 
-/// What was assumed of the poses and held beside the requirements, and how long the search was.
+/// The assumptions about poses, the further constraints, and the length of the search.
 fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
     let (l, units) = (&a.limits, &a.limits.units);
     let room = l

@@ -144,7 +144,7 @@ pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters
     list
 }
 
-/// What a number is.
+/// The kind of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum NumberKind {
     /// A length, which may have a unit of its own.

@@ -23,7 +23,7 @@ pub enum SeriesKind {
     Angles,
 }
 
-/// What a table is read as.
+/// The kind of rows of a table.
 #[derive(Debug, Clone, Copy)]
 enum RowKind<'a> {
     /// Six numbers.
