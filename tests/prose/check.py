@@ -23,6 +23,7 @@ PAGE = ["src/app/page/web/*.js", "src/app/page/web/*.html"]
 # pages whose sentences are measured: the documentation that people write
 MEASURED = ["README.md", "CONTRIBUTING.md", "docs/**/*.md"]
 GENERATED = ["docs/answers.md"]
+WIDEST = 120  # characters of a line of a comment
 LONGEST, MEAN, NEGATED = 35, 18, 0.12  # words of one sentence; words and share of negations over all pages
 NEGATION = re.compile(r"\b(?:no|not|none|never|nothing|neither|nor|nobody|nowhere|without|cannot|\w+n't)\b", re.I)
 OPENING = re.compile(r"^[\"'(*_]*(?:What\b(?!.*\?)|Where\b(?!.*\?)|Of\b|That of\b|Those of\b)")
@@ -197,13 +198,20 @@ def pages_to_measure():
     return sorted(pages - waiting), sorted(waiting)
 
 
+def comment(said):
+    """Faults of a line of a comment in prose: (rule, what)."""
+    plain = masked(said)
+    starts = [0, *(end + 1 for end in ends(plain))]
+    return [("a sentence begins with its subject", plain[a:].strip()[:60]) for a in starts if OPENING.match(plain[a:].strip())]
+
+
 def rust(text):
     """Faults of the documentation comments and of the texts of a source file: (line, rule, what)."""
     found = []
     text = re.split(r"#\[cfg\(test\)\]\s*mod tests \{", text)[0]
     fence, head = False, []
     for number, line in enumerate(text.splitlines(), 1):
-        said = re.match(r"\s*//[/!] ?(.*)", line)
+        said = re.match(r"\s*//[/!]? ?(.*)", line)
         if said:
             said = said.group(1)
             if said.strip().startswith("```"):
@@ -214,6 +222,10 @@ def rust(text):
                 plain = masked(re.sub(r"\[`[^`]*`\](?:\([^)]*\))?", "\u00a7", said))
                 plain = re.sub(r"\$[^$]*\$|^ {4}.*|^\s*\|.*|`.*$", "", plain)  # the rest of a code span over two lines
                 found += [(number, *f) for f in words_of(re.sub(r"\b\w*[_\d]\w*\b|\w+\.\w+", "", plain))]
+                if len(line) > WIDEST and not re.match(r"\s*\||# mod ", said):
+                    found.append((number, f"a comment of at most {WIDEST} characters", f"{len(line)}"))
+                if "|" not in said and not said.startswith("    "):
+                    found += [(number, *f) for f in comment(said)]
                 if LABELS.match(plain):
                     found.append((number, "a sentence has a subject", plain[:40]))
             continue
@@ -287,6 +299,9 @@ PLANTED = [
     (rust, "one term per thing", "/// The direct kinematics of a platform.\nfn f() {}\n"),
     (rust, "a sentence ends", "//! The pose of a platform\n\nfn f() {}\n"),
     (rust, "a sentence has a subject", "/// Wanted: all poses.\nfn f() {}\n"),
+    (rust, "a comment of at most 120 characters", "/// The pose of a platform" + " and a pose" * 10 + ".\n"),
+    (rust, "a sentence begins with its subject", "/// What a platform does.\nfn f() {}\n"),
+    (rust, "a sentence begins with its subject", "/// The legs of a platform. Of these all are kept.\nfn f() {}\n"),
     (page, "spelling", '$("words").textContent = "the legs of the platfrom hold it here";\n'),
     (page, "one term per thing", "<p>The direct kinematics of a platform.</p>\n"),
 ]

@@ -18,7 +18,7 @@ use verify::judge;
 
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
-pub(crate) struct FrameArgs {
+pub(crate) struct AlignmentArgs {
     /// Find all rigid motions of the second design's base and platform frames that make it equivalent to the first
     #[arg(long)]
     align: bool,
@@ -63,7 +63,7 @@ pub(crate) fn same_units(a: &Design, b: &Design, code: &str) -> Result<(), Failu
         .with_help("write both designs in the same unit: the c of their leg map has the unit squared"))
 }
 
-impl FrameArgs {
+impl AlignmentArgs {
     /// Exchanges, aligns and writes the second design as requested.
     pub(crate) fn apply(&self, a: &Design, b: &Design, context: &Context) -> Result<Second, Failure> {
         if !(self.align || self.exchange) {

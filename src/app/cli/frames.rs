@@ -7,8 +7,7 @@ use platform::geom::{AngleUnit, ListedFrom, PoseConvention, QuaternionOrder, Rot
 use super::context::Context;
 use super::numbers;
 
-/// The notation of the poses of a command, those that it takes and those that it answers; `[frames]` of the design where an
-/// option is absent.
+/// The convention of all poses that a command takes and answers; absent options come from `[frames]` of the design.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 #[command(next_help_heading = "Convention of poses, as [frames] of the design where absent")]
 pub(crate) struct FrameArgs {

@@ -1,4 +1,4 @@
-//! The derivation of the leg map to the equivalent shown from coplanar joints: the sheet of `equivalents family --explain`.
+//! The derivation of the leg map from coplanar joints: the sheet of `equivalents family --explain`.
 
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{
-    Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, PlateHole, SizeChoice,
+    Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, DrilledHole, SizeChoice,
     Unsupported, Writer,
 };
 use platform::geom::Pose;
@@ -238,7 +238,7 @@ impl<'a> BodyRecord<'a> {
 
 impl<'a> PlateRecord<'a> {
     fn of(plate: &'a Plate, mm: f64) -> Self {
-        let hole = |h: &'a PlateHole| ExportedHole {
+        let hole = |h: &'a DrilledHole| ExportedHole {
             joints: &h.joints,
             at: [h.at.x * mm, h.at.y * mm],
             post: h.post * mm,

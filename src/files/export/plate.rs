@@ -13,7 +13,7 @@ use platform::manipulator::Body;
 
 /// A hole of a plate under a joint.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PlateHole {
+pub struct DrilledHole {
     /// The joint above it, or several separate joints with the same centre.
     pub joints: Vec<String>,
     /// Its axis in the plate, plate frame.
@@ -45,7 +45,7 @@ pub struct Plate {
     /// Diameter of the posts, equal to that of the balls, design units.
     pub post_diameter: f64,
     /// The holes.
-    pub holes: Vec<PlateHole>,
+    pub holes: Vec<DrilledHole>,
     /// Diameter of the bolt holes, design units; 0 without bolts.
     pub bolt_diameter: f64,
     /// Its material, if the design names it.
@@ -121,7 +121,7 @@ impl Plate {
         let face = side * (lowest - seat);
         let lower = if legs_above { face - sizes.thickness } else { face };
         let tolerance = 1e-9 * size;
-        let mut holes: Vec<PlateHole> = Vec::new();
+        let mut holes: Vec<DrilledHole> = Vec::new();
         for joint in joints {
             let local = axes.transpose() * joint.at.coords;
             let (at, above) = (Point2::new(local.x, local.y), height(&joint.at) - lowest);
@@ -129,12 +129,12 @@ impl Plate {
             let raised = above > tolerance || seat - 0.5 * sizes.ball > tolerance;
             let post = if raised { (seat + above - 0.5 * sizes.ball).max(0.0) } else { 0.0 };
             let same =
-                |h: &&mut PlateHole| (h.at - at).norm() <= tolerance && (h.post - post).abs() <= tolerance;
+                |h: &&mut DrilledHole| (h.at - at).norm() <= tolerance && (h.post - post).abs() <= tolerance;
             if let Some(hole) = holes.iter_mut().find(same) {
                 hole.joints.push(joint.name.clone());
             } else {
                 let bolts = bolts.map_or_else(Vec::new, |b| b.places(&at));
-                holes.push(PlateHole { joints: vec![joint.name.clone()], at, post, bolts });
+                holes.push(DrilledHole { joints: vec![joint.name.clone()], at, post, bolts });
             }
         }
         let centres: Vec<Point2<f64>> = holes.iter().map(|h| h.at).collect();
@@ -186,7 +186,7 @@ impl Plate {
 
     /// Start and end of the post of a hole along the normal.
     #[must_use]
-    pub fn post_span(&self, hole: &PlateHole) -> (f64, f64) {
+    pub fn post_span(&self, hole: &DrilledHole) -> (f64, f64) {
         if self.legs_above { (self.thickness, self.thickness + hole.post) } else { (-hole.post, 0.0) }
     }
 
@@ -203,7 +203,7 @@ impl Plate {
                 let (parts, diameter) =
                     if raised { ("posts", self.post_diameter) } else { ("holes", self.hole_diameter) };
                 if distance <= diameter {
-                    let name = |h: &PlateHole| h.joints.join("/");
+                    let name = |h: &DrilledHole| h.joints.join("/");
                     let (first, second) = (name(a), name(b));
                     return Err(Unsupported::SeatsOverlap { body, parts, first, second, distance, diameter });
                 }
@@ -215,8 +215,8 @@ impl Plate {
 
     fn bolts_keep_clear(&self, body: Body) -> Result<(), Unsupported> {
         let radius = 0.5 * self.bolt_diameter;
-        let name = |h: &PlateHole| h.joints.join("/");
-        let meet = |hole: &PlateHole, second: String, gap: f64| {
+        let name = |h: &DrilledHole| h.joints.join("/");
+        let meet = |hole: &DrilledHole, second: String, gap: f64| {
             if gap > 0.0 {
                 return Ok(());
             }

@@ -11,7 +11,7 @@ use num::names::{UnknownName, named};
 
 /// A closed surface of triangles, counter-clockwise seen from outside.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TriangleSurface {
+pub struct SurfaceFile {
     /// The title, with its unit.
     pub title: String,
     /// Label of the unit of length.
@@ -48,7 +48,7 @@ impl SurfaceFormat {
     }
 }
 
-impl TriangleSurface {
+impl SurfaceFile {
     /// The text of the file. All digits are written.
     #[must_use]
     pub fn text(&self, format: SurfaceFormat) -> String {
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn every_notation_has_every_corner_and_triangle() {
-        let surface = TriangleSurface {
+        let surface = SurfaceFile {
             title: "tetrahedron (mm)".into(),
             units: "mm".into(),
             points: vec![[0.0, 0.0, 0.0], [1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

@@ -202,7 +202,7 @@ fn rounded_affine_hexagons_have_all_real_poses_next_to_those_of_their_neighbour(
     }
 }
 
-/// Times on the machine at hand: `cargo test -p equipod-fk --features lab,serde --lib bounded -- --ignored --nocapture`.
+/// Times on this machine: `cargo test -p equipod-fk --features lab,serde --lib bounded -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement"]
 #[allow(clippy::print_stdout)]

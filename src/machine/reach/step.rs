@@ -1,7 +1,7 @@
 //! Steps of a way over which no margin can reach zero.
 //!
-//! With `v` and `w` the velocities of the way, `c = R (b - o)` and `q = R o + p - a` of a leg with the line `d = c + q`,
-//! where `o` is the pivot:
+//! `v` and `w` are the velocities of the way, `o` is the pivot, and a leg has `c = R (b - o)`, `q = R o + p - a` and
+//! the line `d = c + q`:
 //!
 //! ```text
 //! |d'| <= V = |v| + |w x c|,   |d''| <= A = |w| |w x c|,

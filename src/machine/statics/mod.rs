@@ -1,8 +1,8 @@
 //! Forces, small motions and stiffness at one pose, about any point of the platform.
 //!
-//! Drives (legs or cranks) with the rates `q' = J x` for the twist `x = (v, w)` of the platform at a point hold a wrench
-//! `(f, t)` about that point with the efforts `e` (forces of legs, torques of cranks) for which no small motion does
-//! work:
+//! Drives (legs or cranks) have the rates `q' = J x` for the twist `x = (v, w)` of the platform at a point. Their
+//! efforts `e` (forces of legs, torques of cranks) hold a wrench `(f, t)` about that point if no small
+//! motion does work:
 //!
 //! ```text
 //! e . q' + (f, t) . x = 0 for every x,   that is   J^T e = -(f, t).

@@ -58,7 +58,8 @@ fn stumpff(k: usize, n: usize, s: Interval) -> Interval {
         let both = hull(at(low), at(high));
         return Interval::new(-0.2173, both.hi()).unwrap_or(Interval::WHOLE);
     }
-    // |C_k^(n)| <= n! / (2n + k)! for s >= 0, its value at 0: integrals of (1 - u)^(k-1) u^(2n) times a Bessel function that is largest at 0
+    // |C_k^(n)| <= n! / (2n + k)! for s >= 0, its value at 0: integrals of (1 - u)^(k-1) u^(2n) times a Bessel function
+    // that is largest at 0
     let bound = at(0.0).magnitude();
     Interval::new(-bound, bound).unwrap_or(Interval::WHOLE)
 }

@@ -1,7 +1,7 @@
 //! The singular poses of a family of poses, as the zeros of one polynomial.
 //!
-//! At a fixed orientation `det J` is a cubic in the position, on a line of positions a cubic in the place on it. On a
-//! rotation about an axis it is a polynomial in the tangent of half the angle, over powers of the norm of the quaternion.
+//! At a fixed orientation `det J` is a cubic in the position, and on a line of positions a cubic in one parameter. On a
+//! rotation about an axis it is a polynomial in the tangent of half the angle, over powers of the quaternion's norm.
 //! Theory: `docs/theory/parallel-singularities.md`. Source of the cubic: Mayer St-Onge, Gosselin (2000).
 
 use std::collections::BTreeMap;

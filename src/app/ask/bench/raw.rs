@@ -122,10 +122,10 @@ impl Elimination {
     pub(super) fn measure(self, problem: &Problem, seed: u64, k: u64) -> RawOutcome {
         let rng = &mut Purpose::GENERIC_FRAMES.item(seed, k);
         let framed = GenericProblem::draw(&problem.manipulator, &problem.squares, rng);
-        let mut watch = Watch { begin: Instant::now(), times: Vec::new(), zeros: 0.0 };
+        let mut times = StepTimes { begin: Instant::now(), laps: Vec::new(), zeros: 0.0 };
         let candidates = match self {
-            Self::Template => by_template(&framed, &mut watch),
-            Self::Sylvester => by_determinant(&framed, &mut watch),
+            Self::Template => by_template(&framed, &mut times),
+            Self::Sylvester => by_determinant(&framed, &mut times),
         };
         let matrix = MacaulayMatrix::of(&framed.unscaled());
         let residuals = candidates.map(|candidates| {
@@ -134,8 +134,8 @@ impl Elimination {
             residuals.sort_by(f64::total_cmp);
             residuals
         });
-        let steps_us = std::array::from_fn(|i| watch.times.get(i).copied().unwrap_or(0.0));
-        RawOutcome { residuals, zeros: watch.zeros, steps_us }
+        let steps_us = std::array::from_fn(|i| times.laps.get(i).copied().unwrap_or(0.0));
+        RawOutcome { residuals, zeros: times.zeros, steps_us }
     }
 
     /// Statistics over the problems.
@@ -193,43 +193,43 @@ impl Elimination {
 }
 
 /// Measures the times of steps; zeros are counted outside these times.
-struct Watch {
+struct StepTimes {
     begin: Instant,
-    times: Vec<f64>,
+    laps: Vec<f64>,
     zeros: f64,
 }
 
-impl Watch {
+impl StepTimes {
     /// Ends a step and records its time.
     fn lap(&mut self) {
         let now = Instant::now();
-        self.times.push(now.duration_since(self.begin).as_secs_f64() * 1e6);
+        self.laps.push(now.duration_since(self.begin).as_secs_f64() * 1e6);
         self.begin = now;
     }
 }
 
 /// The candidates of the template; `None` if it loses rank.
-fn by_template(problem: &GenericProblem, watch: &mut Watch) -> Option<Vec<RawCandidate>> {
+fn by_template(problem: &GenericProblem, times: &mut StepTimes) -> Option<Vec<RawCandidate>> {
     let layout = TemplateLayout::shipped().ok()?;
     let filled = layout.fill(problem);
-    watch.lap();
-    watch.zeros = filled.zeros();
-    watch.begin = Instant::now();
+    times.lap();
+    times.zeros = filled.zeros();
+    times.begin = Instant::now();
     let eliminated = filled.eliminate();
-    watch.lap();
+    times.lap();
     let pairs = eliminated.has_rank().then(|| eliminated.eigenpairs().ok())??;
-    watch.lap();
+    times.lap();
     Some(pairs.iter().map(|pair| layout.candidate(pair)).collect())
 }
 
 /// The candidates of the determinant; `None` if it is not a polynomial of degree 40.
-fn by_determinant(problem: &GenericProblem, watch: &mut Watch) -> Option<Vec<RawCandidate>> {
+fn by_determinant(problem: &GenericProblem, times: &mut StepTimes) -> Option<Vec<RawCandidate>> {
     let eliminant = Eliminant::of(problem).ok()?;
-    watch.lap();
+    times.lap();
     let roots = eliminant.roots();
-    watch.lap();
+    times.lap();
     let candidates = roots.into_iter().filter_map(|c3| eliminant.candidate(c3)).collect();
-    watch.lap();
+    times.lap();
     Some(candidates)
 }
 

@@ -136,7 +136,7 @@ impl MovesReport {
     }
 }
 
-/// Why legs are not moved. Where a family was meant that there is not, the families that there are stand beside it.
+/// The reason that legs are not moved; a family that does not exist comes with the families that do.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoMoves {
     /// The families cannot be found.

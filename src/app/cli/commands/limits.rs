@@ -9,7 +9,7 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ::files::export::{SurfaceFormat, TriangleSurface};
+use ::files::export::{SurfaceFormat, SurfaceFile};
 use ask::{Design, PoseFrames, RAYS};
 use machine::reach::{NearestPoseOptions, ReachedSurface};
 use machine::requirements::Limit;
@@ -39,7 +39,7 @@ pub(crate) struct LimitsArgs {
     /// Number of directions for the volume and the largest box of the workspace
     #[arg(long, value_name = "N", default_value_t = RAYS as u32, value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
     rays: u32,
-    /// Write the surface of the positions that straight ways from the pose reach at its orientation: a mesh (.stl, .ply)
+    /// Write the surface of the positions reached on straight paths at the pose's orientation: a mesh (.stl, .ply)
     /// or its corners with what ends the ways (.csv)
     #[arg(long, value_name = "FILE")]
     surface: Option<OutputPath>,
@@ -118,7 +118,7 @@ fn surface_format(path: &Path) -> Result<SurfaceFormat, Failure> {
 }
 
 /// The positions in the convention, with the requirement that ends the way to each.
-fn triangles((design, frames): (&Design, &PoseFrames), found: &ReachedSurface) -> TriangleSurface {
+fn triangles((design, frames): (&Design, &PoseFrames), found: &ReachedSurface) -> SurfaceFile {
     let rotation = found.from.rotation;
     let points = found.positions().map(|position| frames.write(&Pose { rotation, position }).position);
     let words = found.rays.iter().map(|ray| match ray.binding {
@@ -126,7 +126,7 @@ fn triangles((design, frames): (&Design, &PoseFrames), found: &ReachedSurface) -
         Some(Limit::Singular) => "singularity",
         None => "nothing",
     });
-    TriangleSurface {
+    SurfaceFile {
         title: format!("positions that {} reaches ({})", design.name, design.units),
         units: design.units.clone(),
         points: points.collect(),

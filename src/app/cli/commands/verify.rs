@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::alignment::{FrameArgs, same_units};
+use crate::app::cli::alignment::{AlignmentArgs, same_units};
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
@@ -24,7 +24,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = at_least_one)]
     samples: usize,
     #[command(flatten)]
-    frames: FrameArgs,
+    frames: AlignmentArgs,
 }
 
 pub(super) fn at_least_one(text: &str) -> Result<usize, String> {

@@ -152,8 +152,8 @@ fn repeats(name: &str, meaning: &str) -> bool {
     })
 }
 
-/// Adds the definitions of an answer. Those of one type for several arrangements of numbers are numbered in each answer
-/// anew: such a name gets another number here.
+/// Adds the definitions of an answer. A type that holds several shapes of numbers has numbered definitions, and each
+/// answer counts from 1: such a name gets another number here.
 fn add(all: &mut BTreeMap<String, Value>, found: &Map<String, Value>) {
     let clashes = |name: &str, schema: &Value| all.get(name).is_some_and(|known| known != schema);
     let mut names: BTreeMap<&str, String> = BTreeMap::new();
@@ -425,8 +425,8 @@ impl Answers {
         Field { name: name.to_string(), kind: self.kind(property), meaning }
     }
 
-    /// The fields of a record and of its cases as a list. Fields that the records around it have too are named only, and
-    /// so are those of an earlier case.
+    /// The fields of a record and of its cases as a list. Fields of the records around it, and of an earlier case, are
+    /// only named.
     fn list(
         &self,
         (name, schema): (&str, &Value),

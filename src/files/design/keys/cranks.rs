@@ -6,7 +6,7 @@ use super::constructions::{NumberKind, Places, quantity, three_quantities};
 use super::found::{check_keys, nearest_help, shown, table, text};
 use super::joints::{Legs, NamedJoints};
 use super::kind::{
-    Joined, KeyKind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit,
+    CombinedTable, KeyKind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit,
     word,
 };
 use super::stored::{self, Stored, StoredValue, Word};
@@ -103,11 +103,11 @@ static LIMITS: KeyTable<CrankLimits> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-static ONE_CRANK: Joined = Joined { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
+static ONE_CRANK: CombinedTable = CombinedTable { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
 static ONE_CRANK_KIND: KeyKind = table_of(&ONE_CRANK);
 /// `[cranks]`: the data of all cranks, and of single ones by the names of their base joints.
-pub(super) static CRANKS: Joined =
-    Joined { definition: "", shapes: &[&CRANK, &LIMITS], named: Some(&ONE_CRANK_KIND) };
+pub(super) static CRANKS: CombinedTable =
+    CombinedTable { definition: "", shapes: &[&CRANK, &LIMITS], named: Some(&ONE_CRANK_KIND) };
 
 /// The table as it is written.
 pub(super) fn written(cranks: &WrittenCranks, names: &[String]) -> Json {

@@ -280,13 +280,13 @@ impl<M> KeyShape for KeyTable<M> {
 }
 
 /// Several key tables combined in one table of the file, with names as further keys.
-pub(super) struct Joined {
+pub(super) struct CombinedTable {
     pub(super) definition: &'static str,
     pub(super) shapes: &'static [&'static dyn KeyShape],
     pub(super) named: Option<&'static KeyKind>,
 }
 
-impl KeyShape for Joined {
+impl KeyShape for CombinedTable {
     fn kind(&self, key: &str) -> Option<KeyKind> {
         self.shapes.iter().find_map(|shape| shape.kind(key)).or(self.named.copied())
     }

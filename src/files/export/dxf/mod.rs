@@ -11,7 +11,7 @@ use self::dimension::dimensions;
 use self::page::Page;
 use super::plate::ClearanceHole;
 use super::text::one_line;
-use super::{Export, ExportBody, ExportedFile, OutlinePart, Plate, PlateHole, Unsupported, Writer};
+use super::{Export, ExportBody, ExportedFile, OutlinePart, Plate, DrilledHole, Unsupported, Writer};
 
 /// The format `dxf`.
 #[derive(Debug)]
@@ -192,7 +192,7 @@ fn table(page: &mut Page, export: &Export, body: &ExportBody, plate: &Plate, ext
         lines.insert(lines.len() - 1, line);
     }
     let place = |p: &Point2<f64>| format!("{}   {}", fixed(p.x * mm, 4), fixed(p.y * mm, 4));
-    let row = |h: &PlateHole| {
+    let row = |h: &DrilledHole| {
         let post = if h.post > 0.0 { format!("   post {}", fixed(h.post * mm, 4)) } else { String::new() };
         format!("{}   {}{post}", h.joints.join("/"), place(&h.at))
     };

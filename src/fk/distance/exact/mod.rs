@@ -15,7 +15,7 @@ use num_bigint::{BigInt, Sign};
 use thiserror::Error;
 
 use self::strip::{Strip, StripClosure};
-use self::tower::{Divisor, FieldPoly, Ring, STEPS};
+use self::tower::{Divisor, ResiduePoly, Ring, STEPS};
 use num::Rng;
 use num::poly::{Dyadic, IntPoly, RealRoot, gcd, real_roots, squarefree_factors};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -199,7 +199,7 @@ fn best_closure(data: &ExactData, s: &Sequence) -> Result<StripClosure, ClosureE
     let mut best = Err(ClosureError::Unsupported);
     let mut most = 0;
     for closure in all {
-        let distinct = reduced::<FieldPoly>(data, s, closure).map_or(0, |r| r.polynomial.squarefree_degree());
+        let distinct = reduced::<ResiduePoly>(data, s, closure).map_or(0, |r| r.polynomial.squarefree_degree());
         if distinct > most {
             (best, most) = (Ok(closure), distinct);
         }
@@ -209,7 +209,7 @@ fn best_closure(data: &ExactData, s: &Sequence) -> Result<StripClosure, ClosureE
 
 fn degrees(data: &ExactData, s: &Sequence) -> Result<ClosureDegrees, ClosureError> {
     let closure = best_closure(data, s)?;
-    let all = strip::literal::<FieldPoly>(data, s, closure)?;
+    let all = strip::literal::<ResiduePoly>(data, s, closure)?;
     let before = all.polynomial.degree().ok_or(ClosureError::Identity)?;
     let removal = remove_factors(&all);
     let after = removal.polynomial.degree().ok_or(ClosureError::Identity)?;
@@ -219,7 +219,7 @@ fn degrees(data: &ExactData, s: &Sequence) -> Result<ClosureDegrees, ClosureErro
 
 /// The polynomial that remains when the singular factors are divided out at the end, as in the paper.
 struct Removal {
-    polynomial: FieldPoly,
+    polynomial: ResiduePoly,
     factors: Vec<SingularFactor>,
     exponents: Vec<f64>,
 }
@@ -229,10 +229,10 @@ struct Removal {
 /// Let `D_t` be the numerator of `A_t = D_t / prod_s D_s^(a_ts)`, and `M_t = N_t prod_s N_s^(c_ts)` the norm of `D_t`
 /// over the levels it is written in. Let the denominator of `N(f)` have `K_t` times `M_t`. Then the exponents of `N_t`
 /// in `P / N(f)` are `K_t + sum_u c_ut K_u` less those removed. The last step is from `N_t` to `N(A_t)`.
-fn remove_factors(all: &strip::Literal<FieldPoly>) -> Removal {
+fn remove_factors(all: &strip::Literal<ResiduePoly>) -> Removal {
     let count = all.factors.len();
     let mut polynomial = all.polynomial.clone();
-    let mut norms: Vec<FieldPoly> = Vec::new();
+    let mut norms: Vec<ResiduePoly> = Vec::new();
     let mut contained = vec![vec![0.0; count]; count];
     let mut factors = Vec::new();
     let mut powers = vec![0.0; count];

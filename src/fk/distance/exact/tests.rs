@@ -40,12 +40,12 @@ fn the_short_way_gives_the_polynomial_of_the_long_one() {
         for s in found.iter().take(2).chain(found.iter().rev().take(2)) {
             let data = ExactData::random(&legs, &mut Rng::new(number as u64));
             let closure = best_closure(&data, s).unwrap();
-            let short = reduced::<FieldPoly>(&data, s, closure).unwrap().polynomial;
-            let long = remove_factors(&literal::<FieldPoly>(&data, s, closure).unwrap()).polynomial;
+            let short = reduced::<ResiduePoly>(&data, s, closure).unwrap().polynomial;
+            let long = remove_factors(&literal::<ResiduePoly>(&data, s, closure).unwrap()).polynomial;
             let degrees = (short.degree().unwrap(), long.degree().unwrap());
             // a closure that the last root does not enter is squared on the long way
             let power = degrees.1 / degrees.0;
-            let product = (0..power).fold(FieldPoly::constant(&1.into()), |p, _| p.times(&short));
+            let product = (0..power).fold(ResiduePoly::constant(&1.into()), |p, _| p.times(&short));
             assert!(
                 long.exact_div(&product).is_some_and(|q| q.degree() == Some(0)),
                 "T{number:02} {degrees:?}"

@@ -76,7 +76,7 @@ const FIELD: Field = Field::MERSENNE;
 
 /// A polynomial over the field with `2^61 - 1` elements, the constant coefficient first, the last one not zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct FieldPoly(Vec<u64>);
+pub(super) struct ResiduePoly(Vec<u64>);
 
 /// The residue by folding, quicker than the division that serves every prime.
 fn reduced(x: u128) -> u64 {
@@ -88,7 +88,7 @@ fn product(a: u64, b: u64) -> u64 {
     reduced(u128::from(a) * u128::from(b))
 }
 
-impl FieldPoly {
+impl ResiduePoly {
     fn new(mut c: Vec<u64>) -> Self {
         while c.last() == Some(&0) {
             c.pop();
@@ -117,7 +117,7 @@ impl FieldPoly {
     }
 }
 
-impl Ring for FieldPoly {
+impl Ring for ResiduePoly {
     fn constant(value: &BigInt) -> Self {
         let residue = value.magnitude() % P;
         let r = residue.iter_u64_digits().next().unwrap_or(0);
@@ -474,8 +474,8 @@ mod tests {
                 |n: usize| IntPoly::new((0..n).map(|_| BigInt::from(rng.next_u64().cast_signed())).collect());
             let (p, q) = (draw(1 + case * 3), draw(2 + case));
             let image = |p: &IntPoly| {
-                let c = p.coefficients().iter().map(|c| FieldPoly::constant(c).entry(0));
-                FieldPoly::new(c.collect())
+                let c = p.coefficients().iter().map(|c| ResiduePoly::constant(c).entry(0));
+                ResiduePoly::new(c.collect())
             };
             assert_eq!(image(&p).times(&image(&q)), image(&(&p * &q)));
             assert_eq!(image(&p).plus(&image(&q)), image(&(&p + &q)));
@@ -483,7 +483,7 @@ mod tests {
             assert_eq!(image(&(&p * &q)).exact_div(&image(&q)), Some(image(&p)));
             assert_eq!(image(&(&(&p * &q) * &q)).squarefree_degree(), (&p * &q).degree().unwrap());
         }
-        assert!(FieldPoly::constant(&BigInt::from(P)).is_zero());
+        assert!(ResiduePoly::constant(&BigInt::from(P)).is_zero());
     }
 
     fn p(c: &[i64]) -> IntPoly {

@@ -89,7 +89,7 @@ fn random_sections(kind: StartKind, rng: &mut Rng) -> Option<Sections> {
 
 /// Random orthonormal sections through `x`.
 fn sections_through(kind: StartKind, x: &[Complex64; 8], rng: &mut Rng) -> Option<Sections> {
-    // conj(f) spans the normal of the rows that vanish at x; its projection does within the kind
+    // `conj(f)` spans the normal of the rows that vanish at x; its projection does within the kind
     let f = kind.projected(&forms(*x).map(|z| z.conj())).map(|z| z.conj());
     let size: f64 = f.iter().map(num_complex::Complex::norm_sqr).sum();
     let rows: [FormRow; 6] = std::array::from_fn(|_| {

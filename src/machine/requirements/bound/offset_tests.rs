@@ -230,7 +230,7 @@ fn upright_legs_with_offsets_are_those_by_hand() {
         },
         ..Requirements::default()
     };
-    // along x the second axis stays upright above the joint: |s| = |(3, 9)|, and the leg leans by atan(3 / 9)
+    // along x the second axis stays upright above the joint: |s| = |(3, 9)|, and the leg leans by `atan(3 / 9)`
     let space = PoseSpace { translation: Vector3::new(3.0, 0.0, 0.0), ..PoseSpace::at(home) };
     let proof = prove(&m, &required, &space, &quick(), 2000);
     let of = |kind: TermKind| proof.bounds.iter().find(|b| b.found.term.kind == kind).unwrap();

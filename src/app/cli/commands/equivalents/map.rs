@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::alignment::{FrameArgs, same_units};
+use crate::app::cli::alignment::{AlignmentArgs, same_units};
 use crate::app::cli::commands::fk::lengths::six;
 use crate::app::cli::context::Context;
 use crate::app::cli::exit::Exit;
@@ -24,7 +24,7 @@ pub(crate) struct EquivalentsMapArgs {
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
     #[command(flatten)]
-    frames: FrameArgs,
+    frames: AlignmentArgs,
 }
 
 /// Decides whether s(TO) = A s(FROM) + c holds at every pose.

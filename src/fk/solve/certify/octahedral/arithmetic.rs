@@ -160,7 +160,7 @@ impl Discs {
             let low = (modulus - self.r.0[k] * UP) * (2.0 - UP);
             let size = c.re[k].abs() + c.im[k].abs();
             let radius = (self.r.0[k] / (modulus * low) + 10.0 * U * size + TINY) * UP;
-            // squares that may have underflown, or a disc about zero, prove nothing
+            // squares that may have underflowed, or a disc about zero, prove nothing
             r.0[k] = if low > TINY && square > TINY { radius } else { f64::INFINITY };
         }
         Self { c, r }

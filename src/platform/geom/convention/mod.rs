@@ -131,8 +131,8 @@ impl RotationOrder {
     /// The three angles of a rotation in radians, and whether they are the only ones.
     ///
     /// The middle angle is from -90 to 90 degrees, about the same axis twice from 0 to 180; the others are from -180
-    /// to 180. At the ends of the middle one only a combination of the others is determined: the angles are then some of
-    /// many, and they give the rotation back to rounding all the same.
+    /// to 180. At the ends of the middle one only a combination of the others is determined: the angles are then one
+    /// choice of many, and they still give the rotation back to rounding.
     #[must_use]
     pub fn angles(self, rotation: &Rotation3<f64>) -> WrittenAngles {
         let Self::Turns(axes, about) = self else {
@@ -377,7 +377,7 @@ impl UpAxis {
     }
 }
 
-/// A convention for poses. What is not stated is as in this program, unless names of columns say something else.
+/// A convention for poses. An absent part is as in this program, unless names of columns state another one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PoseConvention {
     /// Order of the turns.
