@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{
-    Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, DrilledHole, SizeChoice,
+    DrilledHole, Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, SizeChoice,
     Unsupported, Writer,
 };
 use platform::geom::Pose;

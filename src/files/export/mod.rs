@@ -44,9 +44,9 @@ pub use controller::EquivalentOctahedral;
 pub use machine::requirements::{Outline, OutlinePart};
 pub use model::{Export, ExportBody, ExportCalibration, ExportCranks, ExportLeg, ExportedJoint};
 pub use parts::{PART_COLUMNS, PartLine};
-pub use plate::{Plate, DrilledHole};
+pub use plate::{DrilledHole, Plate};
 pub use sizes::{ExportOptions, NoExport, SizeChoice};
-pub use surface::{SurfaceFormat, SurfaceFile};
+pub use surface::{SurfaceFile, SurfaceFormat};
 pub use text::csv_field;
 pub use units::{LengthUnit, UnknownUnit};
 

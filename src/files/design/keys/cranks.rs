@@ -6,8 +6,8 @@ use super::constructions::{NumberKind, Places, quantity, three_quantities};
 use super::found::{check_keys, nearest_help, shown, table, text};
 use super::joints::{Legs, NamedJoints};
 use super::kind::{
-    CombinedTable, KeyKind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of, unit,
-    word,
+    CombinedTable, KeyKind, Range, angle, positive, quantities, quantity as quantity_of, table as table_of,
+    unit, word,
 };
 use super::stored::{self, Stored, StoredValue, Word};
 use super::{FoundKey, KeyTable, TEXT, key};
@@ -103,7 +103,8 @@ static LIMITS: KeyTable<CrankLimits> = KeyTable {
     ..KeyTable::EMPTY
 };
 
-static ONE_CRANK: CombinedTable = CombinedTable { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
+static ONE_CRANK: CombinedTable =
+    CombinedTable { definition: "crank", shapes: &[&CRANK, &COPY], named: None };
 static ONE_CRANK_KIND: KeyKind = table_of(&ONE_CRANK);
 /// `[cranks]`: the data of all cranks, and of single ones by the names of their base joints.
 pub(super) static CRANKS: CombinedTable =

@@ -11,7 +11,7 @@ use self::dimension::dimensions;
 use self::page::Page;
 use super::plate::ClearanceHole;
 use super::text::one_line;
-use super::{Export, ExportBody, ExportedFile, OutlinePart, Plate, DrilledHole, Unsupported, Writer};
+use super::{DrilledHole, Export, ExportBody, ExportedFile, OutlinePart, Plate, Unsupported, Writer};
 
 /// The format `dxf`.
 #[derive(Debug)]

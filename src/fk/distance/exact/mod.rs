@@ -199,7 +199,8 @@ fn best_closure(data: &ExactData, s: &Sequence) -> Result<StripClosure, ClosureE
     let mut best = Err(ClosureError::Unsupported);
     let mut most = 0;
     for closure in all {
-        let distinct = reduced::<ResiduePoly>(data, s, closure).map_or(0, |r| r.polynomial.squarefree_degree());
+        let distinct =
+            reduced::<ResiduePoly>(data, s, closure).map_or(0, |r| r.polynomial.squarefree_degree());
         if distinct > most {
             (best, most) = (Ok(closure), distinct);
         }
