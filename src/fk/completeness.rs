@@ -577,7 +577,7 @@ impl fmt::Display for Reason {
                 "{certified} certified poses from {configurations} configurations of {tried}, {usual} are usual for the topology{doubt}"
             ),
             Self::OnePoseFollowed { .. } => {
-                f.write_str("one pose was followed from the pose given; others were not looked for")
+                f.write_str("one pose was followed from the start pose; other poses were not searched")
             }
             Self::CurvesSeen { paths } => write!(
                 f,

@@ -363,6 +363,7 @@ impl LegMapOutcome {
                  det A{} is not zero",
                 o.exact_numbers
                     .as_ref()
+                    .filter(|numbers| numbers.determinant.len() <= WRITTEN)
                     .map_or_else(String::new, |numbers| format!(" = {}", numbers.determinant))
             ),
         }
@@ -391,6 +392,9 @@ impl ExactNumbers {
         }
     }
 }
+
+/// Greatest length of an exact number in a sentence, characters.
+const WRITTEN: usize = 24;
 
 /// Greatest number of bits of printed exact numbers.
 const LONG: u64 = 2048;

@@ -137,13 +137,13 @@ fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
         parts.push(format!("{} = {value} (end of {their} range)", names.join(", ")));
     }
     for b in bounds.iter().filter(|b| b.kind != RiddenWord::RangeEnd) {
-        let what = if b.kind == RiddenWord::Reserve { "its reserve" } else { "no reserve" };
+        let what = if b.kind == RiddenWord::Reserve { "its safety margin" } else { "no safety margin" };
         let left = format!("{} {}", short(b.value.0), b.unit);
         parts.push(format!("{} ({} left, {what})", said(&b.name), left.trim_end()));
     }
-    let rides = if parts.is_empty() { None } else { Some(format!("rides on {}", parts.join(", "))) };
-    let all: Vec<String> = rides.into_iter().chain(grown.iter().cloned()).collect();
-    format!("{}; `reserve` in [limits] keeps away from limits, [envelope] bounds the size", all.join("; "))
+    let active = if parts.is_empty() { None } else { Some(format!("active limits: {}", parts.join(", "))) };
+    let all: Vec<String> = active.into_iter().chain(grown.iter().cloned()).collect();
+    format!("{}; `reserve` in [limits] sets safety margins, [envelope] bounds the size", all.join("; "))
 }
 
 #[cfg(test)]
