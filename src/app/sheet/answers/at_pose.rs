@@ -14,14 +14,6 @@ use records::{
 pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{} at {} = {}", answer.name, words(&answer.frames), pose(&answer.in_frames));
-    out.line(&answer.frames.sentence);
-    let point = answer.point.map(|x| x.0);
-    say!(
-        out,
-        "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
-        answer.axes,
-        listed(point)
-    );
     if let Some(missing) = &answer.out_of_reach {
         say!(out, "The rod of leg {} does not reach.", missing.leg);
         return out;
@@ -65,6 +57,16 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     if let Some(found) = &answer.nearest_singular {
         nearest(&mut out, answer, found);
     }
+    out.space();
+    if !answer.frames.is_usual() {
+        out.line(&answer.frames.sentence);
+    }
+    say!(
+        out,
+        "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
+        answer.axes,
+        listed(answer.point.map(|x| x.0))
+    );
     out
 }
 
