@@ -122,7 +122,7 @@ pub struct BoundedProof {
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
 pub struct FarPoses {
-    /// Their number: two that are too close to be told apart, or one.
+    /// Number of poses in the group: two that are too close to be told apart, or one.
     pub poses: usize,
     /// The largest entry of their rotation matrices is at least this.
     pub rotation: f64,

@@ -279,7 +279,7 @@ pub struct Rejected {
 pub struct LibraryCalls {
     /// The library.
     pub library: &'static str,
-    /// The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised eigenvectors.
+    /// The kind of computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised eigenvectors.
     pub computation: &'static str,
     /// Rows and columns of the matrix.
     pub size: [usize; 2],

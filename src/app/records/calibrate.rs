@@ -111,8 +111,8 @@ pub struct CalibrationRecord {
     pub chi_square: ChiSquare,
     /// Measurements that contradict the others, the farthest first.
     pub outliers: Vec<OutlierRecord>,
-    /// Two legs, from 1, with measured lengths probably exchanged: swapped, they are five times nearer to the design.
-    /// Null: none.
+    /// Two legs whose measured lengths are probably exchanged, from 1: swapped, they are five times nearer to the
+    /// design. Null: none.
     pub exchanged_legs: Option<[usize; 2]>,
 }
 

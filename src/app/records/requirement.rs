@@ -35,7 +35,7 @@ pub struct MarginRecord {
     pub proved_margin: Number,
     /// The unit of the margins.
     pub unit: String,
-    /// The legs, joints, keep-out or load with the least margin.
+    /// The parts with the least margin: legs, joints, keep-out or load.
     pub between: Vec<String>,
     /// The legs concerned, from 1; for a requirement on joints, the legs of the joint.
     pub legs: Vec<usize>,

@@ -127,7 +127,7 @@ pub struct SizeChoice {
     pub value: f64,
     /// Design units, or kilograms.
     pub unit: &'static str,
-    /// The source: option, table or rule.
+    /// The origin of the value: option, table or rule.
     pub from: &'static str,
 }
 

@@ -22,7 +22,7 @@ pub struct PoseCountRecord {
     /// The counted lengths: the exact ones given, or generic ones, which have at least as many isolated poses. Lengths
     /// known only to rounding, such as images under a leg map, are counted as generic.
     pub lengths: CountedLengths,
-    /// The evidence: a theorem with certificates, or counting modulo random primes.
+    /// The evidence for the count: a theorem with certificates, or counting modulo random primes.
     pub evidence: EvidenceWord,
     /// A bound on the probability of a wrong count; null: proved, or undecided.
     pub error_probability: Option<f64>,
