@@ -119,7 +119,7 @@ fn joints(joints: &[JointBudgetRecord], units: &str) -> Table {
     let mut table = Table::new([
         left("most critical", 8),
         left("first", 12),
-        right(format!("alone [{units}]"), 9),
+        right(in_units("alone", units), 9),
         text("worst direction", 22),
         right("pos/unit", 8).gap(2),
         right("deg/unit", 8).gap(2),
@@ -141,6 +141,11 @@ fn joints(joints: &[JointBudgetRecord], units: &str) -> Table {
         ]);
     }
     table
+}
+
+/// A title with its unit; designs without a unit have the label `1`.
+fn in_units(title: &str, units: &str) -> String {
+    if units == "1" { title.to_owned() } else { format!("{title} [{units}]") }
 }
 
 /// The exact check of the first-order radius.
@@ -171,7 +176,7 @@ fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord, units: &str) {
         t.lost
     );
     let numbers = ["median", "90 %", "99 %", "max"].map(|title| right(title, 11));
-    let columns = [left(format!("error of the pose [{units}]"), 28)].into_iter().chain(numbers);
+    let columns = [left(in_units("error of the pose", units), 28)].into_iter().chain(numbers);
     let rows = [
         ("nominal formula", &t.formula),
         ("  its first order is off by", &t.first_order_discrepancy),
