@@ -529,7 +529,7 @@ impl fmt::Display for Reason {
             ),
             Self::NoMotionAsWritten { poses, error_probability } => write!(
                 f,
-                "within rounding: taken to the last digit the design and lengths have {poses} finite poses and no motion (modulo random primes, \
+                "the design and lengths as written have {poses} finite poses and no motion (modulo random primes, \
                  probability of error below {error_probability:.0e})"
             ),
             Self::PosesMissing { counted, certified, error_probability } => write!(
@@ -555,12 +555,12 @@ impl fmt::Display for Reason {
                      section of that codimension meets in {points} finite points; "
                 )?;
                 real_part(f, *real)?;
-                f.write_str("; isolated poses beside it are not looked for")
+                f.write_str("; isolated poses outside it are not searched")
             }
             Self::Sectioned { points, real, isolated } => {
                 write!(f, "general sections of that codimension met it numerically in {points} points; ")?;
                 real_part(f, *real)?;
-                write!(f, "; {isolated} certified isolated poses beside it are listed, and others may be missing")
+                write!(f, "; {isolated} certified isolated poses outside it are listed, and others may be missing")
             }
             Self::PathsEnded(ends) => ends.fmt(f),
             Self::CandidatesEliminated { candidates, eliminations, certified, uncertified } => write!(
