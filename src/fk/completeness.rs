@@ -106,13 +106,13 @@ impl CompletenessWord {
 pub struct BoundedProof {
     /// Certified poses listed, with multiplicity.
     pub poses: usize,
-    /// Others, certified to be different and farther out, or at infinity; null: the proof needs no others.
+    /// Number of far poses, certified to be different and farther out, or at infinity; null: the proof needs none.
     pub far: Option<usize>,
-    /// The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries of real
-    /// rotations are at most 1. Null: the proof is about real poses alone.
+    /// Bound on rotation entries: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries
+    /// of real rotations are at most 1. Null: the proof is about real poses alone.
     pub rotation: Option<f64>,
-    /// Largest distance of the ends of a leg, both together, from those of a neighbouring design that has no more
-    /// poses, in design units. The proof is then about real poses. Null: it is about far poses.
+    /// Largest change of the two ends of a leg (both together) in a neighbouring design that has no more poses, design
+    /// units. The proof is then about real poses. Null: it is about far poses.
     pub neighbour: Option<f64>,
     /// The far poses, the nearest ones first.
     pub others: Vec<FarPoses>,

@@ -263,9 +263,9 @@ pub enum RejectionReason {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
 pub struct Rejected {
-    /// Why.
+    /// The reason of the rejection.
     pub reason: RejectionReason,
-    /// Its error in the leg equations, over the squared size.
+    /// Error of the candidate in the leg equations, over the squared size.
     pub residual: f64,
 }
 

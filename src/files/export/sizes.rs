@@ -121,7 +121,7 @@ pub(super) struct LegSizes {
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "SizeRecord", transform = num::nullable)]
 pub struct SizeChoice {
-    /// The part and the dimension.
+    /// The part and its dimension.
     pub what: String,
     /// Its value in `unit`.
     pub value: f64,

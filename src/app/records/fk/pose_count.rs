@@ -9,7 +9,7 @@ use fk::{Completeness, FkSolutions};
 /// The finite poses of the design, counted without finding them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseCountRecord {
-    /// The number with multiplicity; null: not finite, or undecided.
+    /// Number of poses with multiplicity; null: not finite, or undecided.
     pub finite: Option<usize>,
     /// Number of standard monomials of each degree.
     pub by_degree: Option<Vec<usize>>,

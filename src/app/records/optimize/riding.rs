@@ -24,10 +24,11 @@ const GROWN: f64 = 1.2;
 pub struct RidingRecord {
     /// Active ranges of variables and active limits.
     pub bounds: Vec<RiddenBoundRecord>,
-    /// Greatest distance of a base joint from the centre of the base joints, divided by its value in the design.
+    /// Growth of the base as a factor: greatest distance of a base joint from the centre of the base joints, divided by
+    /// its value in the design.
     pub base_growth: Number,
-    /// Greatest distance of a platform joint from the centre of the platform joints, divided by its value in the
-    /// design.
+    /// Growth of the platform as a factor: greatest distance of a platform joint from the centre of the platform
+    /// joints, divided by its value in the design.
     pub platform_growth: Number,
     /// The bounds in one sentence.
     pub message: String,
@@ -40,7 +41,7 @@ pub struct RiddenBoundRecord {
     pub name: String,
     /// The kind of bound.
     pub kind: RiddenWord,
-    /// The value of the variable, or the margin of the limit.
+    /// The value of the variable or the margin of the limit.
     pub value: Number,
     /// The unit of the value; empty for a pure number.
     pub unit: String,
