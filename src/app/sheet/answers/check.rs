@@ -75,7 +75,7 @@ fn ways_to_assemble(out: &mut Sheet, answer: &CheckAnswer) {
             say!(out, "{n} ways to assemble it for given leg lengths, real and complex, counted{lost}.");
         }
         (None, Some(d)) => {
-            say!(out, "The platform moves at given leg lengths: its poses form a set of dimension {d}.")
+            say!(out, "The platform moves at given leg lengths: its poses form a set of dimension {d}.");
         }
         (None, None) => say!(out, "At most {bound} ways to assemble it for given leg lengths, not counted."),
     }

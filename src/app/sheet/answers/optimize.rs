@@ -125,7 +125,7 @@ fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
             say!(out, "A local optimum{gap}; a better platform elsewhere is not excluded.");
         }
         (_, Some(OptimalityWord::BestOfStarts)) => {
-            out.line("A local optimum, the best of all starts; a better platform elsewhere is not excluded.")
+            out.line("A local optimum, the best of all starts; a better platform elsewhere is not excluded.");
         }
         (OptimizeStatus::Violated, _) => {
             out.line("The platform misses requirements and is not called optimal.");

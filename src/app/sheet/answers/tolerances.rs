@@ -39,7 +39,9 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
     out.space();
     out.table(joints(&r.joints, units));
     out.space();
-    for (what, e) in [("the budget", &r.worst_errors.in_budget), ("1.5 budgets", &r.worst_errors.times_1_5)] {
+    for (what, e) in
+        [("the budget", &r.worst_errors.in_budget), ("1.5 times the budget", &r.worst_errors.times_1_5)]
+    {
         if let Some(e) = e {
             let (p, w) = (figure(e.position.0), figure(e.rotation_deg.0));
             say!(out, "greatest pose error for joints off by {what}, solved: {p} {units}, {w} deg");
