@@ -69,7 +69,7 @@ pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
         key!("symmetry": word(KeptSymmetry::words),
             |found, to| to.search.symmetry = named(found.report, &found.entry.node, "a symmetry"),
             |of| of.search.symmetry.written();
-            "symmetry of the platform found: `three_fold` keeps the symmetry of the design under rotations by 120 degrees at home (alternating offsets, at most two kinds of leg); `mirror` is refused, because no regular platform without shared joints has a mirror plane; when absent, `three_fold` is tried first if the design has it, then `none`"),
+            "symmetry of the platform found: `three_fold` keeps the symmetry of the design under rotations by 120 degrees at home (alternating offsets, triangles that change only in size, at most two kinds of leg); `mirror` is refused, because no regular platform without shared joints has a mirror plane; when absent, `three_fold` is tried first if the design has it, then `none`"),
         key!("objective" { default = r#""worst_conditioning""# }: OBJECTIVE,
             |found, to| to.objective = objective(found.report, &found.entry.node), |_| None;
             "objective of the search"),
