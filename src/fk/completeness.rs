@@ -106,13 +106,13 @@ impl CompletenessWord {
 pub struct BoundedProof {
     /// Certified poses listed, with multiplicity.
     pub poses: usize,
-    /// Others, certified to be different and farther out, or at infinity; null: the proof needs no others.
+    /// Number of far poses, certified to be different and farther out, or at infinity; null: the proof needs none.
     pub far: Option<usize>,
-    /// The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries of real
-    /// rotations are at most 1. Null: the proof is about real poses alone.
+    /// Bound on rotation entries: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries
+    /// of real rotations are at most 1. Null: the proof is about real poses alone.
     pub rotation: Option<f64>,
-    /// Largest distance of the ends of a leg, both together, from those of a neighbouring design that has no more
-    /// poses, in design units. The proof is then about real poses. Null: it is about far poses.
+    /// Largest change of the two ends of a leg (both together) in a neighbouring design that has no more poses, design
+    /// units. The proof is then about real poses. Null: it is about far poses.
     pub neighbour: Option<f64>,
     /// The far poses, the nearest ones first.
     pub others: Vec<FarPoses>,
@@ -122,7 +122,7 @@ pub struct BoundedProof {
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
 pub struct FarPoses {
-    /// Their number: two that are too close to be told apart, or one.
+    /// Number of poses in the group: two that are too close to be told apart, or one.
     pub poses: usize,
     /// The largest entry of their rotation matrices is at least this.
     pub rotation: f64,
@@ -529,7 +529,7 @@ impl fmt::Display for Reason {
             ),
             Self::NoMotionAsWritten { poses, error_probability } => write!(
                 f,
-                "within rounding: taken to the last digit the design and lengths have {poses} finite poses and no motion (modulo random primes, \
+                "the design and lengths as written have {poses} finite poses and no motion (modulo random primes, \
                  probability of error below {error_probability:.0e})"
             ),
             Self::PosesMissing { counted, certified, error_probability } => write!(
@@ -555,12 +555,12 @@ impl fmt::Display for Reason {
                      section of that codimension meets in {points} finite points; "
                 )?;
                 real_part(f, *real)?;
-                f.write_str("; isolated poses beside it are not looked for")
+                f.write_str("; isolated poses outside it are not searched")
             }
             Self::Sectioned { points, real, isolated } => {
                 write!(f, "general sections of that codimension met it numerically in {points} points; ")?;
                 real_part(f, *real)?;
-                write!(f, "; {isolated} certified isolated poses beside it are listed, and others may be missing")
+                write!(f, "; {isolated} certified isolated poses outside it are listed, and others may be missing")
             }
             Self::PathsEnded(ends) => ends.fmt(f),
             Self::CandidatesEliminated { candidates, eliminations, certified, uncertified } => write!(
@@ -577,7 +577,7 @@ impl fmt::Display for Reason {
                 "{certified} certified poses from {configurations} configurations of {tried}, {usual} are usual for the topology{doubt}"
             ),
             Self::OnePoseFollowed { .. } => {
-                f.write_str("one pose was followed from the pose given; others were not looked for")
+                f.write_str("one pose was followed from the start pose; other poses were not searched")
             }
             Self::CurvesSeen { paths } => write!(
                 f,

@@ -263,9 +263,9 @@ pub enum RejectionReason {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "RejectedRecord", transform = num::nullable))]
 pub struct Rejected {
-    /// Why.
+    /// The reason of the rejection.
     pub reason: RejectionReason,
-    /// Its error in the leg equations, over the squared size.
+    /// Error of the candidate in the leg equations, over the squared size.
     pub residual: f64,
 }
 
@@ -279,7 +279,7 @@ pub struct Rejected {
 pub struct LibraryCalls {
     /// The library.
     pub library: &'static str,
-    /// The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised eigenvectors.
+    /// The kind of computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised eigenvectors.
     pub computation: &'static str,
     /// Rows and columns of the matrix.
     pub size: [usize; 2],

@@ -9,6 +9,7 @@ use super::exact_map::{ExactMap, ExactRelation};
 use super::{LegSpan, Normalisation};
 use num::double_double::DoubleDouble;
 use num::linalg::LinalgError;
+use num::shown::rounded;
 use platform::manipulator::{
     ExactLegs, Leg, LegIndex, Level, Manipulator, SquaredLegLengths, inverse_condition,
 };
@@ -325,10 +326,10 @@ impl LegMapOutcome {
                     format!("tolerance {:.0e}, joints are known between bounds only", t.residual)
                 };
                 format!(
-                    "the squared length of {} of TO is no affine function of those of FROM ({by}): distance from the span {:.3e} of the size; A and c are the \
+                    "the squared length of {} of TO is not an affine function of the squared lengths of FROM ({by}): distance from the span {} of the size; A and c are the \
                      closest fit only",
                     legs.join(", "),
-                    o.residual,
+                    rounded(o.residual, 3),
                 )
             }
             Relation::Singular if o.leg_rank < 6 => format!(
@@ -363,6 +364,7 @@ impl LegMapOutcome {
                  det A{} is not zero",
                 o.exact_numbers
                     .as_ref()
+                    .filter(|numbers| numbers.determinant.len() <= WRITTEN)
                     .map_or_else(String::new, |numbers| format!(" = {}", numbers.determinant))
             ),
         }
@@ -391,6 +393,9 @@ impl ExactNumbers {
         }
     }
 }
+
+/// Greatest length of an exact number in a sentence, characters.
+const WRITTEN: usize = 24;
 
 /// Greatest number of bits of printed exact numbers.
 const LONG: u64 = 2048;

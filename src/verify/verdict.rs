@@ -13,6 +13,7 @@ use fk::solve::certify::RootCertificate;
 use fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, Threads, solver};
 use num::Cancel;
 use num::linalg::LinalgError;
+use num::shown::rounded;
 use num::stream::Stream;
 use platform::geom::{ComplexPose, SamplePlan};
 use platform::manipulator::{LegIndex, Manipulator};
@@ -314,9 +315,9 @@ fn exact_determinant(v: &Verification) -> String {
         Some(exact) if exact.len() <= SHORT => format!("det A = {exact}"),
         Some(exact) => {
             let digits = exact.chars().filter(char::is_ascii_digit).count();
-            format!("det A = {:.6} (an exact number of {digits} digits)", v.map.determinant)
+            format!("det A = {} (an exact number of {digits} digits)", rounded(v.map.determinant, 3))
         }
-        None => format!("det A = {:.6}", v.map.determinant),
+        None => format!("det A = {}", rounded(v.map.determinant, 3)),
     }
 }
 

@@ -380,5 +380,5 @@ fn designs_that_are_compared_have_one_characteristic_length() {
     assert_eq!((alone[0].to_bits(), own.to_bits()), (first[0].to_bits(), again.to_bits()));
     assert!((own - length).abs() > 1.0 && (second[1] - alone[0]).abs() > 1e-6, "{first:?} {second:?}");
     let text = String::from_utf8(equipod(&["compare", made, other, "--points", "5"]).stdout).unwrap();
-    assert!(text.contains("Every conditioning is by one characteristic length"), "{text}");
+    assert!(text.contains("Every conditioning uses one characteristic length"), "{text}");
 }

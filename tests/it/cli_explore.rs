@@ -580,7 +580,7 @@ fn a_run_says_what_separate_joints_cost_and_keeps_a_reserve_by_default() {
     let [before, after] = [0, 1].map(|k| d["price"]["conditioning"][k].as_f64().unwrap());
     // half as wide again, the bodies are conditioned better
     assert!(before > 0.0 && after > before, "{}", d["price"]);
-    for words in ["Price of separate joints: worst conditioning", "5 % of every limit", "Rides on"] {
+    for words in ["Price of separate joints: worst conditioning", "5 % of every limit", "Active limits"] {
         assert!(report.contains(words), "{words}: {report}");
     }
     // a reserve that is stated stays the one that is kept

@@ -79,7 +79,7 @@ fn what_is_written_and_left_out_is_told() {
     assert!(judged.starts_with("octahedral 12-6 meets all its requirements, proved"), "{judged}");
     let written = r"wrote DIR/base-plate.dxf
 wrote DIR/platform-plate.dxf
-  dxf leaves out legs, and heights of joints out of the plane of the plate other than as text
+  dxf leaves out legs; heights of joints above the plate are text only
 wrote DIR/genhexkins.hal
   hal leaves out joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are; correlations of a calibration, which the formats csv, json and c have
 ";

@@ -135,7 +135,7 @@ fn the_rounding_that_misses_least_is_said_in_the_text_and_another_can_be_asked_f
     let text = equipod(&["build", "round", &path, "--grid", "0.25"]);
     assert_eq!(text.status.code(), Some(1));
     let text = String::from_utf8(text.stdout).unwrap();
-    let chosen = format!("chosen none meets the requirements; {way} misses them least");
+    let chosen = format!("no rounding meets the requirements; the {way} rounding has the least violation");
     assert!(text.lines().next().unwrap().contains(&chosen), "{text}");
     assert!(text.lines().nth(1).unwrap().contains("violates requirements: "), "{text}");
     // a variant that is asked for by name is the one chosen

@@ -138,7 +138,9 @@ pub enum Error {
     OffsetText(#[from] InvalidShare),
     /// The design has no requirement to assess.
     #[cfg(feature = "files")]
-    #[error("the design requires nothing: add [hardware] with lengths, swing, diameters or greatest forces")]
+    #[error(
+        "the design requires nothing: add [hardware] with leg lengths, joint angles, diameters or greatest forces"
+    )]
     NothingRequired,
     /// There is nothing to export.
     #[cfg(feature = "files")]

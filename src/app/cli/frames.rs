@@ -7,15 +7,15 @@ use platform::geom::{AngleUnit, ListedFrom, PoseConvention, QuaternionOrder, Rot
 use super::context::Context;
 use super::numbers;
 
-/// The convention of all poses that a command takes and answers; absent options come from `[frames]` of the design.
+/// The notation of the poses that a command reads and writes; `[frames]` of the design where an option is absent.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
-#[command(next_help_heading = "Convention of poses, as [frames] of the design where absent")]
+#[command(next_help_heading = "Convention of poses (default: [frames] of the design)")]
 pub(crate) struct FrameArgs {
-    /// Order of the turns of three angles, written in this order: `fixed-xyz` (R = Rz Ry Rx, as roll, pitch, yaw),
-    /// `moving-xyz` (R = Rx Ry Rz), any other axes, `rpy`, `pi`, `rubin`, or `vector` for a rotation vector
+    /// Order of the rotations and of their angles: `fixed-xyz` (R = Rz Ry Rx), `moving-xyz` (R = Rx Ry Rz), any other
+    /// axes, `rpy`, `pi`, `rubin`, or `vector` for a rotation vector
     #[arg(long, value_name = "ORDER")]
     rotation_order: Option<RotationOrder>,
-    /// Point of the platform whose position poses state, platform frame
+    /// Point of the platform whose position a pose gives, platform frame
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
     pivot: Option<Vector3<f64>>,
     /// The origin of poses: `base` or `home`

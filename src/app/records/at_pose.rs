@@ -27,7 +27,7 @@ pub struct AtPoseAnswer {
     pub pose: PoseQuaternionRecord,
     /// The pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The point of the platform that wrenches, shifts and stiffness are about, platform frame of `frames`.
+    /// The reference point on the platform, platform frame of `frames`: wrenches, shifts and stiffness are about it.
     pub point: [Number; 3],
     /// The body whose axes all vectors have: `base` or `platform`.
     pub axes: String,
@@ -51,8 +51,8 @@ pub struct AtPoseAnswer {
     pub held: Vec<HeldWrenchRecord>,
     /// The wrench that the forces of `--forces` hold; null: none were given.
     pub wrench: Option<WrenchRecord>,
-    /// A six-axis load cell: rows of the matrix that maps forces of the legs (torques of the cranks) to the wrench that
-    /// they hold, force before torque; null where a rod does not reach or a crank is singular.
+    /// Rows of the matrix that maps leg forces (or crank torques) to the wrench that they hold, force before torque, as
+    /// in a six-axis load cell; null where a rod does not reach or a crank is singular.
     pub wrench_matrix: Option<[[Number; 6]; 6]>,
     /// Stiffness at the point; null: the design does not say that of its legs.
     pub stiffness: Option<PointStiffnessRecord>,

@@ -111,8 +111,8 @@ pub struct CalibrationRecord {
     pub chi_square: ChiSquare,
     /// Measurements that contradict the others, the farthest first.
     pub outliers: Vec<OutlierRecord>,
-    /// Two legs, from 1, with measured lengths probably exchanged: swapped, they are five times nearer to the design.
-    /// Null: none.
+    /// Two legs whose measured lengths are probably exchanged, from 1: swapped, they are five times nearer to the
+    /// design. Null: none.
     pub exchanged_legs: Option<[usize; 2]>,
 }
 
@@ -200,13 +200,13 @@ pub struct CovarianceRecord {
 pub struct ComputedPosesRecord {
     /// Number of poses evaluated: the poses of the workspace at which the requirements of the design are met.
     pub poses: usize,
-    /// Root mean square error of the platform origin of the measurements, design units: the median over the poses.
+    /// Median over the poses of the root mean square error of the measured platform origin, design units.
     pub position_median: Number,
-    /// Root mean square error of the platform origin, design units: the greatest over the poses.
+    /// Greatest root mean square error of the measured platform origin over the poses, design units.
     pub position_greatest: Number,
-    /// Root mean square error of the orientation, degrees: the median over the poses.
+    /// Median over the poses of the root mean square error of the orientation, degrees.
     pub rotation_deg_median: Number,
-    /// Root mean square error of the orientation, degrees: the greatest over the poses.
+    /// Greatest root mean square error of the orientation over the poses, degrees.
     pub rotation_deg_greatest: Number,
     /// The pose with the greatest error of position.
     pub pose: PoseQuaternionRecord,

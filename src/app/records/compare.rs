@@ -279,9 +279,7 @@ impl CompareAnswer {
     /// The characteristic length of every conditioning, in a sentence.
     pub fn yardstick(&self) -> String {
         let (length, unit) = (short(self.characteristic_length), &self.length_unit);
-        format!(
-            "Every conditioning is by one characteristic length, {length} {unit}, that of the first design."
-        )
+        format!("Every conditioning uses one characteristic length, {length} {unit}, from the first design.")
     }
 
     /// The assumptions about masses, one line each; an assumption of some designs only carries their names.

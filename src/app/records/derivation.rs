@@ -41,7 +41,7 @@ pub struct LegSlideRecord {
     pub between: [usize; 2],
     /// The names of X and Y.
     pub ends: [String; 2],
-    /// The name of Q = X + t (Y - X), the new joint of the leg.
+    /// The name of the new joint Q of the leg: Q = X + t (Y - X).
     pub moved: String,
     /// The name of F, the joint that the leg keeps.
     pub fixed: String,

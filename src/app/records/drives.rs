@@ -16,7 +16,7 @@ pub struct DrivesAnswer {
     /// The name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap ones; null:
     /// there is none.
     pub chosen: Option<String>,
-    /// All drives, in the order fitting, undecided, not fitting; within each group by price, then mass.
+    /// All drives: fitting ones first, then undecided and unfit ones; within each group by price, then mass.
     pub drives: Vec<DriveRecord>,
     /// The currency of prices from the table; null: the table names none.
     pub currency: Option<String>,

@@ -254,11 +254,11 @@ impl DefaultReserveRecord {
     pub fn new(percent: f64, kept: bool) -> Self {
         let message = if kept {
             format!(
-                "{percent} % of every limit is kept in reserve by default; `reserve` in [limits] sets another share"
+                "a safety margin of {percent} % of every limit is kept by default; `reserve` in [limits] sets another share"
             )
         } else {
             format!(
-                "no platform was found that keeps {percent} % of every limit in reserve; the search was made without a reserve"
+                "no platform was found that keeps a safety margin of {percent} % of every limit; the search was made without it"
             )
         };
         Self { percent, kept, message }

@@ -194,7 +194,7 @@ pub struct SolvedRecord {
     pub all_paths_accounted: bool,
     /// Number of `solutions`.
     pub finite_count: usize,
-    /// Number of `solutions`, counted with multiplicity.
+    /// Number of `solutions` with multiplicity.
     pub finite_count_with_multiplicity: u32,
     /// Number of real poses.
     pub real_count: usize,

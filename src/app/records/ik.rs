@@ -133,7 +133,7 @@ pub struct PoseMarginRecord {
     pub margin: Number,
     /// The unit of the margin.
     pub unit: String,
-    /// The legs, joints, keep-out or load with the least margin.
+    /// The parts with the least margin: legs, joints, keep-out or load.
     pub between: Vec<String>,
     /// The legs concerned, from 1.
     pub legs: Vec<usize>,

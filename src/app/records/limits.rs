@@ -22,8 +22,8 @@ pub struct LimitsAnswer {
     pub allowed: bool,
     /// The requirements violated at the pose, the worst first.
     pub violated: Vec<LimitRecord>,
-    /// The free travel of x, y, z, roll, pitch and yaw, each while the others stay fixed; empty: the pose is not
-    /// allowed.
+    /// The free travel of each pose coordinate while the others stay fixed (x, y, z, roll, pitch, yaw); empty: the pose
+    /// is not allowed.
     pub axes: Vec<FreeRangeRecord>,
     /// The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is not allowed.
     pub way: Option<StraightWayRecord>,
@@ -59,7 +59,7 @@ pub struct WorkspaceSizeRecord {
     pub box_searched: [f64; 3],
     /// The requirement violated in a slightly larger box; null: none was found.
     pub box_binds: Option<LimitRecord>,
-    /// Rotations about x, y and z of the base frame through the platform origin, at home.
+    /// Rotations about each axis of the base frame through the platform origin, at home.
     pub turns: Vec<FreeTurnRecord>,
     /// Largest free angle of rotation about every axis in the xy plane of the base, at the position of home, degrees.
     pub tilt_deg: FreeSizeRecord,
@@ -95,7 +95,7 @@ pub struct FreeSizeRecord {
 /// The free rotation of the platform about an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeTurnRecord {
-    /// The axis `x`, `y` or `z` of the base frame.
+    /// The axis of the base frame: `x`, `y` or `z`.
     pub axis: String,
     /// The free angle in the negative sense, degrees, given as a positive number.
     pub back_deg: f64,
@@ -184,7 +184,7 @@ pub struct LimitRecord {
     pub margin: Number,
     /// The unit of the margin; null: a pure ratio.
     pub unit: Option<String>,
-    /// The legs, joints, keep-out or load concerned.
+    /// The parts that the requirement is about: legs, joints, keep-out or load.
     pub between: Vec<String>,
     /// The legs concerned, from 1.
     pub legs: Vec<usize>,
@@ -193,7 +193,7 @@ pub struct LimitRecord {
 /// The free travel of one of the six numbers of a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeRangeRecord {
-    /// The number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    /// The pose coordinate: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
     pub axis: String,
     /// `deg` or `rad`, or the unit of length.
     pub unit: String,

@@ -43,7 +43,7 @@ pub struct MapRecord {
     pub relation: Option<Relation>,
     /// The level of the proof; within rounding: nothing is proved.
     pub level: Level,
-    /// Whether the relation holds exactly, or within rounding of the joints.
+    /// Whether the relation holds up to rounding of the joints; true for an exact relation too.
     pub holds_within_rounding: bool,
     /// The relation in one sentence, with the numbers that decided.
     pub explanation: String,
@@ -136,7 +136,7 @@ impl From<&LegMapOutcome> for MapRecord {
 /// The leg of FROM that corresponds to each leg of TO.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CorrespondenceRecord {
-    /// The leg of FROM, from 1, for each leg of TO; null: none.
+    /// The leg of FROM for each leg of TO, from 1; null: none.
     pub legs: [Option<usize>; 6],
     /// The distance of the two legs divided by the size of the design.
     pub distances: [Number; 6],

@@ -25,7 +25,7 @@ pub struct MotionAnswer {
     pub force_unit: String,
     /// Assumed values that the file does not state, one sentence each.
     pub assumptions: Vec<String>,
-    /// The motions in the order trajectory, sines, accelerations.
+    /// The motions: the trajectory first, then sines and accelerations.
     pub motions: Vec<MotionRunRecord>,
     /// The stiffness of the platform at the pose of `--about`; null: not requested.
     pub stiffness: Option<StiffnessRecord>,
@@ -85,7 +85,7 @@ impl StiffnessRecord {
 /// The legs along one motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRunRecord {
-    /// The file of the trajectory, or the manoeuvre as requested.
+    /// The trajectory file or the manoeuvre, as requested.
     pub motion: String,
     /// Number of sampled instants.
     pub instants: usize,

@@ -102,7 +102,7 @@ impl NearestAnswer {
         });
         let explanation = match &nearest {
             None => format!(
-                "no way to lay the six legs round a hexagon gives an octahedral platform with |det A| at least {} \
+                "no order of the six legs around a hexagon gives an octahedral platform with |det A| at least {} \
                  and joints at most {} lengths of their side beyond its corners",
                 options.min_abs_det, options.extension
             ),
@@ -111,13 +111,11 @@ impl NearestAnswer {
                 short(n.det.0)
             ),
             Some(n) => format!(
-                "an octahedral platform whose equivalent has every joint within {} {} of the design ({} of its size), \
-                 and leg lengths within {} {} at {} poses of the workspace",
-                short(n.largest_displacement.0),
-                design.units,
+                "an octahedral platform whose equivalent has every joint within {} of the design ({} of its size), \
+                 and leg lengths within {} at {} poses of the workspace",
+                length(n.largest_displacement.0, &design.units),
                 short(n.relative_displacement.0),
-                short(n.largest_length_deviation.0),
-                design.units,
+                length(n.largest_length_deviation.0, &design.units),
                 n.poses
             ),
         };
@@ -144,4 +142,9 @@ const SAME: f64 = 1e-9;
 /// A number with six digits.
 pub(super) fn short(x: f64) -> String {
     num::shown::rounded(x, 3)
+}
+
+/// A length with its unit; designs without a unit have the label `1`.
+fn length(x: f64, units: &str) -> String {
+    if units == "1" { short(x) } else { format!("{} {units}", short(x)) }
 }

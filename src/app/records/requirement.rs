@@ -13,7 +13,7 @@ use synthesis::singularity::{Regularity, RegularityWord};
 /// The least margin of a kind of requirement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MarginRecord {
-    /// The kind.
+    /// The kind of requirement.
     pub name: TermKind,
     /// The least margin over the sampled poses, negative for a violation.
     pub margin: Number,
@@ -35,7 +35,7 @@ pub struct MarginRecord {
     pub proved_margin: Number,
     /// The unit of the margins.
     pub unit: String,
-    /// The legs, joints, keep-out or load with the least margin.
+    /// The parts with the least margin: legs, joints, keep-out or load.
     pub between: Vec<String>,
     /// The legs concerned, from 1; for a requirement on joints, the legs of the joint.
     pub legs: Vec<usize>,
@@ -193,7 +193,7 @@ impl AssessAnswer {
 /// The requirement with the least margin as a share of its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TightestRecord {
-    /// The kind.
+    /// The kind of requirement.
     pub name: TermKind,
     /// The least margin divided by its limit, such as the travel of the legs or the greatest force; negative for a
     /// violation.

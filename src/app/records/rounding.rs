@@ -60,7 +60,7 @@ pub struct GridRecord {
     pub pattern: HolePattern,
     /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
     pub pitch: Option<Number>,
-    /// The first ring of a polar grid, or all bolt circles; empty for the other patterns.
+    /// The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other patterns.
     pub circles: Vec<HoleCircle>,
     /// A hole, or the centre of the circles, body frame, design units.
     pub origin: [Number; 2],

@@ -14,8 +14,8 @@ pub struct SingularitiesAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
-    /// Whether the workspace of the design, or the region of `--box` about the pose, holds no singular pose; null: no
-    /// region is given.
+    /// Whether the examined region is free of singular poses: the workspace of the design, or the region of `--box`
+    /// about the pose; null: no region is given.
     pub regular: Option<RegularityRecord>,
     /// The given pose.
     pub pose: JudgedPoseRecord,

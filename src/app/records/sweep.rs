@@ -261,7 +261,7 @@ pub enum SweepDesignFile {
     },
     /// The text is part of the answer.
     Given {
-        /// The design file.
+        /// The design file or the script.
         text: String,
     },
 }

@@ -41,7 +41,7 @@ pub struct TolerancesAnswer {
     pub calibrated: Option<TrialsRecord>,
     /// Uncertainty of computed poses due to the errors of the calibration, to first order; null: not requested.
     pub calibrated_poses: Option<CalibratedPosesRecord>,
-    /// The greatest errors due to joints, leg lengths and temperature together; null: not requested.
+    /// The greatest errors from all causes together (joints, leg lengths, temperature); null: not requested.
     pub map: Option<ErrorMapRecord>,
     /// The poses evaluated.
     pub poses: BudgetPosesRecord,
@@ -131,7 +131,7 @@ pub struct JointBudgetRecord {
     pub position_per_unit: Number,
     /// Error of the orientation per unit of joint error in the worst direction, degrees per design unit.
     pub rotation_deg_per_unit: Number,
-    /// The errors allowed along x, y and z of the body, design units; null: no influence.
+    /// The errors allowed along each axis of the body, design units; null: no influence.
     pub along_axes: [Option<Number>; 3],
     /// Half widths of the box of largest volume for all joints together, design units; null: no influence.
     pub largest_product: [Option<Number>; 3],
@@ -243,7 +243,7 @@ pub struct ErrorMapRecord {
     pub joint_error: Number,
     /// The greatest error of each leg length, design units.
     pub length_error: Number,
-    /// Relative expansion of base, platform and legs, with either sign.
+    /// Relative expansion of each part: base, platform and legs, with either sign.
     pub growth: [Number; 3],
     /// Number of poses evaluated: the corners and a sample of the region, and the listed poses.
     pub poses: usize,

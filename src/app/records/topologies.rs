@@ -47,10 +47,10 @@ pub struct VirtualLegsRecord {
     /// Number of topologies without a virtual leg.
     #[serde(rename = "0")]
     pub none: usize,
-    /// Number of topologies with one virtual leg, decoupled: the position of some joint is found before the others.
+    /// Number of decoupled topologies with one virtual leg: the position of some joint is found before the others.
     #[serde(rename = "1_decoupled")]
     pub one_decoupled: usize,
-    /// Number of topologies with one virtual leg, coupled.
+    /// Number of coupled topologies with one virtual leg.
     #[serde(rename = "1_coupled")]
     pub one_coupled: usize,
     /// Number of topologies with two virtual legs.
@@ -106,7 +106,7 @@ pub struct TopologyRecord {
     pub decoupled: bool,
     /// The joints of the first triangle.
     pub start: [String; 3],
-    /// The trilaterations after it.
+    /// The trilaterations after the first triangle.
     pub sequence: Vec<TrilaterationStepRecord>,
     /// Number of finite poses of a random member, counted with multiplicity.
     pub finite_roots: u32,

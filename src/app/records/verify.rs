@@ -22,8 +22,8 @@ pub struct VerifyAnswer {
     pub proved: bool,
     /// The algebraic evidence; if no motion was found, the map between the designs as given.
     pub map: MapRecord,
-    /// For each leg of B, a bound on the difference between its squared length and A s + c, design units squared. It
-    /// holds at all poses of `sampling`, for any tolerance of the map. Null: the map is exact by proof, or singular, or
+    /// Bounds on the difference between the squared length of each leg of B and A s + c, design units squared. They
+    /// hold at all poses of `sampling`, for any tolerance of the map. Null: the map is exact by proof, or singular, or
     /// no motion was found.
     pub deviation_bounds: Option<[Number; 6]>,
     /// The largest distance of matched poses over all samples; null: none were compared.

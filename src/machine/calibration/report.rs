@@ -87,8 +87,8 @@ pub struct Starts {
     pub taken: StartName,
     /// Whether both starts led to the same machine; null: only one was tried.
     pub agree: Option<bool>,
-    /// Sum of the losses, or the estimated deviation of a length, from the nominal joints; smaller is better; null: not
-    /// tried.
+    /// Misfit from the nominal joints: sum of the losses, or estimated deviation of a length; smaller is better; null:
+    /// not tried.
     pub nominal: Option<f64>,
     /// The same measure from the linear equations for squared lengths, which need no design; null: not tried, or not
     /// determined by the poses.

@@ -11,6 +11,7 @@ use super::outcome::{
 use super::problem::{OffsetModel, OffsetProblem};
 use super::search::{CellResult, OffsetSearchOptions, better, pattern_search};
 use num::Purpose;
+use num::shown::rounded;
 use synthesis::joint_free;
 
 /// Relative gain of a pattern search above which the solution counts as not converged.
@@ -261,21 +262,29 @@ impl std::fmt::Display for Conflict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::VerticesTooClose { distance, side } => {
-                write!(f, "the vertices of the edge of offset {} are only {distance} apart", side + 1)
+                write!(
+                    f,
+                    "the vertices of the edge of offset {} are only {} apart",
+                    side + 1,
+                    rounded(*distance, 3)
+                )
             }
             Self::OutsideBounds { side, zone } => {
                 write!(f, "the bounds of offset {} leave nothing {}", side + 1, zone.words())
             }
             Self::NoRoom { side, zone, available } => write!(
                 f,
-                "offset {}: {available} {} is too short for the joint distance",
+                "offset {}: {} {} is too short for the joint distance",
                 side + 1,
+                rounded(*available, 3),
                 zone.words()
             ),
             Self::PairTooClose { sides: (i, j), greatest } => {
+                let greatest = rounded(*greatest, 3);
                 write!(f, "the joints of offsets {} and {} are at most {greatest} apart", i + 1, j + 1)
             }
             Self::DetTooSmall { sign, greatest } => {
+                let greatest = rounded(*greatest, 3);
                 write!(f, "{} det A is at most {greatest}", if *sign > 0 { "+" } else { "-" })
             }
             Self::Combination { strength } => {

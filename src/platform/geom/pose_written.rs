@@ -68,10 +68,10 @@ impl From<&WrittenPose> for PoseInFrames {
 /// A convention for poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseConventionRecord {
-    /// Order of the turns: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried along, or
+    /// Order of the rotations: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried along, or
     /// `vector` for rotation vectors.
     pub rotation_order: String,
-    /// The same as a product of matrices for angles a, b, c in the order in which they are written.
+    /// The rotation as a product of matrices for the three angles a, b, c in their order.
     pub formula: String,
     /// Unit of angles: `deg` or `rad`.
     pub angles: String,

@@ -47,7 +47,7 @@ pub struct ExactPart {
 )]
 pub struct ExactPoint {
     // the singular point of a cubic that is irreducible over the complex numbers
-    /// (w, x, y), integers as text.
+    /// Homogeneous coordinates (w, x, y), integers as text.
     pub coordinates: [String; 3],
     /// The kind of the singular point.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"])))]

@@ -271,7 +271,7 @@ pub struct CurvePart {
     /// The kind of the part.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"])))]
     pub kind: PartKind,
-    /// In the order of the monomials of its degree.
+    /// Coefficients in the order of the monomials of its degree.
     pub coefficients: Vec<f64>,
     /// Its multiplicity.
     pub multiplicity: usize,

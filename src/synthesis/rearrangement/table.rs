@@ -350,9 +350,9 @@ pub struct Obstruction {
     // its joint must not be shared.
     /// Families that may have several legs, from 0.
     pub allowed: Vec<usize>,
-    /// Their summands, from 0.
+    /// Summands of these families, from 0.
     pub within: Vec<usize>,
-    /// The greatest number of independent legs there.
+    /// The greatest number of independent legs in these summands.
     // below six
     pub most: usize,
 }

@@ -76,7 +76,8 @@ pub struct ErrorBin {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StepTimeRecord", transform = num::nullable))]
 pub struct StepTime {
-    /// The step: `template`, `plu`, `qz` as in Table 2 of Martyushev, or `determinants`, `roots`, `back_substitution`.
+    /// The name of the step: `template`, `plu`, `qz` as in Table 2 of Martyushev, or `determinants`, `roots`,
+    /// `back_substitution`.
     pub step: &'static str,
     /// The median time, microseconds.
     pub median_us: f64,

@@ -1,6 +1,7 @@
 //! Decides whether the legs or rods hold the platform at home.
 
 use crate::Design;
+use num::shown::rounded;
 use platform::geom::Pose;
 use synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
 
@@ -18,6 +19,7 @@ impl std::fmt::Display for SingularHome {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let [x, y, z]: [f64; 3] = self.pose.position.into();
         let [roll, pitch, yaw] = self.pose.angles().degrees().map(|angle| angle + 0.0);
+        let [x, y, z, roll, pitch, yaw] = [x, y, z, roll, pitch, yaw].map(|number| rounded(number, 3));
         write!(
             f,
             "the home pose ({x}, {y}, {z}; {roll}, {pitch}, {yaw} degrees) is singular: {}",

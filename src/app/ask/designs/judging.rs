@@ -242,9 +242,9 @@ impl std::fmt::Display for AssessReport {
         if self.proof.bounds.iter().any(|b| b.reserve.is_some()) {
             let short = |wanted| self.kinds(MarginBound::keeps_reserve, wanted).join("; ");
             match self.proof.all_reserved() {
-                Some(true) => f.write_str("; every reserve is kept")?,
-                Some(false) => write!(f, "; the reserve is not kept: {}", short(Some(false)))?,
-                None => write!(f, "; that the reserve is kept is not proved: {}", short(None))?,
+                Some(true) => f.write_str("; every safety margin is kept")?,
+                Some(false) => write!(f, "; the safety margin is not kept: {}", short(Some(false)))?,
+                None => write!(f, "; the safety margin is not proved to be kept: {}", short(None))?,
             }
         }
         write!(f, " ({} evaluated)", poses(self.proof.poses))

@@ -58,7 +58,7 @@ pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Fa
     let found = found.map_err(|e| match e {
         Error::NothingRequired => {
             let help =
-                "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";
+                "add [hardware] with leg lengths, joint angles, diameters or greatest forces; see docs/design-files.md";
             Failure::refused("assess::nothing_required", "the design has no requirements").with_help(help)
         }
         other => Failure::internal(other.to_string()),

@@ -28,7 +28,7 @@ pub(crate) struct AtArgs {
     /// Body whose axes vectors have: `base` or `platform`
     #[arg(long, value_name = "BODY", default_value = "base", value_parser = body)]
     axes: Body,
-    /// A force and a torque on the platform about the point: compute what holds them
+    /// Force and torque on the platform about the point: compute the forces of the legs that hold them
     #[arg(long, value_name = "FX,FY,FZ,TX,TY,TZ", allow_hyphen_values = true)]
     wrench: Option<String>,
     /// Forces of the legs, positive where they push, or torques of the cranks: compute the wrench that they hold, as a
@@ -38,13 +38,13 @@ pub(crate) struct AtArgs {
     /// Step of the drives for which the motion of the platform is computed: design units of legs, degrees of cranks
     #[arg(long, value_name = "STEP", default_value_t = 1.0, allow_hyphen_values = true)]
     step: f64,
-    /// Leg that is stuck, or free while the others are locked, from 1: compute what is left of the motion
+    /// Leg that is stuck, or free while the others are locked, from 1: compute the motion that remains
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=6))]
     leg: Option<u8>,
     /// Find the nearest singular pose
     #[arg(long)]
     nearest_singular: bool,
-    /// Number of random directions in which the nearest singular pose is sought, besides those along the axes
+    /// Number of random directions in which the nearest singular pose is sought, in addition to the axes
     #[arg(long, value_name = "N", default_value_t = 200, requires = "nearest_singular", value_parser = clap::value_parser!(u32).range(0..=100_000))]
     directions: u32,
     #[command(flatten)]

@@ -80,7 +80,7 @@ fn refusal(why: &NoExport) -> Failure {
     match why {
         NoExport::Unit(e) => {
             Failure::refused("export::unknown_unit", format!("the units of the design cannot be used: {e}"))
-                .with_help("`--unit mm` says what one unit of the design is")
+                .with_help("state the unit of the design, such as `--unit mm`")
         }
         other => Failure::refused("export::bad_size", other.to_string()),
     }

@@ -47,10 +47,10 @@ use super::output::Answer;
 use super::reference;
 
 /// The way from another design to commands for octahedral designs.
-const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with the error it would make, and this command takes that file;";
+const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform for this command and states the error of using it;";
 
 /// The commands for a design that is not octahedral.
-const GENERAL: &str = "every design is taken by `equipod explore`, `equipod check`, `equipod assess`, `equipod fk` and `equipod view`; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move` with --search and a wish such as --spacing finds equivalents of it";
+const GENERAL: &str = "`equipod explore`, `check`, `assess`, `fk` and `view` take every design; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move --search` with a condition such as --spacing finds its equivalents";
 
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]

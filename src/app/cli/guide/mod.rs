@@ -147,7 +147,7 @@ const JOBS: [CommandGroup; 10] = [
             ),
             entry(
                 "motion",
-                &["motion designs/worked/simulator-octahedral.toml --sine z:100:0.5 --accelerate pitch:100"],
+                &["motion designs/worked/simulator-octahedral.toml --sine z:0.1:0.5 --accelerate pitch:100"],
                 &["dynamics", "inverse-dynamics", "drive-forces", "power"],
             ),
             entry(

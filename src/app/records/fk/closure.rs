@@ -31,7 +31,7 @@ pub struct ClosurePolynomialRecord {
     pub unknown: [String; 2],
     /// The joints of the first triangle.
     pub start: [String; 3],
-    /// The trilaterations after it.
+    /// The trilaterations after the first triangle.
     pub sequence: Vec<TrilaterationStepRecord>,
     /// The polynomial and its real roots.
     #[serde(flatten)]

@@ -9,7 +9,7 @@ use fk::{Completeness, FkSolutions};
 /// The finite poses of the design, counted without finding them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseCountRecord {
-    /// The number with multiplicity; null: not finite, or undecided.
+    /// Number of poses with multiplicity; null: not finite, or undecided.
     pub finite: Option<usize>,
     /// Number of standard monomials of each degree.
     pub by_degree: Option<Vec<usize>>,
@@ -22,7 +22,7 @@ pub struct PoseCountRecord {
     /// The counted lengths: the exact ones given, or generic ones, which have at least as many isolated poses. Lengths
     /// known only to rounding, such as images under a leg map, are counted as generic.
     pub lengths: CountedLengths,
-    /// The evidence: a theorem with certificates, or counting modulo random primes.
+    /// The evidence for the count: a theorem with certificates, or counting modulo random primes.
     pub evidence: EvidenceWord,
     /// A bound on the probability of a wrong count; null: proved, or undecided.
     pub error_probability: Option<f64>,

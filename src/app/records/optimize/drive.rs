@@ -48,7 +48,7 @@ pub struct SearchedDriveRecord {
     pub outcome: DriveSearchWord,
     /// Value of the first objective of the platform found; null: no platform was found.
     pub objective: Option<Number>,
-    /// Margins against the drive's limits of length, force and speed, for the platform found or the one with the least
+    /// Margins against the limits of the drive (length, force, speed), for the platform found or the one with the least
     /// violation. Empty: the drive was not searched.
     pub margins: Vec<MarginRecord>,
     /// The result for the three-fold symmetry of the design; null under the same conditions as without a table.

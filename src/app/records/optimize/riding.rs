@@ -24,10 +24,11 @@ const GROWN: f64 = 1.2;
 pub struct RidingRecord {
     /// Active ranges of variables and active limits.
     pub bounds: Vec<RiddenBoundRecord>,
-    /// Greatest distance of a base joint from the centre of the base joints, divided by its value in the design.
+    /// Growth of the base as a factor: greatest distance of a base joint from the centre of the base joints, divided by
+    /// its value in the design.
     pub base_growth: Number,
-    /// Greatest distance of a platform joint from the centre of the platform joints, divided by its value in the
-    /// design.
+    /// Growth of the platform as a factor: greatest distance of a platform joint from the centre of the platform
+    /// joints, divided by its value in the design.
     pub platform_growth: Number,
     /// The bounds in one sentence.
     pub message: String,
@@ -40,7 +41,7 @@ pub struct RiddenBoundRecord {
     pub name: String,
     /// The kind of bound.
     pub kind: RiddenWord,
-    /// The value of the variable, or the margin of the limit.
+    /// The value of the variable or the margin of the limit.
     pub value: Number,
     /// The unit of the value; empty for a pure number.
     pub unit: String,
@@ -137,13 +138,13 @@ fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
         parts.push(format!("{} = {value} (end of {their} range)", names.join(", ")));
     }
     for b in bounds.iter().filter(|b| b.kind != RiddenWord::RangeEnd) {
-        let what = if b.kind == RiddenWord::Reserve { "its reserve" } else { "no reserve" };
+        let what = if b.kind == RiddenWord::Reserve { "its safety margin" } else { "no safety margin" };
         let left = format!("{} {}", short(b.value.0), b.unit);
         parts.push(format!("{} ({} left, {what})", said(&b.name), left.trim_end()));
     }
-    let rides = if parts.is_empty() { None } else { Some(format!("rides on {}", parts.join(", "))) };
-    let all: Vec<String> = rides.into_iter().chain(grown.iter().cloned()).collect();
-    format!("{}; `reserve` in [limits] keeps away from limits, [envelope] bounds the size", all.join("; "))
+    let active = if parts.is_empty() { None } else { Some(format!("active limits: {}", parts.join(", "))) };
+    let all: Vec<String> = active.into_iter().chain(grown.iter().cloned()).collect();
+    format!("{}; `reserve` in [limits] sets safety margins, [envelope] bounds the size", all.join("; "))
 }
 
 #[cfg(test)]

@@ -123,7 +123,7 @@ pub fn table(found: &AssessAnswer) -> Table {
     let mut table = Table::new(
         [left("requirement", 17), left("status", 9).gap(2), right("least margin", 0).gap(2)]
             .into_iter()
-            .chain(reserved.then(|| right("after reserve", 0).gap(2)))
+            .chain(reserved.then(|| right("after safety margin", 0).gap(2)))
             .chain([
                 right("proved margin", 0).gap(2),
                 left("unit", 0),

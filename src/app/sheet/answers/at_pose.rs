@@ -1,7 +1,7 @@
 //! Forces, small motions and stiffness at one pose.
 
 use super::limits::named;
-use super::poses::{words, written};
+use super::poses::{without_rounding, words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
@@ -14,14 +14,6 @@ use records::{
 pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{} at {} = {}", answer.name, words(&answer.frames), pose(&answer.in_frames));
-    out.line(&answer.frames.sentence);
-    let point = answer.point.map(|x| x.0);
-    say!(
-        out,
-        "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
-        answer.axes,
-        listed(point)
-    );
     if let Some(missing) = &answer.out_of_reach {
         say!(out, "The rod of leg {} does not reach.", missing.leg);
         return out;
@@ -65,6 +57,16 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     if let Some(found) = &answer.nearest_singular {
         nearest(&mut out, answer, found);
     }
+    out.space();
+    if !answer.frames.is_usual() {
+        out.line(&answer.frames.sentence);
+    }
+    say!(
+        out,
+        "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
+        answer.axes,
+        listed(answer.point.map(|x| x.0))
+    );
     out
 }
 
@@ -117,10 +119,11 @@ fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
 
 fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
     say!(out, "\nMotion of the point for a step of {} {}:", figure(found.step), found.step_unit);
-    let mut table = columns("step of", ["dx", "dy", "dz", "turn x", "turn y", "turn z"]);
+    let mut table = columns("step of", ["dx", "dy", "dz", "about x", "about y", "about z"]);
     let unit = format!("{length}, deg");
     let mut line = |name: &str, motion: &SmallMotionRecord| {
-        let numbers: Vec<Number> = motion.shift.iter().chain(&motion.turn_deg).copied().collect();
+        let groups = [motion.shift, motion.turn_deg].map(|group| without_rounding(group.map(|x| x.0), 0.0));
+        let numbers: Vec<Number> = groups.into_iter().flatten().map(Number).collect();
         table.row(row(name, &numbers, &unit));
     };
     for (leg, motion) in found.drives.iter().enumerate() {
@@ -133,7 +136,7 @@ fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
 fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
     say!(
         out,
-        "\nLeg {}, stuck: five motions are left. Its drive would have to move for one number of the pose alone by:",
+        "\nLeg {}, stuck: five motions remain. Change of its length for one unit of each number of the pose alone:",
         found.leg
     );
     let words = ["x", "y", "z", "a", "b", "c"];
@@ -144,7 +147,7 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
         match screw.pitch {
             Some(pitch) => say!(
                 out,
-                "Leg {}, free with the others locked: the platform turns about {direction} through {point}, shifting by {} {} a radian.",
+                "Leg {}, free with the others locked: the platform rotates about {direction} through {point} and shifts by {} {} per radian.",
                 found.leg,
                 figure(pitch.0),
                 answer.length_unit
@@ -160,7 +163,7 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
         if let Some(last) = way.last() {
             say!(
                 out,
-                "  with the leg {} {} long it is at {}",
+                "  with the leg {} {} long the pose is {}",
                 figure(last.length),
                 answer.length_unit,
                 pose(&last.in_frames)

@@ -1,5 +1,6 @@
 //! Random problems: solved, validated and timed, or disturbed by noise.
 
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use ask::bench::{ErrorStatistics, RawReport};
 use records::{BenchAnswer, BenchClassRecord, Histogram, NoiseRowRecord};
@@ -136,7 +137,7 @@ fn counts(rows: &[BenchClassRecord]) -> Table {
         ("all real", 8),
         ("missed", 6),
         ("spurious", 8),
-        ("false", 5),
+        ("false certificates", 5),
         ("median us", 10),
         ("p99 us", 10),
         ("residual", 8),
@@ -156,8 +157,8 @@ fn counts(rows: &[BenchClassRecord]) -> Table {
             c.missed_roots.to_string(),
             c.spurious_roots.to_string(),
             c.false_certificates.to_string(),
-            format!("{:.1}", c.median_us.0),
-            format!("{:.1}", c.p99_us.0),
+            figure(c.median_us.0),
+            figure(c.p99_us.0),
             format!("{:.1e}", c.worst_residual.0),
         ]);
     }

@@ -31,7 +31,7 @@ pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     if !answer.next_poses.is_empty() {
         say!(
             out,
-            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor of the deviations; greatest one after it",
+            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor on the standard deviations; greatest deviation afterwards",
             if answer.calibration.is_some() { "next" } else { "first" },
             if answer.frames.is_usual() { "roll, pitch, yaw" } else { "a, b, c" },
             answer.frames.angles
@@ -89,12 +89,12 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
         figure(found.noise.rotation_deg.0)
     );
     let begun = match found.start.taken {
-        StartName::Nominal => "begun at the design",
-        StartName::ClosedForm => "begun at the linear equations, without the design",
+        StartName::Nominal => "started at the design",
+        StartName::ClosedForm => "started at the linear equations, without the design",
     };
     let other = match found.start.agree {
-        Some(true) => "; the other start ends at the same machine",
-        Some(false) => "; the other start ends at another machine, which fits worse",
+        Some(true) => "; the other start gives the same machine",
+        Some(false) => "; the other start gives another machine, which fits worse",
         None => "",
     };
     say!(out, "{begun}{other}");
@@ -103,7 +103,7 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
             let p = <[f64; 3]>::from(m.motion.position).map(figure);
             say!(
                 out,
-                "{body} carried to the design: shift {} {units}, rms {} {units} left",
+                "{body} moved to the frame of the design: shift {} {units}, rms difference {} {units}",
                 p.join(", "),
                 figure(m.rms)
             );

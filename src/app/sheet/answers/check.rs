@@ -67,14 +67,16 @@ fn ways_to_assemble(out: &mut Sheet, answer: &CheckAnswer) {
     let (c, bound) = (&answer.pose_count, answer.pose_bound.poses);
     match (c.finite, c.dimension) {
         (Some(0), _) if answer.architecturally_singular == Some(true) => {
-            out.line("No way to assemble it for generic leg lengths; lengths that fit let it move.");
+            out.line("Generic leg lengths have no pose; lengths with a pose let the platform move.");
         }
         (Some(n), _) => {
             let lost = answer.common_points.and_then(|p| Some(p.isotropic? + p.at_infinity?));
             let lost = lost.map_or_else(String::new, |lost| format!("; {lost} lost at infinity"));
             say!(out, "{n} ways to assemble it for given leg lengths, real and complex, counted{lost}.");
         }
-        (None, Some(d)) => say!(out, "Given leg lengths let it move: its poses form a set of dimension {d}."),
+        (None, Some(d)) => {
+            say!(out, "The platform moves at given leg lengths: its poses form a set of dimension {d}.");
+        }
         (None, None) => say!(out, "At most {bound} ways to assemble it for given leg lengths, not counted."),
     }
     if answer.solvability.quadratic || !answer.solvability.placed_first.is_empty() {

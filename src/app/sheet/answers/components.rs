@@ -92,14 +92,14 @@ fn curve(out: &mut Sheet, body: &str, c: &PlaneCurveRecord) {
             say!(out, "            as written, over the complex numbers: {}", parts.join(", "));
         }
         ExactCurveOutcome::Curve(_) => {}
-        ExactCurveOutcome::None { reason } => say!(out, "            nothing exact: {reason}"),
+        ExactCurveOutcome::None { reason } => say!(out, "            not split exactly: {reason}"),
     }
     for s in &c.singular_points {
         let at = s.point.map(|p| p.map(|x| x.0));
         let at = at.map_or("infinity".to_owned(), |at| {
             format!("({})", at.map(rounding_is_zero).map(figure).join(", "))
         });
-        let line = if s.line_of_partners { ", a whole line corresponds" } else { "" };
+        let line = if s.line_of_partners { ", with a whole line of partners" } else { "" };
         say!(out, "            {} at {at}{line}", s.kind);
     }
 }

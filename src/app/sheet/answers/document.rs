@@ -52,7 +52,7 @@ const KINDS: [DocumentKind; 17] = [
         read(f).map(|x: MotionAnswer| answers::motion(&x))
     }),
     DocumentKind(&["trials", "joints"], "Tolerances", |f, [a, _]| {
-        read(f).map(|x: TolerancesAnswer| answers::tolerances(a, &x))
+        read(f).map(|x: TolerancesAnswer| answers::tolerances(a, &x, "equipod assess, with this design"))
     }),
     DocumentKind(&["drives", "chosen"], "Drives", |f, _| read(f).map(|x: DrivesAnswer| answers::drives(&x))),
     DocumentKind(&["designs", "manoeuvres"], "Comparison", |f, _| {

@@ -1,5 +1,6 @@
 //! The platforms equivalent to an octahedral design.
 
+use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use platform::manipulator::Body;
 use records::{FamilyAnswer, PatternPlace, PatternRecord};
@@ -14,7 +15,7 @@ pub fn family(r: &FamilyAnswer, asked: bool) -> Sheet {
         topologies(&mut sheet, r);
     }
     if let Some(r) = &r.instance {
-        say!(sheet, "\nat these offsets det A = {}", r.determinant.0);
+        say!(sheet, "\nat these offsets det A = {}", figure(r.determinant.0));
     }
     if let Some(d) = &r.derivation {
         let to = r.instance.as_ref().map_or("the platform", |built| built.pattern.as_str());
@@ -74,7 +75,7 @@ fn describe(out: &mut Sheet, pattern: &PatternRecord, r: &FamilyAnswer) {
     }
     for (k, d) in r.edge_lengths.iter().enumerate() {
         let body = if k % 2 == 0 { Body::Base } else { Body::Platform };
-        say!(out, "  d{} = {} ({body})", k + 1, d.0);
+        say!(out, "  d{} = {} ({body})", k + 1, figure(d.0));
     }
     say!(out, "  det A = {}", pattern.determinant);
     let zeros = if pattern.zeros.is_empty() { "never".into() } else { pattern.zeros.join(" or ") };

@@ -1,6 +1,6 @@
 //! All poses for given lengths, or one pose that is tracked.
 
-use super::poses::{POSE, numbers, pose, written};
+use super::poses::{POSE, angle, numbers, pose, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use fk::{CompletenessWord, NearWord};
@@ -24,10 +24,13 @@ fn one_set(name: &str, units: &str, one: &FkOneAnswer) -> Sheet {
     let mut out = Sheet::new();
     match (&one.drives, &one.near) {
         (Some(drives), Some(near)) => out.line(drive_sentence(drives, near)),
-        (None, Some(near)) => followed(&mut out, near, units),
+        (None, Some(near)) => followed(&mut out, name, near, units),
         _ => {}
     }
-    poses(&mut out, name, units, &one.solved, one.frames.as_ref());
+    if one.near.is_none() || one.drives.is_some() {
+        counts(&mut out, name, &one.solved);
+    }
+    poses(&mut out, units, &one.solved, one.frames.as_ref());
     if one.angles_deg.is_some() {
         out.line(elbows(&one.solved));
         beyond_limits(&mut out, one, "");
@@ -111,28 +114,28 @@ fn position(near: &NearRecord) -> String {
 }
 
 /// The tracking of the pose, before the list of poses.
-fn followed(out: &mut Sheet, near: &NearRecord, units: &str) {
+fn followed(out: &mut Sheet, name: &str, near: &NearRecord, units: &str) {
     let share = 100.0 * near.fraction;
     match near.outcome {
         NearWord::Tracked => say!(
             out,
-            "Followed from the pose given: moved by {} {units} and {} deg, in {} segment(s), {} Newton steps; conditioning there {}",
+            "{name}: the pose was followed from the start pose; it moved by {} {units} and {} deg, conditioning there {} ({} segments, {} Newton steps)",
             figure(near.distance.0),
-            figure(near.angle_deg.0),
+            figure(angle(near.angle_deg.0)),
+            figure(near.inverse_condition.0),
             near.segments,
-            near.newton_steps,
-            figure(near.inverse_condition.0)
+            near.newton_steps
         ),
         NearWord::NearSingularity => say!(
             out,
-            "NEAR A SINGULARITY: stopped after {} % of the way, conditioning there {}",
+            "{name}: NEAR A SINGULAR POSE, stopped after {} % of the path, conditioning there {}",
             figure(share),
             figure(near.inverse_condition.0)
         ),
         NearWord::Lost => {
             say!(
                 out,
-                "LOST after {} % of the way: {}",
+                "{name}: LOST after {} % of the path: {}",
                 figure(share),
                 near.reason.as_deref().unwrap_or_default()
             );
@@ -171,8 +174,8 @@ fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
     }
 }
 
-/// The number of poses, the completeness of the list, and the real poses.
-fn poses(out: &mut Sheet, name: &str, units: &str, s: &SolvedRecord, frames: Option<&PoseConventionRecord>) {
+/// The number of poses, or the set that they form.
+fn counts(out: &mut Sheet, name: &str, s: &SolvedRecord) {
     if let SolutionSetRecord::PositiveDimensional { dimension_at_least, witness_points, .. } = &s.solution_set
     {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
@@ -197,6 +200,10 @@ fn poses(out: &mut Sheet, name: &str, units: &str, s: &SolvedRecord, frames: Opt
             s.method
         );
     }
+}
+
+/// The completeness of the list, and the real poses.
+fn poses(out: &mut Sheet, units: &str, s: &SolvedRecord, frames: Option<&PoseConventionRecord>) {
     say!(out, "{}: {}", completeness(s), s.completeness_reason);
     for call in &s.library_calls {
         let [rows, columns] = call.size;

@@ -8,6 +8,9 @@ use records::{
     PoseQuaternionRecord, RayEndRecord, StraightWayRecord, WorkspaceSizeRecord,
 };
 
+/// An end of a range below this share of the largest number of its row is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// The answer of `limits` about a design of this name.
 #[must_use]
 pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
@@ -35,7 +38,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     if let Some(found) = &answer.nearest_allowed {
         nearest(&mut out, answer, found);
     } else if !answer.allowed {
-        out.line("No allowed pose was found, home among those tried.");
+        out.line("No allowed pose was found; home was tried too.");
     }
     if let Some(path) = &answer.surface {
         say!(out, "\nwrote {path}");
@@ -60,12 +63,15 @@ fn bound(limit: Option<&LimitRecord>) -> String {
 }
 
 fn axis(row: &FreeRangeRecord) -> [String; 7] {
+    let finite = [row.value, row.back.value, row.forth.value].into_iter().filter(|x| x.is_finite());
+    let scale = finite.fold(0.0, |most: f64, x| most.max(x.abs()));
+    let end = |x: f64| figure(if x.abs() <= ROUNDING * scale { 0.0 } else { x });
     [
         row.axis.clone(),
         figure(row.value),
-        figure(row.back.value),
+        end(row.back.value),
         bound(row.back.binds.as_ref()),
-        figure(row.forth.value),
+        end(row.forth.value),
         bound(row.forth.binds.as_ref()),
         row.unit.clone(),
     ]
@@ -82,10 +88,10 @@ fn shown(answer: &LimitsAnswer, record: &PoseQuaternionRecord, in_frames: &PoseI
 fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightWayRecord) {
     let to = pose(&found.to);
     match &found.binds {
-        None => say!(out, "\nThe straight way to {to} is free."),
+        None => say!(out, "\nThe straight path to {to} is free."),
         Some(limit) => say!(
             out,
-            "\nThe straight way to {to} is free up to {} of it, at {}; the limit there is {}.",
+            "\nThe straight path to {to} is free for {} of its length, up to {}; the limit there is {}.",
             figure(found.free),
             shown(answer, &found.pose, &found.in_frames),
             named(limit)
@@ -111,7 +117,7 @@ fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord)
         answer.length_unit
     );
     if answer.allowed && !found.straight_from_home {
-        out.line("The straight way from home to it violates a limit.");
+        out.line("The straight path from home to it violates a limit.");
     }
 }
 
@@ -136,7 +142,7 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
     line(
         "volume of positions",
         &format!(
-            "{} {unit}^3 on straight ways at the orientation of home (halves of {} ways differ by {:.1} %)",
+            "{} {unit}^3 on straight paths at the orientation of home (halves of {} paths differ by {:.1} %)",
             figure(found.volume),
             found.rays,
             100.0 * found.volume_doubt
@@ -155,7 +161,7 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
     );
     for turn in &found.turns {
         line(
-            &format!("turn about {}", turn.axis),
+            &format!("rotation about {}", turn.axis),
             &format!(
                 "-{} deg ({}) to {} deg ({})",
                 figure(turn.back_deg),
@@ -166,7 +172,7 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
         );
     }
     line("tilt, any level axis", &size(&found.tilt_deg, "deg"));
-    line("turn, any axis", &size(&found.turn_deg, "deg"));
+    line("rotation, any axis", &size(&found.turn_deg, "deg"));
     if let Some(required) = &found.required {
         let share = format!("its translations are {:.1} % of the volume above", 100.0 * required.share.0);
         line("required region", &format!("times {}", size(&required.factor, "").replace("  ", " ")));

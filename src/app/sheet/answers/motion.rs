@@ -191,7 +191,7 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
 
 fn requirements(out: &mut Sheet, motion: &MotionRunRecord) {
     let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
-    let less = reserved.then(|| right("after reserve", 0).gap(2));
+    let less = reserved.then(|| right("after safety margin", 0).gap(2));
     let columns = [left("requirement", 17), right("least margin", 0).gap(2)].into_iter().chain(less);
     let mut table =
         Table::new(columns.chain([left("unit", 0), left("binds at", 0).gap(2), left("time s", 0).gap(2)]));

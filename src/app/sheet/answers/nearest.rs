@@ -1,7 +1,7 @@
 //! The octahedral platform nearest to a design.
 
 use super::poses::{POSE, pose};
-use crate::figure::figure;
+use crate::figure::{figure, length};
 use crate::{Sheet, Table, right};
 use records::{NearestAnswer, SourceWord};
 
@@ -11,7 +11,8 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{}: {}", r.name, r.explanation);
     let Some(n) = &r.nearest else { return out };
-    let moves = ["base", "platform"].map(|body| right(format!("{body} joint moves [{units}]"), 0).gap(2));
+    let bracket = if units == "1" { String::new() } else { format!(" [{units}]") };
+    let moves = ["base", "platform"].map(|body| right(format!("{body} joint moves{bracket}"), 0).gap(2));
     let columns = [right("leg", 3), right("side", 4).gap(2), right("offset", 11).gap(2)];
     let mut table = Table::new(columns.into_iter().chain(moves));
     for (leg, displacements) in n.displacements.iter().enumerate() {
@@ -23,13 +24,13 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
     out.table(table);
     say!(
         out,
-        "\nlargest displacement {} {units}, root mean square {} {units}; det A = {}\n\
-         leg {} differs most in length: by {} {units} at {POSE} = {} ({} poses of the {} workspace)",
-        figure(n.largest_displacement.0),
-        figure(n.rms_displacement.0),
+        "\nlargest displacement {}, root mean square {}; det A = {}\n\
+         leg {} differs most in length: by {} at {POSE} = {} ({} poses of the {} workspace)",
+        length(n.largest_displacement.0, units),
+        length(n.rms_displacement.0, units),
         figure(n.det.0),
         n.deviating_leg,
-        figure(n.largest_length_deviation.0),
+        length(n.largest_length_deviation.0, units),
         pose(&n.deviating_pose),
         n.poses,
         if n.workspace_from == SourceWord::Design { "design's" } else { "default" }

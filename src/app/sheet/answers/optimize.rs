@@ -86,12 +86,12 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
 /// The assumptions about poses, the further constraints, and the length of the search.
 fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
     let (l, units) = (&a.limits, &a.limits.units);
-    let room = l
+    let spacing = l
         .min_joint_distance
         .map_or_else(String::new, |d| format!("joints at least {} {units} apart; ", figure(d)));
     say!(
         out,
-        "Searched with the {} workspace and {} home; {room}|det A| >= {}; characteristic length {} {units}",
+        "Searched with the {} workspace and {} home; {spacing}|det A| >= {}; characteristic length {} {units}",
         a.region.workspace.words(),
         a.region.home.words(),
         figure(l.min_abs_det),
@@ -106,12 +106,12 @@ fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
 
 fn front_in_words(out: &mut Sheet, a: &OptimizeAnswer, count: usize) {
     if a.status == OptimizeStatus::Interrupted {
-        out.line("the front as far as it was found; runs that were not finished may be improved");
+        out.line("the front as far as it was found; unfinished runs may still improve");
     }
     if let (Some(dominated), Some(unmet)) = (a.search.dominated, a.search.unmet) {
         say!(
             out,
-            "{count} platforms of which none is better in every objective; {dominated} dominated or equal ones left out, {unmet} bounds not met"
+            "{count} platforms, none better than another in every objective; {dominated} dominated or equal ones left out, {unmet} bounds not met"
         );
     }
 }
@@ -122,14 +122,15 @@ fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
         (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
             let gap =
                 a.tolerance.map_or_else(String::new, |t| format!(" to within the gap of {t} asked for"));
-            say!(out, "No better platform is near; that there is none anywhere is not proved{gap}.");
+            say!(out, "A local optimum{gap}; a better platform elsewhere is not excluded.");
         }
-        (_, Some(OptimalityWord::BestOfStarts)) => out
-            .line("A local optimum, the best of all starts; that there is no better platform is not proved."),
+        (_, Some(OptimalityWord::BestOfStarts)) => {
+            out.line("A local optimum, the best of all starts; a better platform elsewhere is not excluded.");
+        }
         (OptimizeStatus::Violated, _) => {
             out.line("The platform misses requirements and is not called optimal.");
         }
-        (OptimizeStatus::Feasible, _) => out.line("The limits are met; better platforms may be near."),
+        (OptimizeStatus::Feasible, _) => out.line("The limits are met; better platforms may exist nearby."),
         (OptimizeStatus::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
             let reason = a.failure.as_ref().map_or_else(String::new, |w| format!(": {w}"));
             say!(out, "No platform that meets the requirements was found, and no conflict{reason}");
@@ -152,7 +153,7 @@ fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
     let Some(n) = &a.branch_counts else { return };
     say!(
         out,
-        "branches: {} feasible, {} outside the bounds, {} without room, {} with |det A| too small, {} covered by the bound, {} unproved, {} failed",
+        "branches: {} feasible, {} outside the bounds, {} with joints too close, {} with |det A| too small, {} excluded by the bound, {} unproved, {} failed",
         n.feasible,
         n.outside_bounds,
         n.spacing,
@@ -227,7 +228,7 @@ pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
 /// The platform with the least violation, with the table of its requirements.
 fn nearest(out: &mut Sheet, n: &NearestPlatformRecord) {
     out.line(
-        "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:",
+        "\nthe platform with the least violation found; it shows the missed requirements and is not a solution:",
     );
     out.add(requirements(n.design.name(), n.assessment.as_ref()));
     out.space();
@@ -240,7 +241,7 @@ fn candidates(out: &mut Sheet, list: &[OptimumRecord]) {
         out.line("\nno other local optimum that meets the requirements was found");
         return;
     }
-    out.line("\nother local optima that meet the requirements at the poses that were held:");
+    out.line("\nother local optima that meet the requirements at the poses held in the search:");
     for c in list {
         let met = match c.requirements_met {
             Some(true) => "requirements met",
@@ -343,7 +344,7 @@ fn conflict(out: &mut Sheet, c: &ConflictRecord) {
     for g in &c.requirements {
         say!(out, "  {}", g.message);
     }
-    out.line("the sum of the violations, each in its scale, is least where these give, and the others hold:");
+    out.line("the least sum of scaled violations violates these and meets all others:");
     let mut table = Table::new([left("", 17).gap(3), right("", 9), left("", 0)]);
     for g in c.requirements.iter().filter(|g| g.together.0 > 0.0) {
         table.row([g.name.label(), figure(g.together.0), g.unit.clone()]);

@@ -24,7 +24,7 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
         ),
         (Some(line), _) => say!(
             out,
-            "{}: five legs hold a line of the {}, about which it turns freely",
+            "{}: five legs hold a line of the {}, about which it rotates freely",
             answer.name,
             line.body
         ),
@@ -119,7 +119,7 @@ fn sixth_legs(out: &mut Sheet, legs: &[DecouplingLeg]) {
         match leg {
             DecouplingLeg::OffTheLine { body } => say!(
                 out,
-                "a sixth leg to any point of the {body} off the line turns it about the line, in two ways for each pose of the line; one to the line leaves the turn free"
+                "a sixth leg to a point of the {body} off the line fixes the rotation about the line, with two angles for each pose of the line; a leg to the line leaves it free"
             ),
             DecouplingLeg::ToTheLine { body, legs } => say!(
                 out,
@@ -142,7 +142,7 @@ fn poses(out: &mut Sheet, answer: &PentapodAnswer, units: &str) {
     }
     let Some(found) = &answer.poses else { return };
     say!(out, "\nposes of the line for these lengths: {}, of which {} real", found.counted, found.real);
-    out.line("counted and enclosed in exact arithmetic; the turn about the line is free");
+    out.line("counted and enclosed in exact arithmetic; the rotation about the line is free");
     for pose in found.poses.iter().filter(|pose| pose.real) {
         let twice = if pose.multiplicity > 1 {
             format!("  counts {} times", pose.multiplicity)

@@ -37,12 +37,17 @@ pub(super) fn written(found: &PoseInFrames) -> [f64; 6] {
     [x, y, z, a, b, c]
 }
 
+/// An angle in degrees; zero if it is rounding.
+pub(super) fn angle(degrees: f64) -> f64 {
+    without_rounding([degrees; 3], 360.0)[0]
+}
+
 /// The names of the six numbers of a pose in the convention of an answer.
 pub(super) fn words(frames: &PoseConventionRecord) -> &'static str {
     if frames.is_usual() { POSE } else { "x,y,z,a,b,c" }
 }
 
-fn without_rounding(numbers: [f64; 3], least_scale: f64) -> [f64; 3] {
+pub(super) fn without_rounding(numbers: [f64; 3], least_scale: f64) -> [f64; 3] {
     let scale = numbers.iter().fold(least_scale, |most, x| most.max(x.abs()));
     numbers.map(|x| if x.abs() <= ROUNDING * scale { 0.0 } else { x })
 }

@@ -49,9 +49,14 @@ fn table(joints: &[RoundedJointRecord]) -> Table {
 pub fn round(r: &RoundAnswer) -> Sheet {
     let units = &r.units;
     let mut out = Sheet::new();
-    let chosen = r.chosen.map_or("none meets the requirements", RoundingWay::name);
-    let missed = r.least_missed.map_or_else(String::new, |way| format!("; {} misses them least", way.name()));
-    say!(out, "{}: chosen {chosen}{missed}", r.name);
+    let chosen = r.chosen.map_or_else(
+        || "no rounding meets the requirements".to_owned(),
+        |way| format!("the {} rounding is chosen", way.name()),
+    );
+    let missed = r
+        .least_missed
+        .map_or_else(String::new, |way| format!("; the {} rounding has the least violation", way.name()));
+    say!(out, "{}: {chosen}{missed}", r.name);
     if let Some(design) = &r.design {
         let file = r.output.as_deref().unwrap_or("FILE, written with -o FILE");
         out.add(verdict(design.name(), r.assessment.as_ref(), &format!("equipod assess {file}")));

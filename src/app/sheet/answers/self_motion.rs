@@ -28,7 +28,7 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
         let origin = curve.found_by.map_or("", MotionOrigin::name);
         say!(
             out,
-            "curve {}: {} poses, length {} in (e, g / size), {}, {} crossings{degree}, found from a {}",
+            "curve {}: {} poses, length {} in dual quaternions (e, g / size), {}, {} crossings{degree}, found from a {}",
             k + 1,
             curve.points.len(),
             figure(arc),

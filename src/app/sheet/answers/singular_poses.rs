@@ -1,31 +1,64 @@
 //! det J at poses, along paths, and the box in which it is proved not to vanish.
 
-use super::poses::{POSE, place, pose};
+use super::poses::{pose, words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
-use records::{JudgedPoseRecord, SignOutcome, SignPairsRecord, SignPathRecord, SingularitiesAnswer};
+use platform::geom::Pose;
+use records::{
+    JudgedPoseRecord, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, SignOutcome, SignPairsRecord,
+    SignPathRecord, SingularitiesAnswer,
+};
 use synthesis::singularity::RegularityWord;
 
-/// The answer of `singular poses`; `of_the_design`: the region comes from the design.
+/// The convention of the poses in a sheet: its description, and the numbers of a pose in it.
+struct Convention<'a> {
+    record: &'a PoseConventionRecord,
+    write: &'a dyn Fn(&Pose) -> PoseInFrames,
+}
+
+impl Convention<'_> {
+    /// The numbers of a pose with commas.
+    fn pose(&self, record: &PoseQuaternionRecord) -> String {
+        if self.record.is_usual() {
+            return pose(record);
+        }
+        written(&(self.write)(&record.into())).map(figure).join(",")
+    }
+
+    /// The names of these numbers.
+    fn names(&self) -> &'static str {
+        words(self.record)
+    }
+}
+
+/// The answer of `singular poses`; `of_the_design`: the region comes from the design. Poses have the convention, in
+/// which `write` gives the numbers of a pose.
 #[must_use]
-pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
+pub fn singular_poses(
+    r: &SingularitiesAnswer,
+    of_the_design: bool,
+    convention: &PoseConventionRecord,
+    write: &dyn Fn(&Pose) -> PoseInFrames,
+) -> Sheet {
+    let convention = &Convention { record: convention, write };
     let mut out = Sheet::new();
     let name = &r.name;
     if let Some(regular) = &r.regular {
         let region = if of_the_design { "workspace" } else { "region of --box" };
-        let at = place(regular.pose.as_ref());
+        let names = convention.names();
+        let at = regular.pose.as_ref().map_or_else(|| "any".to_owned(), |found| convention.pose(found));
         match regular.status {
             RegularityWord::Proved => say!(out, "{name}: no singular pose in the {region}, proved."),
             RegularityWord::ChangesSign => {
                 say!(
                     out,
-                    "{name}: the {region} holds a singular pose, proved. det J changes its sign on the way to {POSE} = {at}."
+                    "{name}: the {region} holds a singular pose, proved. det J changes its sign on the path to {names} = {at}."
                 );
             }
             RegularityWord::Undecided => {
                 say!(
                     out,
-                    "{name}: undecided whether the {region} holds a singular pose, near {POSE} = {at}; more --cells may decide."
+                    "{name}: undecided whether the {region} holds a singular pose, near {names} = {at}; more --cells may decide."
                 );
             }
         }
@@ -40,7 +73,7 @@ pub fn singular_poses(r: &SingularitiesAnswer, of_the_design: bool) -> Sheet {
         if r.assembly_modes_accounted { "" } else { "; some may be missing" }
     );
     out.space();
-    out.table(judged(r));
+    out.table(judged(r, convention));
     r.path.iter().for_each(|found| path(&mut out, found));
     r.between.iter().for_each(|found| pairs(&mut out, found));
     out
@@ -52,7 +85,8 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
     let listed = |widths: [f64; 3], scale: f64| widths.map(|w| figure(w * scale)).join(", ");
     let widths = |scale: f64| {
         let (positions, angles) = (listed(b.translation, scale), listed(b.rotation_deg, scale));
-        format!("({positions}) {} and ({angles}) deg of the rotation vector", r.units)
+        let unit = if r.units == "1" { String::new() } else { format!(" {}", r.units) };
+        format!("({positions}){unit} and ({angles}) deg of the rotation vector")
     };
     let shape = b.region.name();
     if !(b.proved_scale.0 > 0.0) {
@@ -82,11 +116,12 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
 }
 
 /// A row for the pose and for each assembly mode.
-fn judged(r: &SingularitiesAnswer) -> Table {
+fn judged(r: &SingularitiesAnswer, convention: &Convention<'_>) -> Table {
+    let title = format!("{} [{}]", convention.names(), convention.record.angles);
     let columns = [left("", 8), right("det J", 8).gap(2), right("conditioning", 0).gap(2)];
-    let mut table = Table::new(columns.into_iter().chain([left(format!("{POSE} [deg]"), 0).gap(2)]));
+    let mut table = Table::new(columns.into_iter().chain([left(title, 0).gap(2)]));
     let mut row = |name: String, j: &JudgedPoseRecord| {
-        table.row([name, figure(j.determinant.0), figure(j.inverse_condition.0), pose(&j.pose)]);
+        table.row([name, figure(j.determinant.0), figure(j.inverse_condition.0), convention.pose(&j.pose)]);
     };
     row("pose".into(), &r.pose);
     for (k, mode) in r.assembly_modes.iter().enumerate() {

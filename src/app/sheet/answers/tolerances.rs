@@ -9,9 +9,9 @@ use records::{
     TrialsRecord, WorkspaceWord,
 };
 
-/// The answer of `build tolerances` about a design of this name.
+/// The answer of `build tolerances` about a design of this name; `margins`: the place with the margins of the design.
 #[must_use]
-pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
+pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
     let units = &r.units;
     let mut out = Sheet::new();
     let [joint, coordinate] = [&r.all_joints_radius, &r.all_coordinates];
@@ -37,18 +37,19 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
     );
     say!(out, "{}", sentence(&r.solved, units));
     out.space();
-    out.table(joints(&r.joints));
+    out.table(joints(&r.joints, units));
     out.space();
-    for (what, e) in [("the budget", &r.worst_errors.in_budget), ("1.5 times it", &r.worst_errors.times_1_5)]
+    for (what, e) in
+        [("the budget", &r.worst_errors.in_budget), ("1.5 times the budget", &r.worst_errors.times_1_5)]
     {
         if let Some(e) = e {
             let (p, w) = (figure(e.position.0), figure(e.rotation_deg.0));
-            say!(out, "joints off by {what} in the worst way, solved: {p} {units}, {w} deg");
+            say!(out, "greatest pose error for joints off by {what}, solved: {p} {units}, {w} deg");
         }
     }
-    spread(&mut out, "random errors in the budget", &r.trials);
+    spread(&mut out, "random errors in the budget", &r.trials, units);
     if let Some(calibrated) = &r.calibrated {
-        spread(&mut out, "random errors with the covariance of the calibration", calibrated);
+        spread(&mut out, "random errors with the covariance of the calibration", calibrated, units);
     }
     if let Some(computed) = &r.calibrated_poses {
         computed_poses(&mut out, computed, units);
@@ -81,7 +82,7 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer) -> Sheet {
         }
     }
     out.space();
-    out.add(verdict(name, r.assessment.as_ref(), "equipod assess DESIGN"));
+    out.add(verdict(name, r.assessment.as_ref(), margins));
     out
 }
 
@@ -90,12 +91,12 @@ fn computed_poses(out: &mut Sheet, r: &CalibratedPosesRecord, units: &str) {
     let known = r.correlations == CorrelationsWord::Design;
     say!(
         out,
-        "\nstandard deviations of computed poses by what the calibration does not know, to first order, at {} poses, {}",
+        "\nstandard deviations of computed poses from the uncertainty of the calibration, to first order, at {} poses, {}",
         r.poses,
         if known {
             "with the correlations of the design file"
         } else {
-            "every coordinate and offset off for itself, since the design file has no correlations"
+            "with independent coordinates and offsets, since the design file has no correlations"
         }
     );
     for (what, unit, d) in [("position", units, &r.position), ("orientation", "deg", &r.rotation_deg)] {
@@ -115,12 +116,12 @@ fn computed_poses(out: &mut Sheet, r: &CalibratedPosesRecord, units: &str) {
 }
 
 /// The joints, the most critical first.
-fn joints(joints: &[JointBudgetRecord]) -> Table {
+fn joints(joints: &[JointBudgetRecord], units: &str) -> Table {
     let text = |title: &str, width| left(title, width).gap(2);
     let mut table = Table::new([
         left("most critical", 8),
         left("first", 12),
-        right("alone", 9),
+        right(in_units("alone", units), 9),
         text("worst direction", 22),
         right("pos/unit", 8).gap(2),
         right("deg/unit", 8).gap(2),
@@ -144,15 +145,22 @@ fn joints(joints: &[JointBudgetRecord]) -> Table {
     table
 }
 
+/// A title with its unit; designs without a unit have the label `1`.
+fn in_units(title: &str, units: &str) -> String {
+    if units == "1" { title.to_owned() } else { format!("{title} [{units}]") }
+}
+
 /// The exact check of the first-order radius.
 fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
     let radius = solved.radius.map_or_else(String::new, |r| {
-        format!("; solved, the worst errors found keep it with {} {units}", figure(r.0))
+        format!("; the worst errors found keep the bounds with {} {units}", figure(r.0))
     });
     match solved.largest_share {
-        _ if solved.within_bound => "Solved, no sampled error in this budget exceeds the bounds".into(),
+        _ if solved.within_bound => {
+            "Solved without linearisation: no sampled error in this budget exceeds the bounds".into()
+        }
         Some(share) => format!(
-            "The first order is too wide: solved, errors in the budget exceed the bounds by {} %{radius}",
+            "The first order is too wide: solved without linearisation, errors in the budget exceed the bounds by {} %{radius}",
             figure(100.0 * (share.0 - 1.0))
         ),
         None => format!("The first order is too wide: poses with errors in the budget were lost{radius}"),
@@ -160,7 +168,7 @@ fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
 }
 
 /// The effect of random errors on the pose.
-fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord) {
+fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord, units: &str) {
     say!(
         out,
         "\n{} {what}: {} within the bound, {} beyond it, {} lost\n",
@@ -170,7 +178,7 @@ fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord) {
         t.lost
     );
     let numbers = ["median", "90 %", "99 %", "max"].map(|title| right(title, 11));
-    let columns = [left("error of the pose", 28)].into_iter().chain(numbers);
+    let columns = [left(in_units("error of the pose", units), 28)].into_iter().chain(numbers);
     let rows = [
         ("nominal formula", &t.formula),
         ("  its first order is off by", &t.first_order_discrepancy),

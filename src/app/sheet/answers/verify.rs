@@ -20,13 +20,13 @@ pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     if let Some(polynomial) = &v.map.det_of_shares {
         say!(
             out,
-            "singular offsets: with any shares t of the edges that the leg ends of B are on, det A = {polynomial}, and B is singular where it is zero"
+            "singular offsets: det A = {polynomial} for offsets t of the leg ends of B along their edges; B is singular where it is zero"
         );
     }
     if v.samples.is_empty() {
         return out;
     }
-    let numbers = ["poses A", "poses B", "matched", "real", "certified", "worst distance"];
+    let numbers = ["poses A", "poses B", "matched", "real", "certified", "worst distance (relative)"];
     let columns = [right("sample", 0)].into_iter().chain(numbers.map(|title| right(title, 0).gap(2)));
     let mut table = Table::new(columns.chain([left("", 0).gap(2)]));
     for (k, s) in v.samples.iter().enumerate() {

@@ -33,26 +33,26 @@ static CRANK: KeyTable<CrankKeys> = KeyTable {
         key!("length": quantity_of(unit::LENGTH),
             |found, to| to.written.length = one(found, &mut to.places, 0),
             |of| of.written.length.as_ref().map(WrittenNumber::json);
-            "of each crank, from its centre to its tip"),
+            "length of each crank, from its centre to its tip"),
         key!("rod_length": quantity_of(unit::LENGTH),
             |found, to| to.written.rod_length = one(found, &mut to.places, 1),
             |of| of.written.rod_length.as_ref().map(WrittenNumber::json);
-            "of each rod, from the tip to the platform joint"),
+            "length of each rod, from the tip to the platform joint"),
         key!("axis": quantities(3, unit::NONE),
             |found, to| to.written.axis = three(found, &mut to.places, 2),
             |of| of.written.axis.as_ref().map(|list| stored::quantities(list));
-            "direction of the axis, base frame; angles count about it by the right hand"),
+            "direction of the axis, base frame; angles are positive by the right-hand rule"),
         key!("zero": quantities(3, unit::NONE),
             |found, to| to.written.zero = three(found, &mut to.places, 5),
             |of| of.written.zero.as_ref().map(|list| stored::quantities(list));
             "direction of the tip at the angle 0, base frame; its part along the axis is ignored"),
         key!("elbow": word(Elbow::words),
             |found, to| to.written.elbow = elbow(found), |of| of.written.elbow.written();
-            "the side that the crank stays on: the greater or the smaller of the two angles around the one at which the tip is nearest to the platform joint"),
+            "side of the crank: the greater (`plus`) or the smaller (`minus`) of its two angles for a pose, around the angle at which the tip is nearest to the platform joint"),
         key!("angle_deg": quantities(2, unit::DEGREES),
             |found, to| to.written.angle_deg = range(found, &mut to.places),
             |of| of.written.angle_deg.as_ref().map(|list| stored::quantities(list));
-            "`[least, greatest]` angle, degrees; none when absent"),
+            "`[least, greatest]` angle, degrees; no limit when absent"),
     ],
     ..KeyTable::EMPTY
 };

@@ -36,12 +36,12 @@ const SMALLEST: f64 = 1e-60;
 /// The keys of a design. Tables are read and written in a separate order, since some depend on others.
 pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
     keys: &[
-        key!("name" { required = "add `name = \"...\"` at the top" }: TEXT, name; "of the design, not blank"),
+        key!("name" { required = "add `name = \"...\"` at the top" }: TEXT, name; "name of the design, not blank"),
         key!("units" { required = "add `units = \"mm\"` (a label; all lengths are in it) at the top" }: TEXT, units;
-            "label of the length unit; every length of the file is in it"),
+            "label of the length unit of every length in the file"),
         key!("force_units": word(ForceUnit::words), force_units;
-            "unit of all forces, newtons where none is named; torques are in it times the length unit"),
-        key!("mass_units": word(MassUnit::words), mass_units; "unit of all masses; kilograms where none is named"),
+            "unit of all forces, default newtons; torques are in force units times the length unit"),
+        key!("mass_units": word(MassUnit::words), mass_units; "unit of all masses, default kilograms"),
         key!("source": TEXT, source; "where the numbers come from"),
         key!("description": TEXT, description; "free text"),
         key!("revision": TEXT, revision; "revision of the design, as drawings and parts name it"),
@@ -69,7 +69,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
                 FRAMES.read(found.report, &found.entry.node, "[frames]", &mut to.frames);
             },
             |of| FRAMES.put(&of.frames);
-            "the machine's own convention for poses that commands take and answer"),
+            "convention of the poses that commands read and write"),
         key!("workspace": table(&WORKSPACE), |_, _| (), |of| Some(&of.workspace).filter(|w| **w != Workspace::default()).and_then(|w| WORKSPACE.put(w));
             "the poses to reach"),
         key!("optimize": table(&OPTIMIZE), |_, _| (), |of| OPTIMIZE.put(&OptimizeKeys::of(of));

@@ -20,7 +20,7 @@ use platform::pentapod::{Pentapod, RationalPoint};
 /// The keys of a design of five legs.
 static TOP: KeyTable<FiveLegs> = KeyTable {
     keys: &[
-        key!("name": TEXT, name; "of the design, not blank"),
+        key!("name": TEXT, name; "name of the design, not blank"),
         key!("units": TEXT, units; "label of the length unit"),
         key!("source": TEXT, source; "where the numbers come from"),
         key!("description": TEXT, description; "free text"),

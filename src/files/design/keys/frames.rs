@@ -15,14 +15,14 @@ const ORDER: KeyKind = own(
 pub(super) static FRAMES: KeyTable<PoseConvention> = KeyTable {
     keys: &[
         key!("rotation_order" { default = r#""fixed-xyz""# }: ORDER, rotation_order;
-            "order of the turns of three angles: `fixed-xyz` (`R = Rz Ry Rx`), `moving-xyz` (`R = Rx Ry Rz`) or any other axes; `rpy`, `pi` and `rubin` by name; `vector`: a rotation vector"),
+            "order of the three rotations: `fixed-xyz` (`R = Rz Ry Rx`), `moving-xyz` (`R = Rx Ry Rz`) or any other axes; `rpy`, `pi` and `rubin` by name; `vector`: a rotation vector"),
         key!("angles" { default = r#""deg""# }: word(AngleUnit::words), angles; "unit of angles"),
         key!("quaternion" { default = r#""wxyz""# }: word(QuaternionOrder::words), quaternion;
             "order of quaternions, scalar first or last"),
         key!("pivot" { default = "[0, 0, 0]" }: vector(unit::LENGTH), pivot;
-            "the point of the platform whose position a pose states, platform frame, such as the tool"),
+            "the point of the platform whose position a pose gives, platform frame, such as the tool"),
         key!("relative_to" { default = r#""base""# }: word(ListedFrom::words), relative_to;
-            "poses count from home, along the axes of the base, or are in the base frame"),
+            "`home`: poses are displacements from home along the axes of the base; `base`: poses are in the base frame"),
         key!("up" { default = r#""z""# }: word(UpAxis::words), up;
             "the axis that points up: `y` means that (x, y, z) of poses and pivot are (x, -z, y) of the joints"),
     ],

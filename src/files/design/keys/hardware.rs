@@ -49,12 +49,12 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
         key!("joint_diameter": positive(unit::LENGTH), hardware.joint_diameter;
             "diameter of the sphere that a joint occupies, both bodies"),
         key!("base_housing": HOUSING, hardware.base_housing;
-            "the same for the base: a diameter, or edge lengths of a box along the axes of the body"),
-        key!("platform_housing": HOUSING, hardware.platform_housing; "the same for the platform"),
+            "space of a base joint: a diameter, or edge lengths of a box along the axes of the body"),
+        key!("platform_housing": HOUSING, hardware.platform_housing; "space of a platform joint, as `base_housing`"),
         key!("leg_diameter": positive(unit::LENGTH),
             |found, to| to.hardware.leg_body = found.number().map(|diameter| LegBody { diameter, rod: None }),
             |of| of.hardware.leg_body?.diameter.written();
-            "diameter of the leg; with `cylinder_length` and `rod_diameter` that of a cylinder from the base joint, which a rod follows"),
+            "diameter of the leg; with `cylinder_length` and `rod_diameter`, diameter of its cylinder, which starts at the base joint"),
         key!("rod_diameter" { needs = &["cylinder_length", "leg_diameter"] }: positive(unit::LENGTH),
             |found, to| {
                 let diameter = found.number();
@@ -88,10 +88,10 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
             "greatest angle between a leg and the axis of its platform joint"),
         key!("base_axes" { default = r#""home""# }: AXES,
             |found, to| to.base_axes = joint_axes(found), |of| axes_json(of.base_axes?);
-            "along the legs at home, along the normal of the plane of the joints, chosen by the optimiser, or vectors in the frame of the base that point from base to platform: one for all joints, or six in leg order, each a vector or `normal`"),
+            "directions of the joint axes: along the legs at home, along the normal of the plane of the joints, chosen by the optimiser, or vectors in the frame of the base that point from base to platform: one for all joints, or six in leg order, each a vector or `normal`"),
         key!("platform_axes" { default = r#""home""# }: AXES,
             |found, to| to.platform_axes = joint_axes(found), |of| axes_json(of.platform_axes?);
-            "the same for the platform, in its frame"),
+            "directions of the joint axes of the platform, as `base_axes`, platform frame"),
         key!("base_joint": JOINT_MODELS,
             |found, to| to.base_joint = joint_models::models(found).unwrap_or_default(),
             |of| joint_models::written(&of.hardware, Body::Base);
@@ -99,7 +99,7 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
         key!("platform_joint": JOINT_MODELS,
             |found, to| to.platform_joint = joint_models::models(found).unwrap_or_default(),
             |of| joint_models::written(&of.hardware, Body::Platform);
-            "the same for the platform"),
+            "kinds of the platform joints, as `base_joint`"),
         key!("screw_lead" { default = "0" }: any(unit::LENGTH), hardware.screw_lead;
             "growth of a leg when its platform end makes one turn against its base end, right-handed about the direction from base to platform; needs universal joints at both ends"),
         key!("max_leg_force": positive(unit::FORCE), hardware.max_leg_force;
@@ -111,15 +111,15 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
         key!("cylinder_mass" { needs = &["cylinder_center"] }: positive(unit::MASS), cylinder.mass;
             "mass of the part that rotates about the base joint, mass units"),
         key!("cylinder_center" { needs = &["cylinder_mass"] }: not_negative(unit::LENGTH), cylinder.center;
-            "distance of its centre of mass from the base joint"),
+            "distance of the cylinder's centre of mass from the base joint"),
         key!("cylinder_inertia" { needs = &["cylinder_mass"] }: not_negative(unit::INERTIA), cylinder.inertia;
-            "its moment of inertia about an axis across the leg through that centre, mass units times the square of the length unit; without it that of a thin rod from the joint with this middle, `m c^2 / 3`"),
+            "moment of inertia of the cylinder about an axis across the leg through its centre of mass, mass units times length units squared; default: a thin rod from the joint with this centre, `m c^2 / 3`"),
         key!("rod_mass" { needs = &["rod_center"] }: positive(unit::MASS), rod.mass;
             "mass of the part that slides in the cylinder, mass units"),
         key!("rod_center" { needs = &["rod_mass"] }: not_negative(unit::LENGTH), rod.center;
-            "distance of its centre of mass from the platform joint"),
+            "distance of the rod's centre of mass from the platform joint"),
         key!("rod_inertia" { needs = &["rod_mass"] }: not_negative(unit::INERTIA), rod.inertia;
-            "the same for the rod as `cylinder_inertia`"),
+            "moment of inertia of the rod, as `cylinder_inertia`"),
         key!("reflected_mass": positive(unit::MASS), reflected_mass;
             "inertia of the rotating parts of the drive, as a mass that moves along the leg"),
         key!("drives": TEXT, drives;

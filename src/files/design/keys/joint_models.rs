@@ -67,21 +67,21 @@ static JOINT: KeyTable<JointKeys> = KeyTable {
     definition: "joint_model",
     keys: &[
         key!("model" { required = "add model = \"universal\", \"flexure\" or \"ball\"" }: word(JointType::words), model;
-            "`ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing"),
+            "`ball`: rotates freely in a cone; `universal`: two axes, the first fixed in the body, the second at a right angle to it and to the leg; `flexure`: bends about its centre, within the cone angle"),
         key!("first_axis": either(&[vector(unit::NONE), list_of(6, &vector(unit::NONE))]),
             |found, to| to.first_axes = first_axes(found, to.is_of_all),
             |of| Some(first_axes_json(&of.first_axes?));
-            "universal: direction of the first axis in the frame of the body, one for all joints or six in leg order, in a list of tables one; required"),
+            "universal: direction of the first axis in the frame of the body, one for all joints or six in leg order, and one in each table of a list; required"),
         key!("angle_deg": TWO_ANGLES,
             |found, to| to.limits_deg = limits(found.report, found.entry), |of| of.limits_deg.written();
-            "universal: greatest angles about the first and about the second axis, either way, degrees; none when absent"),
+            "universal: greatest angles about the first and about the second axis, in both directions, degrees; no limit when absent"),
         key!("offset" { default = "0" }: not_negative(unit::LENGTH),
             |found, to| found.fill(&mut to.offset), |of| Some(of.offset).filter(|x| *x != 0.0).written();
             "universal: distance of the two axes, which meet when it is 0"),
         key!("housing": HOUSING, housing;
-            "space that the joint occupies, in place of that of the body: a diameter, or edge lengths of a box along the axes of the body"),
+            "space that the joint occupies, in place of the housing of the body: a diameter, or edge lengths of a box along the axes of the body"),
         key!("swing_deg": angle(Range::HalfTurn), swing_deg;
-            "greatest angle between the leg and the axis of the joint, in place of that of the body (`base_swing_deg`, `platform_swing_deg`)"),
+            "greatest angle between the leg and the axis of the joint, in place of the angle of the body (`base_swing_deg`, `platform_swing_deg`)"),
         key!("bending_stiffness": positive(unit::TORQUE), bending;
             "flexure: torque over angle, force units times design units per radian; required"),
     ],

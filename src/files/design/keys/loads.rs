@@ -16,8 +16,8 @@ use platform::manipulator::Body;
 
 pub(super) static SPEED: KeyTable<PlatformSpeed> = KeyTable {
     keys: &[
-        key!("linear": not_negative(unit::SPEED), linear; "of the platform origin, design units per second"),
-        key!("angular_deg": not_negative(unit::DEGREES), angular_deg; "degrees per second"),
+        key!("linear": not_negative(unit::SPEED), linear; "speed of the platform origin, design units per second"),
+        key!("angular_deg": not_negative(unit::DEGREES), angular_deg; "angular speed of the platform, degrees per second"),
     ],
     ..KeyTable::EMPTY
 };
@@ -32,11 +32,11 @@ pub(super) fn speed(report: &mut Findings<'_>, top: &[Entry]) -> Option<Platform
 pub(super) static STIFFNESS: KeyTable<PlatformStiffness> = KeyTable {
     keys: &[
         key!("linear": positive(unit::STIFFNESS), linear;
-            "least stiffness against a force through the platform origin in the softest direction, the platform free to turn, force units per design unit"),
+            "least stiffness against a force through the platform origin in the softest direction, the platform free to rotate, force units per design unit"),
         key!("angular": positive(unit::TORQUE), angular;
             "least stiffness against a torque about the softest axis, the platform origin free to move, force units times design units per radian"),
         key!("natural_frequency": positive(unit::NONE), natural_frequency;
-            "least natural frequency of `[payload]` and legs, hertz; `units` is then a unit of length that is known"),
+            "least natural frequency of `[payload]` and legs, hertz; needs a known unit of length"),
     ],
     ..KeyTable::EMPTY
 };
@@ -76,12 +76,12 @@ const FIXED_TO: KeyKind = word(Body::words);
 
 pub(super) static LOAD: KeyTable<Load> = KeyTable {
     keys: &[
-        key!("name": TEXT, name; "for answers"),
-        key!("force" { default = "[0, 0, 0]" }: vector(unit::FORCE), force; "force units"),
+        key!("name": TEXT, name; "name of the load in answers"),
+        key!("force" { default = "[0, 0, 0]" }: vector(unit::FORCE), force; "force, force units"),
         key!("torque" { default = "[0, 0, 0]" }: vector(unit::TORQUE), torque;
-            "force units times design units"),
+            "torque, force units times design units"),
         key!("at" { default = "[0, 0, 0]" }: vector(unit::LENGTH), at;
-            "where the force acts, platform frame"),
+            "point of application of the force, platform frame"),
         key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
             "body whose axes force and torque follow; a weight follows the base"),
     ],
@@ -133,9 +133,9 @@ pub(super) struct KeepOutKeys {
 
 pub(super) static KEEP_OUT: KeyTable<KeepOutKeys> = KeyTable {
     keys: &[
-        key!("name": TEXT, name; "for answers"),
+        key!("name": TEXT, name; "name of the body in answers"),
         key!("fixed_to" { default = r#""base""# }: FIXED_TO, fixed_to;
-            "body that gives its frame and that it moves with"),
+            "body whose frame it is in and that it moves with"),
         key!("box": table_of(&BOX),
             |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
             "edges along the axes of the frame"),

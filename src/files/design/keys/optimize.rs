@@ -57,9 +57,9 @@ const OBJECTIVE: KeyKind = own(r##"{"$ref": "#/$defs/objective"}"##, unit::NONE)
 pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
     keys: &[
         key!("min_joint_distance": positive(unit::LENGTH), limits.min_joint_distance;
-            "least distance of joint centres of a body, design units; left to the optimiser where it is absent"),
+            "least distance of joint centres of a body, design units; chosen by the optimiser when absent"),
         key!("min_abs_det": positive(unit::NONE), limits.min_abs_det;
-            "least `|det A|`; left to the optimiser where it is absent"),
+            "least `|det A|`; chosen by the optimiser when absent"),
         key!("characteristic_length": positive(unit::LENGTH), limits.characteristic_length;
             "length that divides moments in the Jacobian, design units; else the RMS distance of the platform joints from their centroid"),
         key!("variables" { default = r#"["offsets"]"# }: list_of(&word(VariableKind::words)),
@@ -69,7 +69,7 @@ pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
         key!("symmetry": word(KeptSymmetry::words),
             |found, to| to.search.symmetry = named(found.report, &found.entry.node, "a symmetry"),
             |of| of.search.symmetry.written();
-            "of the platform found: `three_fold` takes turns by 120 degrees at home, which the design has to have (offsets alternate, triangles change in size alone, two kinds of leg at most); `mirror` is refused, since no regular platform without shared joints has a mirror plane; where the key is absent `three_fold` is tried first for a design that has it, and `none` is taken otherwise"),
+            "symmetry of the platform found: `three_fold` keeps the symmetry of the design under rotations by 120 degrees at home (alternating offsets, triangles that change only in size, at most two kinds of leg); `mirror` is refused, because no regular platform without shared joints has a mirror plane; when absent, `three_fold` is tried first if the design has it, then `none`"),
         key!("objective" { default = r#""worst_conditioning""# }: OBJECTIVE,
             |found, to| to.objective = objective(found.report, &found.entry.node), |_| None;
             "objective of the search"),
@@ -83,9 +83,9 @@ pub(super) static OPTIMIZE: KeyTable<OptimizeKeys> = KeyTable {
         key!("mode" { default = r#""weighted""# }: word(WeighingMode::words),
             |found, to| to.mode = named(found.report, &found.entry.node, "a mode"),
             |of| of.mode.written();
-            "how several objectives are weighed: by their weights, in the order of the list, or as a front"),
+            "combination of several objectives: weighted sum, order of the list, or Pareto front"),
         key!("slack" { default = "0.01" }: positive(unit::NONE), slack;
-            "share of the earlier levels that later ones may give up, with `lexicographic`"),
+            "with `lexicographic`: share of an earlier objective that a later one may give up"),
         key!("points" { default = "10" }: whole(2, 100),
             |found, to| to.points = points(found), |of| Some(json!(of.points?));
             "steps of the front, with `pareto`"),

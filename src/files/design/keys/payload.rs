@@ -18,26 +18,26 @@ const MOMENTS: KeyKind =
 pub(super) static PAYLOAD: KeyTable<Payload> = KeyTable {
     keys: &[
         key!("mass" { required = "add mass = 100.0" }: positive(unit::MASS), mass;
-            "mass units, kilograms where none are named, with the platform itself unless `plate` says otherwise"),
+            "mass of payload and platform, mass units (default kilograms); `plate` tells whether it includes the plate"),
         key!("center" { default = "[0, 0, 0]" }: vector(unit::LENGTH), center;
             "centre of mass, platform frame"),
         key!("inertia": MOMENTS,
             |found, to| to.inertia = inertia(found), |of| of.inertia.as_ref().map(rows);
-            "about the centre of mass, axes of the platform frame, mass units times length units squared: principal moments, or rows"),
-        key!("gravity" { default = "[0, 0, -9.80665]" }: vector(unit::NONE), gravity; "base frame, m/s^2"),
+            "inertia about the centre of mass, axes of the platform frame, mass units times length units squared: principal moments, or rows of the matrix"),
+        key!("gravity" { default = "[0, 0, -9.80665]" }: vector(unit::NONE), gravity; "acceleration of gravity, base frame, m/s^2"),
         key!("plate" { default = r#""included""# }: word(PlateMass::words).placed(),
             |found, to| found.fill(&mut to.plate),
             |of| Some(of.plate.json()).filter(|_| of.plate != PlateMass::Included);
-            "whether `mass`, `center` and `inertia` have the plate of `[plates.platform]` in them, or it comes on top"),
+            "whether `mass`, `center` and `inertia` include the plate of `[plates.platform]`, or the program adds it"),
         key!("box": table(&BOX),
             |found, to| to.shape = shape(found), |of| written(of.shape.as_ref(), "box");
-            "the space it occupies, which the legs keep clear of: edges along the axes of the platform frame"),
+            "space of the payload, which legs keep clear of: a box along the axes of the platform frame"),
         key!("sphere": table(&SPHERE),
             |found, to| if to.shape.is_none() {
                 to.shape = shape(found);
             },
             |of| written(of.shape.as_ref(), "sphere");
-            "the same as a ball"),
+            "space of the payload, which legs keep clear of: a ball"),
     ],
     rules: r#"{"not": {"required": ["box", "sphere"]}}"#,
     ..KeyTable::EMPTY

@@ -60,8 +60,8 @@ const PLATE_KIND: KeyKind = table(&PLATE);
 
 pub(super) static PLATES: KeyTable<Plates> = KeyTable {
     keys: &[
-        key!("base": PLATE_KIND, |_, _| (), |of| PLATE.put(of.base.as_ref()?); "of the base"),
-        key!("platform": PLATE_KIND, |_, _| (), |of| PLATE.put(of.platform.as_ref()?); "of the platform"),
+        key!("base": PLATE_KIND, |_, _| (), |of| PLATE.put(of.base.as_ref()?); "plate of the base"),
+        key!("platform": PLATE_KIND, |_, _| (), |of| PLATE.put(of.platform.as_ref()?); "plate of the platform"),
     ],
     rules: r#"{"minProperties": 1}"#,
     ..KeyTable::EMPTY

@@ -15,10 +15,10 @@ use platform::geom::Pose;
 
 const QUATERNION: KeyKind = own(r##"{"$ref": "#/$defs/quaternion"}"##, unit::NONE);
 const ROWS: KeyKind = own(r##"{"$ref": "#/$defs/rows"}"##, unit::NONE);
-const POSITION: &str = "of the platform origin, base frame";
-const RPY: &str = "roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz` and `rotation` is there";
-const QUAT: &str = "scalar part first, of norm 1 within 1e-3; it is normalised";
-const ROTATION: &str = "rows of R, orthonormal within 1e-9 and right-handed; taken as it is";
+const POSITION: &str = "position of the platform origin, base frame";
+const RPY: &str = "roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; give exactly one of `rpy_deg`, `quat_wxyz` and `rotation`";
+const QUAT: &str = "quaternion, scalar part first, normalised; its norm is within 1e-3 of 1";
+const ROTATION: &str = "rows of R, orthonormal within 1e-9 and right-handed";
 const ONE_ROTATION: &str = r#"{
     "required": ["position"],
     "oneOf": [{"required": ["rpy_deg"]}, {"required": ["quat_wxyz"]}, {"required": ["rotation"]}]

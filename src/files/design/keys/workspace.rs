@@ -49,7 +49,7 @@ pub(super) static WORKSPACE: KeyTable<Workspace> = KeyTable {
         key!("relative_to" { default = r#""base""# }: word(ListedFrom::words),
             |found, to| found.fill(&mut to.listed_from),
             |of| Some(of.listed_from.json()).filter(|_| of.listed_from != ListedFrom::default());
-            "reference of poses and trajectory: home, (R, p) meaning (R R_home, p_home + p), so that they move with it, or the base frame"),
+            "reference of poses and trajectory: `home`, so that (R, p) means (R R_home, p_home + p), or the base frame"),
     ],
     ..KeyTable::EMPTY
 };

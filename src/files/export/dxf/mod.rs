@@ -27,7 +27,7 @@ impl Writer for Dxf {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "legs, and heights of joints out of the plane of the plate other than as text"
+        "legs; heights of joints above the plate are text only"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {

@@ -31,7 +31,7 @@ impl Writer for StepFile {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "joints as constraints: the parts stand at home; a joint is drawn as a ball whatever its kind, which its part names, and inside the box of its housing where it has one; legs that share a ball run into each other near it"
+        "joint constraints: the parts stand at home; every joint is drawn as a ball, inside its housing box if it has one, and its part name states its kind; legs at a shared ball overlap near it"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {

@@ -177,7 +177,7 @@ pub struct CommonPoints {
     /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not
     /// counted.
     pub at_infinity: Option<usize>,
-    /// A bound on the probability that the numbers are others.
+    /// A bound on the probability that the numbers are wrong.
     pub error_probability: f64,
 }
 

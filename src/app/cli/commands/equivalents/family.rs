@@ -118,7 +118,7 @@ fn original(design: &Design) -> Result<Original, Failure> {
             let message =
                 format!("{} is neither octahedral nor made from an octahedral platform{why}", design.name);
             return Err(Failure::refused("family::not_octahedral", message).with_help(format!(
-                "the class is that of a design with three joints on each body and two legs at each joint, or with its joints on the sides of two triangles; {NEAREST} {GENERAL}"
+                "give a design with three joints on each body and two legs at each joint, or with its joints on the sides of two triangles; {NEAREST} {GENERAL}"
             )));
         }
     };

@@ -67,7 +67,7 @@ pub(crate) struct FkArgs {
     /// Add the complex poses to --csv
     #[arg(long, requires = "csv")]
     all: bool,
-    /// List only real poses that meet the requirements of the design; --json says it of each pose
+    /// List only real poses that meet the requirements of the design; --json marks all poses
     #[arg(long)]
     limits: bool,
     #[command(flatten)]

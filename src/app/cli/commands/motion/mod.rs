@@ -280,7 +280,7 @@ pub(in crate::app::cli::commands) fn metres(label: Option<&str>, design: &Design
         None => LengthUnit::of(&design.units).map_err(|e| {
             let message = format!("the units of the design cannot be used: {e}");
             Failure::refused("motion::unknown_unit", message)
-                .with_help("`--unit mm` says what one unit of the design is")
+                .with_help("state the unit of the design, such as `--unit mm`")
         })?,
     };
     Ok(unit.metres)

@@ -148,8 +148,8 @@ fn refusal(why: &InvalidProblem) -> Failure {
              [\"triangle_sizes\"] (sizes of base and platform), or \"home_height\", \"joint_axes\"; {NEAREST} {GENERAL}"
         )),
         InvalidProblem::NoFamily => failed("optimize::invalid_problem").with_help(format!(
-            "variables = [\"triangle_sizes\"] (sizes of base and platform), [\"home_height\"] or [\"joint_axes\"] in [optimize] need no family, \
-             and make other platforms than equivalent ones; {NEAREST} {GENERAL}"
+            "variables = [\"triangle_sizes\"] (sizes of base and platform), [\"home_height\"] or [\"joint_axes\"] in [optimize] work without a family, \
+             but the platforms are not equivalent to the design; {NEAREST} {GENERAL}"
         )),
         _ => failed("optimize::invalid_problem"),
     }

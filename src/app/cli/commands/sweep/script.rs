@@ -62,7 +62,8 @@ pub(crate) fn run(args: &SweepScriptArgs, context: &mut Context) -> Result<Answe
             files::write_text(path, &script)?;
             let output = path.display().to_string();
             let text = format!(
-                "wrote {output}: {shards} shards of about {:.1} min; `bash {output}` submits them\n",
+                "wrote {output}: {shards} {} of about {:.1} min; `bash {output}` submits the sweep\n",
+                if shards == 1 { "shard" } else { "shards" },
                 seconds / 60.0 / shards as f64
             );
             (SweepDesignFile::Written { output }, text)

@@ -283,6 +283,7 @@ pub(crate) fn run(args: &BuildTolerancesArgs, context: &mut Context) -> Result<A
     }
     let path = args.map.as_ref().map(|path| path.display().to_string());
     let record = render::record(&design, &found, context.seed(), path);
-    let text = sheet::answers::tolerances(&design.name, &record);
+    let margins = format!("equipod assess {}", args.design.display());
+    let text = sheet::answers::tolerances(&design.name, &record, &margins);
     Ok(Answer::new(Exit::Yes, record, text))
 }

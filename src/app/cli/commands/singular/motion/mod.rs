@@ -19,14 +19,15 @@ use synthesis::singularity::{CurveEnd, MotionOptions};
 /// Arguments of `singular motion`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SingularMotionArgs {
-    #[command(flatten)]
-    question: CurveQuestion,
     /// Write the poses as a table
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
     /// Write an animated picture of the longest curve
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
+    // the heading of its last options would hold for all options behind it
+    #[command(flatten)]
+    question: CurveQuestion,
 }
 
 /// The curves to trace.

@@ -106,7 +106,7 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
     let joins = JoinOptions { samples: args.samples, seed };
     let between = args.between.then(|| report.between(&design, &joins));
     let found = SingularPoses { report, of_the_design: args.shape.is_none(), path, between };
-    Ok(render::answer(&design, &found))
+    Ok(render::answer(&design, &found, &frames))
 }
 
 /// The half widths of `--box`.

@@ -2,9 +2,11 @@
 
 use super::{SingularPoses, paths};
 use crate::app::cli::output::Answer;
-use ask::{Design, PoseFigures};
+use ask::{Design, PoseFigures, PoseFrames};
+use platform::geom::Pose;
 use records::{
-    JudgedPoseRecord, Number, RegularBoxRecord, RegularityRecord, ScaledPoseRecord, SingularitiesAnswer,
+    JudgedPoseRecord, Number, PoseConventionRecord, PoseInFrames, RegularBoxRecord, RegularityRecord,
+    ScaledPoseRecord, SingularitiesAnswer,
 };
 
 fn judged(j: &PoseFigures) -> JudgedPoseRecord {
@@ -16,8 +18,8 @@ fn judged(j: &PoseFigures) -> JudgedPoseRecord {
     }
 }
 
-/// The answer.
-pub(super) fn answer(design: &Design, found: &SingularPoses) -> Answer {
+/// The answer, with poses in the convention of the command.
+pub(super) fn answer(design: &Design, found: &SingularPoses, frames: &PoseFrames) -> Answer {
     let report = &found.report;
     let regular = &report.regular;
     let record = SingularitiesAnswer {
@@ -42,6 +44,8 @@ pub(super) fn answer(design: &Design, found: &SingularPoses) -> Answer {
         path: found.path.as_ref().map(paths::path_record),
         between: found.between.as_ref().map(paths::pairs_record),
     };
-    let sheet = sheet::answers::singular_poses(&record, found.of_the_design);
+    let write = |pose: &Pose| PoseInFrames::from(&frames.write(pose));
+    let convention = PoseConventionRecord::from(&frames.convention);
+    let sheet = sheet::answers::singular_poses(&record, found.of_the_design, &convention, &write);
     Answer::new(report.is_regular().into(), record, sheet)
 }
