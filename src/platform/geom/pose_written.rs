@@ -68,7 +68,7 @@ impl From<&WrittenPose> for PoseInFrames {
 /// A convention for poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseConventionRecord {
-    /// Order of the rotations: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried along, or
+    /// Order of the rotations: `fixed-xyz` and the like for fixed axes, `moving-xyz` for moving axes, or
     /// `vector` for rotation vectors.
     pub rotation_order: String,
     /// The rotation as a product of matrices for the three angles a, b, c in their order.

@@ -9,7 +9,7 @@ use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
-use ::files::export::{SurfaceFormat, SurfaceFile};
+use ::files::export::{SurfaceFile, SurfaceFormat};
 use ask::{Design, PoseFrames, RAYS};
 use machine::reach::{NearestPoseOptions, ReachedSurface};
 use machine::requirements::Limit;
