@@ -195,7 +195,7 @@ fn the_chair_is_hung_again_without_missing_a_worst_pose() {
     assert!((height - shipped).abs() < 1e-2, "{height} for {shipped}");
 }
 
-/// A row `| code | start | result |`: both values, and half a unit of their last digits.
+/// A row `| requirement | start | result |`: both values, and half a unit of their last digits.
 type Quoted = (String, [f64; 2], [f64; 2]);
 
 /// The tables of the page by start and result, the files in their first lines.
@@ -207,7 +207,7 @@ fn quoted() -> BTreeMap<(String, String), Vec<Quoted>> {
         if line.starts_with("| requirement | `") {
             let names: Vec<&str> = line.split('`').skip(1).step_by(2).collect();
             files = Some((names[0].to_string(), names[1].to_string()));
-        } else if let (Some(rest), Some(key)) = (line.strip_prefix("| `"), &files) {
+        } else if let (Some(rest), Some(key)) = (line.strip_prefix("| "), &files) {
             let cells: Vec<&str> = rest.split('|').map(str::trim).collect();
             let number = |k: usize| {
                 let text = cells[k].split(' ').next().unwrap();
@@ -215,8 +215,8 @@ fn quoted() -> BTreeMap<(String, String), Vec<Quoted>> {
                 (text.parse::<f64>().unwrap(), 0.5 * 10_f64.powi(-i32::try_from(digits).unwrap()))
             };
             let (a, b) = (number(1), number(2));
-            let code = cells[0].trim_end_matches('`').to_string();
-            out.entry(key.clone()).or_default().push((code, [a.0, b.0], [a.1, b.1]));
+            let name = cells[0].trim_matches('`').to_string();
+            out.entry(key.clone()).or_default().push((name, [a.0, b.0], [a.1, b.1]));
         } else if line.starts_with('#') {
             files = None;
         }
@@ -253,11 +253,11 @@ fn the_page_quotes_the_margins_and_objectives_of_the_program() {
         // as the command does
         let found = designs.each_ref().map(|d| assessed(d, &AssessOptions::new().seed(1)));
         for margin in &found[1] {
-            let code = margin.term.kind.code();
-            assert!(rows.iter().any(|r| r.0 == code), "{result}: {code} is not quoted");
+            let name = margin.term.kind.label();
+            assert!(rows.iter().any(|r| r.0 == name), "{result}: {name} is not quoted");
         }
-        for (code, values, half) in rows {
-            let named = code.strip_prefix("objective ");
+        for (name, values, half) in rows {
+            let named = name.strip_prefix("objective ");
             let named = named.map(|n| Objective::ALL.into_iter().find(|o| o.code() == n).unwrap());
             for k in 0..2 {
                 let (value, allowed) = if let Some(o) = named {
@@ -265,8 +265,8 @@ fn the_page_quotes_the_margins_and_objectives_of_the_program() {
                     (objective(&designs[0], &designs[k], o), 0.03 * values[k].abs())
                 } else {
                     let least = |all: &[Margin]| {
-                        let margin = all.iter().find(|m| m.term.kind.code() == code);
-                        margin.unwrap_or_else(|| panic!("{result}: {code}")).value
+                        let margin = all.iter().find(|m| m.term.kind.label() == name);
+                        margin.unwrap_or_else(|| panic!("{result}: {name}")).value
                     };
                     let (value, allowed) = (least(&found[k]), half[k] + 1e-9);
                     // the command bounds margins by cells too, which find worse poses than points do: more points
@@ -276,7 +276,7 @@ fn the_page_quotes_the_margins_and_objectives_of_the_program() {
                 };
                 assert!(
                     (value - values[k]).abs() <= allowed,
-                    "{start}, {result}, {code}: {value} for {}",
+                    "{start}, {result}, {name}: {value} for {}",
                     values[k]
                 );
             }

@@ -73,7 +73,7 @@ impl HexapodSizes {
             format!("The base joints are {}.", body(0, 0.0)),
             format!("The platform joints are {}.", body(1, PLATFORM_TURN_DEG)),
             format!(
-                "The spread is the angle between the two joints of a pair; makers who pair the platform joints by the legs of a base pair state {} instead of {} degrees.",
+                "The spread is the angle between the joints of a pair on one body; makers who measure the platform between the two legs of a base pair write {} instead of {} degrees.",
                 self.other_reading().spread_deg[1],
                 self.spread_deg[1]
             ),

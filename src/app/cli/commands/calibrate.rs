@@ -220,9 +220,7 @@ fn reason(found: &Calibration) -> String {
     let (rank, unknowns) = (found.observability.rank, found.unknowns.count());
     match found.status {
         CalibrationStatus::Calibrated => {
-            format!(
-                "all {unknowns} unknowns are identified, and the residuals do not speak against the model"
-            )
+            format!("all {unknowns} unknowns are identified, and the residuals are consistent with the model")
         }
         CalibrationStatus::NotIdentifiable => {
             format!(

@@ -31,7 +31,7 @@ pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     if !answer.next_poses.is_empty() {
         say!(
             out,
-            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor on the standard deviations; greatest deviation afterwards",
+            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor by which it shrinks the deviations; greatest deviation left",
             if answer.calibration.is_some() { "next" } else { "first" },
             if answer.frames.is_usual() { "roll, pitch, yaw" } else { "a, b, c" },
             answer.frames.angles
