@@ -325,9 +325,11 @@ fn a_list_of_poses_is_judged_at_these_poses_and_not_between_them() {
     let poses =
         "{ position = [2, 0, 0], rpy_deg = [0, 0, 0] }, { position = [0, 2, 0], rpy_deg = [0, 0, 0] }";
     let (text, doc) = listed(poses, "");
-    assert!(text.contains("at the 2 poses listed; nothing is said between them"), "{text}");
+    assert!(text.contains("at the 2 poses listed; poses between them are not judged"), "{text}");
     assert!(
-        text.contains("No singular pose among the 2 poses listed: proved; nothing is said between them.")
+        text.contains(
+            "No singular pose among the 2 poses listed: proved; poses between them are not judged."
+        )
     );
     assert!(!text.contains("every pose") && !text.contains("in the workspace"), "{text}");
     assert_eq!((&doc["met"], &doc["judged"]["listed"]), (&true.into(), &2.into()));

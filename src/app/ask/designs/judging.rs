@@ -130,9 +130,9 @@ impl JudgedPoses {
 }
 
 /// The limitation of a list of poses.
-const BETWEEN: &str = "nothing is said between them";
+const BETWEEN: &str = "poses between them are not judged";
 /// The same limitation beside a region or a trajectory.
-const BETWEEN_LISTED: &str = "nothing is said between the poses listed";
+const BETWEEN_LISTED: &str = "motions between the poses listed are not judged by themselves";
 
 /// A number of poses in words.
 fn poses(n: usize) -> String {

@@ -3,7 +3,7 @@
 use super::poses::{POSE, place, pose};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
-use machine::requirements::MarginVerdict;
+use machine::requirements::{MarginVerdict, TermKind};
 use records::{AssessAnswer, MarginRecord};
 use synthesis::singularity::RegularityWord;
 
@@ -33,7 +33,13 @@ fn key_numbers(sheet: &mut Sheet, found: &AssessAnswer) {
         let margin = found.requirements.iter().find(|m| m.name == t.name);
         let margin = margin.map_or_else(String::new, |m| format!("{} {}, ", figure(m.margin.0), m.unit));
         let share = figure(100.0 * t.share.0);
-        say!(sheet, "Tightest requirement: {} (margin {margin}{share} % of its limit).", t.name.label());
+        let whole = match t.name {
+            TermKind::LegTooShort | TermKind::LegTooLong => "the travel",
+            TermKind::RodTooShort | TermKind::RodTooLong => "the rod's length",
+            TermKind::CrankAngle => "half the range",
+            _ => "its limit",
+        };
+        say!(sheet, "Tightest requirement: {} (margin {margin}{share} % of {whole}).", t.name.label());
     }
     let said = &found.regular_explanation;
     let at = place(found.regular.pose.as_ref());

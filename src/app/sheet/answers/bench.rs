@@ -43,9 +43,11 @@ fn classes(rows: &[BenchClassRecord], seed: u64) -> Sheet {
             before_refinement(&mut out, raw);
         }
         for f in r.failures.iter().take(LISTED) {
+            let claimed = f.found + f.spurious + f.false_certificates > 0;
             say!(
                 out,
-                "  WRONG --class {} --seed {} --first {}: missed {}, spurious {}, false certificates {}, found {} of {}; {}",
+                "  {} --class {} --seed {} --first {}: missed {}, spurious {}, false certificates {}, found {} of {}; {}",
+                if claimed { "WRONG" } else { "NO ANSWER" },
                 r.counts.class,
                 seed,
                 f.problem,

@@ -53,7 +53,11 @@ pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{from} -> {to}: {}", r.relation.unwrap_or(Relation::Undecided).name());
     let short = r.det_exact.as_ref().filter(|exact| exact.len() <= WRITTEN);
-    let exactly = short.map_or_else(String::new, |exact| format!(" = {exact} exactly"));
+    let exactly = match short {
+        Some(exact) if *exact == figure(r.determinant.0) => ", exactly".to_owned(),
+        Some(exact) => format!(" = {exact} exactly"),
+        None => String::new(),
+    };
     say!(out, "det A = {}{exactly}\n{}\n", figure(r.determinant.0), r.explanation);
     out.line("squared leg lengths: s(TO) = A s(FROM) + c");
     let entries = (1..=6).map(|k| right(format!("A{k}"), 7));
