@@ -155,12 +155,16 @@ fn read(
         report.refuse(Code::Empty, &(0..0), "the file is empty", help);
         return Err(report.into_violations());
     }
-    let root = tree::read(text, format, &mut report);
+    let mut root = tree::read(text, format, &mut report);
+    if let Some(root) = &mut root {
+        keys::give_new_names(&mut report, root, keys::FILE);
+    }
     let design = root.and_then(|root| keys::design(&root, &mut report, takes_cranks));
     match design {
         Some(mut design) if report.is_clean() => {
+            let text = report.text_with_new_names();
             let warnings = report.into_warnings();
-            design.written = Written::new(text, format, &warnings);
+            design.written = Written::new(&text, format, &warnings);
             Ok((design, warnings))
         }
         _ => Err(report.into_violations()),

@@ -192,7 +192,19 @@ pub enum Warning {
         /// Line, 1-based.
         line: usize,
     },
+    /// A key under the name that it had in the last release.
+    RenamedKey {
+        /// The name in the text.
+        old: String,
+        /// The name of the key.
+        new: &'static str,
+        /// Line, 1-based.
+        line: usize,
+    },
 }
+
+/// The version that no longer reads the old names of keys.
+const WITHOUT_OLD_NAMES: &str = "0.3";
 
 impl Warning {
     /// The stable name.
@@ -203,6 +215,7 @@ impl Warning {
             Self::CoincidentJoints { .. } => "design::coincident_joints",
             Self::CoincidentLegs { .. } => "design::coincident_legs",
             Self::LegsInsideTable { .. } => "design::legs_inside_table",
+            Self::RenamedKey { .. } => "design::renamed_key",
         }
     }
 
@@ -213,7 +226,8 @@ impl Warning {
             Self::UnusedJoint { line, .. }
             | Self::CoincidentJoints { line, .. }
             | Self::CoincidentLegs { line, .. }
-            | Self::LegsInsideTable { line, .. } => *line,
+            | Self::LegsInsideTable { line, .. }
+            | Self::RenamedKey { line, .. } => *line,
         }
     }
 
@@ -232,6 +246,9 @@ impl Warning {
             Self::LegsInsideTable { .. } => {
                 "move `legs` above the first [table] of the file; it is read as a top-level key".into()
             }
+            Self::RenamedKey { new, .. } => {
+                format!("write `{new}`: the old key is read until version {WITHOUT_OLD_NAMES}")
+            }
         }
     }
 }
@@ -247,6 +264,7 @@ impl fmt::Display for Warning {
                 write!(f, "legs {a} and {b} join the same two points")
             }
             Self::LegsInsideTable { table, .. } => write!(f, "`legs` stands inside [{table}]"),
+            Self::RenamedKey { old, new, .. } => write!(f, "`{old}` is now `{new}`"),
         }
     }
 }
@@ -262,6 +280,8 @@ pub struct Findings<'t> {
     violations: Vec<Violation>,
     warnings: Vec<Warning>,
     unlisted: usize,
+    /// The places of old names of keys, with their new names.
+    renamed: Vec<(Span, &'static str)>,
     /// Micrometres of the unit of the design, where its label names a known length.
     pub(crate) length_unit: Option<u64>,
 }
@@ -277,6 +297,7 @@ impl<'t> Findings<'t> {
             violations: Vec::new(),
             warnings: Vec::new(),
             unlisted: 0,
+            renamed: Vec::new(),
             length_unit: None,
         }
     }
@@ -308,6 +329,28 @@ impl<'t> Findings<'t> {
         if self.warnings.len() < MAX_VIOLATIONS {
             self.warnings.push(warning);
         }
+    }
+
+    /// Notes that the key at a place has a new name.
+    pub(crate) fn rename(&mut self, span: &Span, old: &str, new: &'static str) {
+        let line = self.line(span.start);
+        self.warn(Warning::RenamedKey { old: old.to_owned(), new, line });
+        // a key that is spelt with escapes stays: the design is then written anew when it is saved
+        if self.source(span).trim_matches(['"', '\'']) == old {
+            self.renamed.push((span.clone(), new));
+        }
+    }
+
+    /// The text with the new names of its keys.
+    pub(crate) fn text_with_new_names(&self) -> String {
+        let mut text = self.text.to_owned();
+        let mut renamed = self.renamed.clone();
+        // from the last to the first, so that the places of the others stay
+        renamed.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+        for (span, new) in renamed {
+            text.replace_range(span, new);
+        }
+        text
     }
 
     /// The text at a place.

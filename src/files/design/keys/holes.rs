@@ -98,6 +98,10 @@ impl KeyShape for HolesShape {
         HOLES.kind(key).or_else(|| GRID.kind(key))
     }
 
+    fn renamed(&self, old: &str) -> Option<&'static str> {
+        HOLES.renamed(old).or_else(|| GRID.renamed(old))
+    }
+
     fn schema(&self, definitions: &mut Map<String, Json>) -> Json {
         let mut out = HOLES.schema(definitions);
         for key in GRID.names() {

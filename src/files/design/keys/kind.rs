@@ -183,6 +183,8 @@ pub(super) const fn either(kinds: &'static [KeyKind]) -> KeyKind {
 pub(crate) trait KeyShape: Sync {
     /// The kind of a key.
     fn kind(&self, key: &str) -> Option<KeyKind>;
+    /// The name of the key that had this name in the last release.
+    fn renamed(&self, old: &str) -> Option<&'static str>;
     /// The schema of the table; named definitions go to `definitions`.
     fn schema(&self, definitions: &mut Map<String, Json>) -> Json;
 }
@@ -245,6 +247,10 @@ impl<M> KeyShape for KeyTable<M> {
         found.or(self.named.copied())
     }
 
+    fn renamed(&self, old: &str) -> Option<&'static str> {
+        self.keys.iter().find(|k| !k.old.is_empty() && k.old == old).map(|k| k.name)
+    }
+
     fn schema(&self, definitions: &mut Map<String, Json>) -> Json {
         let (mut properties, mut required, mut needs) = (Map::new(), Vec::new(), Map::new());
         for key in self.keys {
@@ -289,6 +295,10 @@ pub(super) struct CombinedTable {
 impl KeyShape for CombinedTable {
     fn kind(&self, key: &str) -> Option<KeyKind> {
         self.shapes.iter().find_map(|shape| shape.kind(key)).or(self.named.copied())
+    }
+
+    fn renamed(&self, old: &str) -> Option<&'static str> {
+        self.shapes.iter().find_map(|shape| shape.renamed(old))
     }
 
     fn schema(&self, definitions: &mut Map<String, Json>) -> Json {

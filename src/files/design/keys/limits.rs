@@ -4,6 +4,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::found::{check_keys, shown, table};
 use super::kind::{KeyForm, KeyKind, KeyShape, Range, either, not_negative, own, table as table_of, unit};
+use super::renamed::OLD_ROWS;
 use super::stored::StoredValue;
 use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Value, find};
@@ -40,6 +41,10 @@ impl KeyShape for ByKind {
             Quantity::Angle | Quantity::AngularSpeed => unit::DEGREES,
             Quantity::Frequency => unit::NONE,
         }))
+    }
+
+    fn renamed(&self, old: &str) -> Option<&'static str> {
+        OLD_ROWS.iter().find(|(name, _)| *name == old).map(|(_, kind)| kind.code())
     }
 
     fn schema(&self, _: &mut Map<String, Json>) -> Json {

@@ -22,6 +22,7 @@ mod optimize;
 mod payload;
 mod plates;
 mod poses;
+mod renamed;
 mod schema;
 mod shapes;
 mod stored;
@@ -33,6 +34,7 @@ pub(super) use document::design;
 pub(super) use five_legs::{five_legs, has_five_legs};
 pub use found::{check_keys, nearest_help, number, shown, table, text};
 pub(super) use kind::{KeyForm, KeyKind, KeyShape};
+pub(super) use renamed::give_new_names;
 pub use schema::SCHEMA;
 
 use self::found::FoundKey;
@@ -47,6 +49,8 @@ pub(super) static FILE: &dyn KeyShape = &document::TOP;
 /// A key of a table that is read into an `M` and written from one.
 struct Key<M: 'static> {
     name: &'static str,
+    /// The name in the last release, which is still read; empty for a key that has its name since then.
+    old: &'static str,
     kind: KeyKind,
     /// The sentence of schema and documentation.
     says: &'static str,
@@ -68,13 +72,13 @@ impl<M> Key<M> {
         read: fn(&mut FoundKey<'_, '_>, &mut M),
         write: fn(&M) -> Option<Json>,
     ) -> Self {
-        Self { name, kind, says, default: "", required: "", needs: &[], read, write }
+        Self { name, old: "", kind, says, default: "", required: "", needs: &[], read, write }
     }
 }
 
-/// A key: `key!(name { default = JSON, required = help, needs = keys }: kind, field; sentence)`, with optional entries
-/// in braces. Functions `read, write` replace the field if the value is not a field. Both are missing if functions of
-/// the table read and write it.
+/// A key: `key!(name { old = name, default = JSON, required = help, needs = keys }: kind, field; sentence)`, with
+/// optional entries in braces. Functions `read, write` replace the field if the value is not a field. Both are missing
+/// if functions of the table read and write it.
 macro_rules! key {
     ($name:literal $({ $($option:ident = $value:expr),+ })?: $kind:expr; $says:expr) => {
         key!($name $({ $($option = $value),+ })?: $kind, |_, _| (), |_| None; $says)
