@@ -93,15 +93,11 @@ fn conclude_far(
 ) -> Result<bool, FkError> {
     let Some(system) = FarSystem::new(m, &SquareData::from(s)) else { return Ok(false) };
     let bound = Theorem::SixLegs.bound();
-    // roots of the list that are as far out as the others may be among them, and are not counted twice
-    let sizes: Vec<(f64, usize)> = found.roots.iter().filter_map(size).collect();
+    let listed: Vec<(f64, usize)> = found.roots.iter().filter_map(size).collect();
     let mut far: Vec<FarRoots> = Vec::new();
-    let count = |far: &[FarRoots]| {
-        let rotation = far.iter().map(|root| root.rotation).fold(f64::INFINITY, f64::min);
-        let near: usize = sizes.iter().filter(|(entry, _)| *entry < rotation).map(|(_, number)| number).sum();
-        (near, far.iter().map(|r| r.multiplicity).sum::<usize>(), rotation)
-    };
+    let mut best = Separation::default();
     for point in points {
+        let before = far.len();
         for roots in system.roots_near(&point) {
             for roots in [roots.conjugate(), roots] {
                 if far.iter().all(|other| roots.is_apart(other)) {
@@ -109,29 +105,62 @@ fn conclude_far(
                 }
             }
         }
-        let (near, beyond, _) = count(&far);
-        if near + beyond >= bound {
+        if far.len() > before {
+            best = Separation::best(&listed, &far);
+        }
+        if best.poses() >= bound {
             break;
         }
     }
-    let (poses, beyond, rotation) = count(&far);
-    if poses + beyond > bound {
+    let Separation { near: poses, far: beyond, rotation } = best;
+    if best.poses() > bound {
         let what =
             format!("{poses} near and {beyond} far poses are certified, but six legs have at most {bound}");
         return Err(FkError::Contradiction { what });
     }
-    if poses + beyond < bound {
+    if best.poses() < bound {
         if beyond > 0 {
             found.completeness.doubt(Reason::NotSeparated { near: poses, far: beyond });
         }
         return Ok(false);
     }
+    far.retain(|roots| roots.rotation >= rotation);
     let mut others: Vec<FarPoses> = far.iter().map(FarPoses::from).collect();
     others.sort_by(|x, y| x.rotation.total_cmp(&y.rotation));
     let proof = BoundedProof { poses, far: Some(beyond), rotation: Some(rotation), neighbour: None, others };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     Ok(true)
+}
+
+/// Numbers of proved poses on both sides of a bound of the largest entry of `R`.
+#[derive(Clone, Copy, Default)]
+struct Separation {
+    /// Listed poses with smaller entries.
+    near: usize,
+    /// Far poses with an entry that is not smaller.
+    far: usize,
+    /// The bound.
+    rotation: f64,
+}
+
+impl Separation {
+    fn poses(&self) -> usize {
+        self.near + self.far
+    }
+
+    /// The bound with the most poses.
+    ///
+    /// Any bound keeps listed and far poses apart, so that none is counted twice. A search for far poses may also find
+    /// some of the listed ones. A bound above them counts these as listed.
+    fn best(listed: &[(f64, usize)], far: &[FarRoots]) -> Self {
+        let at = |rotation: f64| Self {
+            near: listed.iter().filter(|(entry, _)| *entry < rotation).map(|(_, number)| number).sum(),
+            far: far.iter().filter(|f| f.rotation >= rotation).map(|f| f.multiplicity).sum(),
+            rotation,
+        };
+        far.iter().map(|roots| at(roots.rotation)).max_by_key(Self::poses).unwrap_or_default()
+    }
 }
 
 impl From<&FarRoots> for FarPoses {

@@ -1,7 +1,9 @@
 use super::*;
 use crate::{FkOptions, ForwardKinematics, Homotopy};
-use nalgebra::{Point3, Rotation3, Vector3};
+use crate::solve::certify::far::{C, D, PATCH};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use num::Rng;
+use num_complex::Complex64;
 use platform::geom::Pose;
 use platform::manipulator::Leg;
 
@@ -117,6 +119,40 @@ fn far_poses_that_are_listed_as_well_are_counted_once() {
         }
     }
     assert!(counted > 0, "no list has far poses");
+}
+
+/// The coordinates of `certify::far` at a listed pose.
+fn far_point(root: &FkRoot, unit: f64) -> FarPoint {
+    let x = root.dual_quaternion.unwrap();
+    let patch: Complex64 = (0..4).map(|k| x[k] * PATCH[k]).sum();
+    let e: [Complex64; 4] = std::array::from_fn(|k| x[k] / patch);
+    let h: Complex64 = e.iter().map(|z| z * z).sum();
+    let [c, d] = [C, D].map(|v| Vector3::from(v).map(Complex64::from));
+    let turned = root.pose.rotation * c;
+    let frame = Matrix3::from_columns(&[turned, d, turned.cross(&d)]);
+    let shares = frame.try_inverse().unwrap() * root.pose.position / Complex64::from(unit);
+    let gamma = shares[2];
+    [e[0], e[1], e[2], e[3], shares[0], shares[1], gamma, gamma * gamma / h]
+}
+
+#[test]
+fn a_search_that_finds_listed_poses_hides_no_others() {
+    let (m, s) = usual_hexapod();
+    let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+    let unit = 2f64.powi(m.size().log2().floor() as i32);
+    let system = FarSystem::new(&m, &SquareData::from(&s)).unwrap();
+    let strays: Vec<FarPoint> = found
+        .roots
+        .iter()
+        .map(|root| far_point(root, unit))
+        .filter(|point| system.roots_near(point).iter().any(|far| far.rotation < 1e3))
+        .collect();
+    assert!(!strays.is_empty(), "no listed pose is a far one too");
+    found.completeness = Completeness::unproved([]);
+    let search = &mut FarSearch::new(&m, 1);
+    assert!(conclude_far(&mut found, &m, &s, strays.into_iter().chain(search.points())).unwrap());
+    let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{found}") };
+    assert_eq!((proof.poses, proof.far, proof.others.len()), (28, Some(12), 12));
 }
 
 #[test]
