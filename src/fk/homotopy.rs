@@ -8,7 +8,7 @@ use super::bounded::Surroundings;
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
-use super::judge::{RealityJudgement, counted, judge, set_counted, with_real_poses_proved};
+use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,
@@ -57,9 +57,7 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };
-        let mut found = attempts((frame, sections), nearly, m, s, o)?;
-        with_real_poses_proved(&mut found, m, s);
-        Ok(found)
+        attempts((frame, sections), nearly, m, s, o)
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
@@ -75,7 +73,7 @@ fn attempts(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    let mut far = Surroundings::new(m, o.seed);
+    let mut surroundings = Surroundings::new(m, o.seed);
     let mut best: Option<FkSolutions> = None;
     let mut count: Option<PoseCount> = None;
     let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
@@ -88,7 +86,7 @@ fn attempts(
         let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
         let (mut found, certificates) = problem.solve(m, s, o, seed)?;
         attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
-        if found.completeness.is_proved() || far.conclude_far(&mut found, s)? {
+        if found.completeness.is_proved() || surroundings.conclude(&mut found, s)? {
             return Ok(found);
         }
         // the kind of the set has to be known before any end without a proof is taken for a pose
