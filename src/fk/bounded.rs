@@ -56,11 +56,19 @@ impl<'a> Surroundings<'a> {
         if !may_lack_far_poses(found) {
             return Ok(false);
         }
-        let neighbour = self.neighbour.get_or_init(|| Neighbour::of(self.manipulator));
-        if neighbour.as_ref().is_some_and(|n| conclude_real(found, n, self.manipulator, s)) {
+        if self.neighbour().is_some_and(|n| conclude_real(found, n, self.manipulator, s)) {
             return Ok(true);
         }
         conclude_far(found, self.manipulator, s, self.search.points())
+    }
+
+    /// Whether the proof of real poses can apply. Such a design has many far poses that doubles do not see.
+    pub(super) fn is_next_to_affine_hexagons(&self) -> bool {
+        self.neighbour().is_some()
+    }
+
+    fn neighbour(&self) -> Option<&Neighbour> {
+        self.neighbour.get_or_init(|| Neighbour::of(self.manipulator)).as_ref()
     }
 
     /// Starts for other lengths, by their places in a list that is proved to have all poses up to a distance, and the

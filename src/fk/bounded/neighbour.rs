@@ -5,26 +5,30 @@
 //! than `d_i` from that of the neighbour, both ends together, and let `P` be a real pose at lengths `l`. Then `P` is a
 //! pose of the neighbour for some lengths within `d_i` of `l_i`, because a real motion keeps distances. When the
 //! neighbour has as many certified poses as it can have, for all lengths within `d_i`, then `P` is one of them. When
-//! the enclosures of these are each where a certified pose of the design is the only one, `P` is this pose.
+//! each of their enclosures has no real pose, or is where a certified pose of the design is the only one, `P` is listed.
 
 use nalgebra::Matrix6;
+use num_complex::Complex64;
 
 use crate::bounds::special_bound;
 use crate::evidence::all_distinct;
 use crate::solve::certify::{
-    Certificate, Certifier, ClusterCertificate, Distinctness, NewtonStart, RootCertificate, SquareData,
-    cluster_is_captured_by, is_captured_by, is_of,
+    Certificate, Certifier, ClusterCertificate, Distinctness, NewtonStart, ProvedReality, RootCertificate,
+    RootRelation, SquareData, cluster_is_captured_by, is_captured_by, is_of, relation,
 };
 use crate::{BoundedProof, FkRoot, FkSolutions};
 use num::ball::UP;
 use num::exact::rational;
 use num::surd::Surd;
+use platform::geom::ComplexPose;
 use platform::manipulator::{Body, ExactEnds, Manipulator, SquaredLegLengths};
 
 /// Ends farther from a plane than this, relative to their spread, have no affine hexagons as neighbours worth a try.
 const NEAR: f64 = 1e-3;
 /// The largest number of poses that are proved together.
 const MOST_TOGETHER: usize = 4;
+/// Poses closer than this, in entries of `R` and sizes of the design, may be proved together.
+const CLOSE: f64 = 0.25;
 
 /// Affine hexagons next to a design.
 #[derive(Debug)]
@@ -113,13 +117,27 @@ impl Neighbour {
             return None;
         }
         let there = Certifier::new(&self.manipulator, self.lengths(s)).ok()?;
-        let single = |pose: &Listed| {
-            let start = NewtonStart::Point(pose.root.dual_quaternion.as_ref()?);
-            let near = there.root_near(start).ok()?.certificate;
-            is_captured_by(&near, pose.certificate).then_some(near)
-        };
+        let found_there: Vec<Option<Certificate>> = listed
+            .iter()
+            .map(|pose| {
+                let start = NewtonStart::Point(pose.root.dual_quaternion.as_ref()?);
+                Some(there.root_near(start).ok()?.certificate)
+            })
+            .collect();
         // one entry for each listed pose
-        let mut alone: Vec<Option<Certificate>> = listed.iter().map(single).collect();
+        let mut alone: Vec<Option<Certificate>> = found_there
+            .iter()
+            .zip(&listed)
+            .map(|(near, pose)| near.filter(|near| is_captured_by(near, pose.certificate)))
+            .collect();
+        // no real pose is where the neighbour has none
+        for (k, near) in found_there.iter().enumerate() {
+            let Some(near) = near.filter(|near| near.reality() == ProvedReality::NonReal) else { continue };
+            let is_new = |other: &Certificate| relation(other, &near) == RootRelation::Distinct;
+            if alone.iter().flatten().all(is_new) {
+                alone[k] = Some(near);
+            }
+        }
         let mut is_placed: Vec<bool> = alone.iter().map(Option::is_some).collect();
         let mut together = Vec::new();
         let mut grouped = vec![false; listed.len()];
@@ -130,7 +148,9 @@ impl Neighbour {
                 if is_placed[k] {
                     continue;
                 }
-                let Some((group, members)) = group_near(&here, &there, &listed, k) else { continue };
+                let Some((group, members)) = group_near(&here, &there, (&listed, m.size()), k) else {
+                    continue;
+                };
                 if members.iter().any(|i| grouped[*i]) {
                     continue;
                 }
@@ -141,8 +161,8 @@ impl Neighbour {
             }
         }
         let near: Vec<Certificate> = alone.into_iter().flatten().collect();
-        let proved = placed(&is_placed) == self.most
-            && all_distinct(&near, &together) == Distinctness::AllDistinct;
+        let proved =
+            placed(&is_placed) == self.most && all_distinct(&near, &together) == Distinctness::AllDistinct;
         proved.then(|| listed.iter().zip(&is_placed).filter(|(_, p)| **p).map(|(l, _)| l.place).collect())
     }
 
@@ -170,19 +190,32 @@ struct Listed<'a> {
 fn group_near(
     here: &Certifier,
     there: &Certifier,
-    listed: &[Listed],
+    (listed, size): (&[Listed], f64),
     k: usize,
 ) -> Option<(ClusterCertificate, Vec<usize>)> {
     let pose = &listed[k].root.pose;
-    here.clusters_near(pose, MOST_TOGETHER).find_map(|(_, own)| {
+    // the middle of two poses is nearer to that of their group than either
+    let middle = |other: &Listed| {
+        let other = &other.root.pose;
+        (pose.distance(other, size) < CLOSE).then(|| ComplexPose {
+            rotation: (pose.rotation + other.rotation) / Complex64::from(2.0),
+            position: (pose.position + other.position) / Complex64::from(2.0),
+        })
+    };
+    let starts: Vec<ComplexPose> = listed.iter().filter_map(middle).collect();
+    let mut found = starts
+        .iter()
+        .flat_map(|start| here.clusters_near(start, MOST_TOGETHER).map(move |own| (start, own.1)));
+    found.find_map(|(start, own)| {
         let members: Vec<usize> = (0..listed.len()).filter(|i| is_of(listed[*i].certificate, &own)).collect();
         if members.len() != own.multiplicity() || !members.contains(&k) {
             return None;
         }
         let is_same = |group: &ClusterCertificate| {
-            group.multiplicity() == own.multiplicity() && cluster_is_captured_by(group, &own)
+            group.multiplicity() == own.multiplicity()
+                && (group.reality() == ProvedReality::NonReal || cluster_is_captured_by(group, &own))
         };
-        let group = there.clusters_near(pose, own.multiplicity()).map(|found| found.1).find(is_same)?;
+        let group = there.clusters_near(start, own.multiplicity()).map(|found| found.1).find(is_same)?;
         Some((group, members))
     })
 }

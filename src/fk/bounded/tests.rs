@@ -1,6 +1,6 @@
 use super::*;
-use crate::{FkOptions, ForwardKinematics, Homotopy};
 use crate::solve::certify::far::{C, D, PATCH};
+use crate::{FkOptions, ForwardKinematics, Homotopy, Reality};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use num::Rng;
 use num_complex::Complex64;
@@ -236,6 +236,30 @@ fn rounded_affine_hexagons_have_all_real_poses_next_to_those_of_their_neighbour(
         twice.roots[3] = twice.roots[4].clone();
         assert!(!proves(&mut twice));
     }
+}
+
+#[test]
+fn prepared_affine_hexagons_follow_only_the_poses_next_to_those_of_their_neighbour() {
+    let m = affine_hexagons(&mut Rng::new(6), 12);
+    let options = FkOptions::default();
+    let prepared = Homotopy.prepare(&m, &options).unwrap();
+    let mut rng = Rng::new(9);
+    let mut followed = 0;
+    for _ in 0..8 {
+        let s = lengths(&m, &mut rng);
+        let (found, fresh) =
+            (prepared.solve(&s, &options).unwrap(), Homotopy.solve(&m, &s, &options).unwrap());
+        assert!(found.is_complete(), "{found}");
+        let real = |f: &FkSolutions| f.roots.iter().filter(|r| r.reality == Reality::Real).count();
+        assert_eq!(real(&found), real(&fresh));
+        if found.paths.len() < 40 {
+            let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{found}") };
+            assert_eq!((found.paths.len(), found.roots.len(), proof.poses), (16, 16, 16));
+            assert!(proof.neighbour.is_some());
+            followed += 1;
+        }
+    }
+    assert!(followed >= 6, "{followed} of 8");
 }
 
 /// Times on the machine at hand: `cargo test -p equipod-fk --features lab,serde --lib bounded -- --ignored --nocapture`.

@@ -66,7 +66,8 @@ impl PreparedHomotopy {
                 (Theorem::SixLegs, Some(generic), None)
             }
         };
-        let poses: Option<Vec<[Complex64; 8]>> = starts.iter().map(|k| found.roots[*k].dual_quaternion).collect();
+        let poses: Option<Vec<[Complex64; 8]>> =
+            starts.iter().map(|k| found.roots[*k].dual_quaternion).collect();
         let poses = poses?;
         let flat = ScaledFrames::planar(m, &from).and_then(|frame| {
             let points = poses.iter().map(|x| unit(&frame.to_frame(*x))).collect();
