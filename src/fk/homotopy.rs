@@ -78,7 +78,7 @@ fn attempts(
     let mut surroundings = Surroundings::new(m, o.seed);
     let mut best: Option<FkSolutions> = None;
     let mut count: Option<PoseCount> = None;
-    let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
+    let whole = |k: u64, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
     let planar = SectionProblem::planar(m, s).map(|p| (p, 0));
     let next = u64::from(planar.is_none());
     let mut plans = VecDeque::from([planar.unwrap_or_else(|| whole(0, false))]);
