@@ -39,8 +39,8 @@ pub(super) struct PreparedHomotopy {
 }
 
 impl PreparedHomotopy {
-    /// `None` unless the start poses are known to be all: as many certified ones as a theorem allows, or as the count
-    /// says.
+    /// `None` unless the start poses are known to be all, or all up to a distance: as many certified ones as a theorem
+    /// allows, or as the count says.
     pub(super) fn new(m: &Manipulator, o: &FkOptions) -> Option<Self> {
         let (from, to) = generic_lengths(m, o.seed)?;
         let quick = o.pose_count(PoseCounting::Never);
