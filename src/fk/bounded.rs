@@ -10,6 +10,8 @@
 
 mod neighbour;
 
+use std::cell::OnceCell;
+
 use super::evidence::reject_others;
 use super::judge::are_distinct;
 use super::{BoundedProof, Completeness, FarPoses, FkError, FkRoot, FkSolutions, Reason, Theorem};
@@ -23,20 +25,30 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 /// Knowledge about the joints of a design that proofs up to a distance need: computed when it is asked for.
 pub(super) struct Surroundings<'a> {
     manipulator: &'a Manipulator,
+    neighbour: OnceCell<Option<Neighbour>>,
     search: FarSearch,
 }
 
-/// Starts of the proof of far poses, kept for many lengths of a design.
+/// The part of it that a proof needed, kept for many lengths of a design.
 #[derive(Debug)]
-pub(super) struct KnownFarPoints(Vec<FarPoint>);
+pub(super) enum KnownSurroundings {
+    /// Starts of the proof of far poses.
+    FarPoints(Vec<FarPoint>),
+    /// The design whose poses are next to the real ones.
+    Neighbour(Box<Neighbour>),
+}
 
 impl<'a> Surroundings<'a> {
     pub(super) fn new(m: &'a Manipulator, seed: u64) -> Self {
-        Self { manipulator: m, search: FarSearch::new(m, seed) }
+        Self { manipulator: m, neighbour: OnceCell::new(), search: FarSearch::new(m, seed) }
     }
 
-    /// Proves, where poses are missing, that those listed are all up to a distance; whether that succeeds.
-    pub(super) fn conclude_far(
+    /// Proves, where poses are missing, that those listed are all up to a distance, or all real ones; whether that
+    /// succeeds.
+    ///
+    /// A design next to affine hexagons has far poses that are hard to follow and harder to prove. The real ones come
+    /// first there.
+    pub(super) fn conclude(
         &mut self,
         found: &mut FkSolutions,
         s: &SquaredLegLengths,
@@ -44,24 +56,59 @@ impl<'a> Surroundings<'a> {
         if !may_lack_far_poses(found) {
             return Ok(false);
         }
+        if self.neighbour().is_some_and(|n| conclude_real(found, n, self.manipulator, s)) {
+            return Ok(true);
+        }
         conclude_far(found, self.manipulator, s, self.search.points())
     }
 
-    /// The part that does not depend on lengths, as far as it was needed.
-    pub(super) fn known(self) -> KnownFarPoints {
-        KnownFarPoints(self.search.known().to_vec())
+    /// Whether the proof of real poses can apply. Such a design has many far poses that doubles do not see.
+    pub(super) fn is_next_to_affine_hexagons(&self) -> bool {
+        self.neighbour().is_some()
+    }
+
+    fn neighbour(&self) -> Option<&Neighbour> {
+        self.neighbour.get_or_init(|| Neighbour::of(self.manipulator)).as_ref()
+    }
+
+    /// Starts for other lengths, by their places in a list that is proved to have all poses up to a distance, and the
+    /// knowledge for the same proof.
+    pub(super) fn of_proved(
+        m: &'a Manipulator,
+        seed: u64,
+        found: &FkSolutions,
+        s: &SquaredLegLengths,
+    ) -> Result<Option<(Vec<usize>, KnownSurroundings)>, FkError> {
+        let Completeness::ProvedBounded { proof } = &found.completeness else { return Ok(None) };
+        if proof.far.is_some() {
+            let mut search = FarSearch::new(m, seed);
+            conclude_far(&mut found.clone(), m, s, search.points())?;
+            let points = KnownSurroundings::FarPoints(search.known().to_vec());
+            return Ok(Some(((0..found.roots.len()).collect(), points)));
+        }
+        let kept = Neighbour::of(m).and_then(|neighbour| {
+            let near = neighbour.near(found, m, s)?;
+            Some((near, KnownSurroundings::Neighbour(Box::new(neighbour))))
+        });
+        Ok(kept)
     }
 }
 
-impl KnownFarPoints {
-    /// As [`Surroundings::conclude_far`], with the starts that are known.
+impl KnownSurroundings {
+    /// As [`Surroundings::conclude`], with what is known.
     pub(super) fn conclude(
         &self,
         found: &mut FkSolutions,
         m: &Manipulator,
         s: &SquaredLegLengths,
     ) -> Result<bool, FkError> {
-        Ok(are_distinct(found) && conclude_far(found, m, s, self.0.iter().copied())?)
+        if !may_lack_far_poses(found) {
+            return Ok(false);
+        }
+        match self {
+            Self::FarPoints(points) => conclude_far(found, m, s, points.iter().copied()),
+            Self::Neighbour(neighbour) => Ok(conclude_real(found, neighbour, m, s)),
+        }
     }
 }
 
@@ -71,13 +118,15 @@ fn may_lack_far_poses(found: &FkSolutions) -> bool {
     near > 0 && near < Theorem::SixLegs.bound() && are_distinct(found)
 }
 
-/// Proves that the list has all real poses, each next to one of the neighbour; whether that succeeds. Complex poses may
-/// be missing, so that this comes last.
-pub(super) fn conclude_real(found: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths) -> bool {
-    if !may_lack_far_poses(found) {
-        return false;
-    }
-    let Some(proof) = Neighbour::of(m).and_then(|n| n.prove(found, m, s)) else { return false };
+/// Proves that the list has all real poses, each next to one of the neighbour; whether that succeeds. The certified
+/// roots are distinct.
+fn conclude_real(
+    found: &mut FkSolutions,
+    neighbour: &Neighbour,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+) -> bool {
+    let Some(proof) = neighbour.prove(found, m, s) else { return false };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     true
@@ -93,15 +142,11 @@ fn conclude_far(
 ) -> Result<bool, FkError> {
     let Some(system) = FarSystem::new(m, &SquareData::from(s)) else { return Ok(false) };
     let bound = Theorem::SixLegs.bound();
-    // roots of the list that are as far out as the others may be among them, and are not counted twice
-    let sizes: Vec<(f64, usize)> = found.roots.iter().filter_map(size).collect();
+    let listed: Vec<(f64, usize)> = found.roots.iter().filter_map(size).collect();
     let mut far: Vec<FarRoots> = Vec::new();
-    let count = |far: &[FarRoots]| {
-        let rotation = far.iter().map(|root| root.rotation).fold(f64::INFINITY, f64::min);
-        let near: usize = sizes.iter().filter(|(entry, _)| *entry < rotation).map(|(_, number)| number).sum();
-        (near, far.iter().map(|r| r.multiplicity).sum::<usize>(), rotation)
-    };
+    let mut best = Separation::default();
     for point in points {
+        let before = far.len();
         for roots in system.roots_near(&point) {
             for roots in [roots.conjugate(), roots] {
                 if far.iter().all(|other| roots.is_apart(other)) {
@@ -109,29 +154,62 @@ fn conclude_far(
                 }
             }
         }
-        let (near, beyond, _) = count(&far);
-        if near + beyond >= bound {
+        if far.len() > before {
+            best = Separation::best(&listed, &far);
+        }
+        if best.poses() >= bound {
             break;
         }
     }
-    let (poses, beyond, rotation) = count(&far);
-    if poses + beyond > bound {
+    let Separation { near: poses, far: beyond, rotation } = best;
+    if best.poses() > bound {
         let what =
             format!("{poses} near and {beyond} far poses are certified, but six legs have at most {bound}");
         return Err(FkError::Contradiction { what });
     }
-    if poses + beyond < bound {
+    if best.poses() < bound {
         if beyond > 0 {
             found.completeness.doubt(Reason::NotSeparated { near: poses, far: beyond });
         }
         return Ok(false);
     }
+    far.retain(|roots| roots.rotation >= rotation);
     let mut others: Vec<FarPoses> = far.iter().map(FarPoses::from).collect();
     others.sort_by(|x, y| x.rotation.total_cmp(&y.rotation));
     let proof = BoundedProof { poses, far: Some(beyond), rotation: Some(rotation), neighbour: None, others };
     found.completeness.learn(Completeness::ProvedBounded { proof });
     reject_others(found);
     Ok(true)
+}
+
+/// Numbers of proved poses on both sides of a bound of the largest entry of `R`.
+#[derive(Clone, Copy, Default)]
+struct Separation {
+    /// Listed poses with smaller entries.
+    near: usize,
+    /// Far poses with an entry that is not smaller.
+    far: usize,
+    /// The bound.
+    rotation: f64,
+}
+
+impl Separation {
+    fn poses(&self) -> usize {
+        self.near + self.far
+    }
+
+    /// The bound with the most poses.
+    ///
+    /// Any bound keeps listed and far poses apart, so that none is counted twice. A search for far poses may also find
+    /// some of the listed ones. A bound above them counts these as listed.
+    fn best(listed: &[(f64, usize)], far: &[FarRoots]) -> Self {
+        let at = |rotation: f64| Self {
+            near: listed.iter().filter(|(entry, _)| *entry < rotation).map(|(_, number)| number).sum(),
+            far: far.iter().filter(|f| f.rotation >= rotation).map(|f| f.multiplicity).sum(),
+            rotation,
+        };
+        far.iter().map(|roots| at(roots.rotation)).max_by_key(Self::poses).unwrap_or_default()
+    }
 }
 
 impl From<&FarRoots> for FarPoses {

@@ -2,13 +2,15 @@
 
 mod prepared;
 
+use std::collections::VecDeque;
+
 use num_complex::Complex64;
 
 use super::bounded::Surroundings;
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
-use super::judge::{RealityJudgement, counted, judge, set_counted, with_real_poses_proved};
+use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,
@@ -57,9 +59,7 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };
-        let mut found = attempts((frame, sections), nearly, m, s, o)?;
-        with_real_poses_proved(&mut found, m, s);
-        Ok(found)
+        attempts((frame, sections), nearly, m, s, o)
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
@@ -75,22 +75,28 @@ fn attempts(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    let mut far = Surroundings::new(m, o.seed);
+    let mut surroundings = Surroundings::new(m, o.seed);
     let mut best: Option<FkSolutions> = None;
     let mut count: Option<PoseCount> = None;
-    let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
+    let whole = |k: u64, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
     let planar = SectionProblem::planar(m, s).map(|p| (p, 0));
-    // without the count nothing asks for poses that doubles cannot see
-    let quick = o.pose_count == PoseCounting::Never;
-    let (plain, fine) = if quick { (ATTEMPTS, 0) } else { (1, FINE_ATTEMPTS) };
-    let plans = (0..plain).map(|k| whole(k, false)).chain((0..fine).map(|k| whole(k, true)));
-    for (problem, attempt) in planar.into_iter().chain(plans) {
+    let next = u64::from(planar.is_none());
+    let mut plans = VecDeque::from([planar.unwrap_or_else(|| whole(0, false))]);
+    let mut quick = None;
+    while let Some((problem, attempt)) = plans.pop_front() {
         let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
         let (mut found, certificates) = problem.solve(m, s, o, seed)?;
         attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
-        if found.completeness.is_proved() || far.conclude_far(&mut found, s)? {
+        if found.completeness.is_proved() || surroundings.conclude(&mut found, s)? {
             return Ok(found);
         }
+        let quick = *quick.get_or_insert_with(|| {
+            // poses that doubles cannot see are asked for by the count, and by the proof next to affine hexagons
+            let quick = o.pose_count == PoseCounting::Never && !surroundings.is_next_to_affine_hexagons();
+            let (plain, fine) = if quick { (ATTEMPTS, 0) } else { (1, FINE_ATTEMPTS) };
+            plans.extend((next..plain).map(|k| whole(k, false)).chain((0..fine).map(|k| whole(k, true))));
+            quick
+        });
         // the kind of the set has to be known before any end without a proof is taken for a pose
         if count.is_none() {
             count = counted(m, s, o);

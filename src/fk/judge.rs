@@ -6,7 +6,7 @@
 //! count. For lengths known within radii only, the poses of generic lengths are counted, which are as many or more. As
 //! many certified roots are then all isolated poses; fewer may be all.
 
-use super::bounded::{Surroundings, conclude_real};
+use super::bounded::Surroundings;
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
@@ -137,7 +137,7 @@ pub(super) fn compared_with_count(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    if found.completeness.is_proved() || Surroundings::new(m, o.seed).conclude_far(&mut found, s)? {
+    if found.completeness.is_proved() || Surroundings::new(m, o.seed).conclude(&mut found, s)? {
         return Ok(found);
     }
     if let Some(count) = counted(m, s, o)
@@ -147,17 +147,7 @@ pub(super) fn compared_with_count(
         found.solution_set =
             SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
     }
-    with_real_poses_proved(&mut found, m, s);
     Ok(found)
-}
-
-/// The last proof that is tried, about the real poses alone.
-pub(super) fn with_real_poses_proved(found: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths) {
-    if matches!(found.completeness, Completeness::Unproved { .. })
-        && found.solution_set == SolutionSet::Isolated
-    {
-        conclude_real(found, m, s);
-    }
 }
 
 #[cfg(test)]

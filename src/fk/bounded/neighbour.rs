@@ -5,15 +5,16 @@
 //! than `d_i` from that of the neighbour, both ends together, and let `P` be a real pose at lengths `l`. Then `P` is a
 //! pose of the neighbour for some lengths within `d_i` of `l_i`, because a real motion keeps distances. When the
 //! neighbour has as many certified poses as it can have, for all lengths within `d_i`, then `P` is one of them. When
-//! the enclosures of these are each where a certified pose of the design is the only one, `P` is this pose.
+//! each of their enclosures has no real pose, or is where a certified pose of the design is the only one, `P` is listed.
 
 use nalgebra::Matrix6;
+use num_complex::Complex64;
 
 use crate::bounds::special_bound;
 use crate::evidence::all_distinct;
 use crate::solve::certify::{
-    Certificate, Certifier, ClusterCertificate, Distinctness, NewtonStart, RootCertificate, SquareData,
-    cluster_is_captured_by, is_captured_by, is_of,
+    Certificate, Certifier, ClusterCertificate, Distinctness, NewtonStart, ProvedReality, RootCertificate,
+    RootRelation, SquareData, cluster_is_captured_by, is_captured_by, is_of, relation,
 };
 use crate::{BoundedProof, FkRoot, FkSolutions};
 use num::ball::UP;
@@ -24,10 +25,14 @@ use platform::manipulator::{Body, ExactEnds, Manipulator, SquaredLegLengths};
 
 /// Ends farther from a plane than this, relative to their spread, have no affine hexagons as neighbours worth a try.
 const NEAR: f64 = 1e-3;
+/// The largest number of poses that are proved together.
+const MOST_TOGETHER: usize = 4;
+/// Poses closer than this, in entries of `R` and sizes of the design, may be proved together.
+const CLOSE: f64 = 0.25;
 
 /// Affine hexagons next to a design.
 #[derive(Debug)]
-pub(super) struct Neighbour {
+pub(crate) struct Neighbour {
     manipulator: Manipulator,
     /// The number of poses that it can have.
     most: usize,
@@ -81,11 +86,30 @@ impl Neighbour {
         m: &Manipulator,
         s: &SquaredLegLengths,
     ) -> Option<BoundedProof> {
-        let listed: Vec<(&FkRoot, &Certificate)> = found
+        self.near(found, m, s)?;
+        let distance = self.distances.iter().copied().fold(0.0, f64::max);
+        Some(BoundedProof {
+            poses: self.most,
+            far: None,
+            rotation: None,
+            neighbour: Some(distance),
+            others: Vec::new(),
+        })
+    }
+
+    /// The poses of the list next to those of the neighbour, where these are proved to be all it has.
+    pub(super) fn near(
+        &self,
+        found: &FkSolutions,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+    ) -> Option<Vec<usize>> {
+        let listed: Vec<Listed> = found
             .roots
             .iter()
-            .filter_map(|root| match &root.certificate {
-                Some(RootCertificate::Study(c)) => Some((root, c)),
+            .enumerate()
+            .filter_map(|(place, root)| match &root.certificate {
+                Some(RootCertificate::Study(certificate)) => Some(Listed { place, root, certificate }),
                 _ => None,
             })
             .collect();
@@ -93,39 +117,53 @@ impl Neighbour {
             return None;
         }
         let there = Certifier::new(&self.manipulator, self.lengths(s)).ok()?;
-        let single = |(root, own): &(&FkRoot, &Certificate)| {
-            let near = there.root_near(NewtonStart::Point(root.dual_quaternion.as_ref()?)).ok()?.certificate;
-            is_captured_by(&near, own).then_some(near)
-        };
-        let (mut near, mut rest) = (Vec::new(), Vec::new());
-        for pose in &listed {
-            match single(pose) {
-                Some(certificate) => near.push(certificate),
-                None => rest.push(*pose),
+        let found_there: Vec<Option<Certificate>> = listed
+            .iter()
+            .map(|pose| {
+                let start = NewtonStart::Point(pose.root.dual_quaternion.as_ref()?);
+                Some(there.root_near(start).ok()?.certificate)
+            })
+            .collect();
+        // one entry for each listed pose
+        let mut alone: Vec<Option<Certificate>> = found_there
+            .iter()
+            .zip(&listed)
+            .map(|(near, pose)| near.filter(|near| is_captured_by(near, pose.certificate)))
+            .collect();
+        // no real pose is where the neighbour has none
+        for (k, near) in found_there.iter().enumerate() {
+            let Some(near) = near.filter(|near| near.reality() == ProvedReality::NonReal) else { continue };
+            let is_new = |other: &Certificate| relation(other, &near) == RootRelation::Distinct;
+            if alone.iter().flatten().all(is_new) {
+                alone[k] = Some(near);
             }
         }
-        let mut pairs = Vec::new();
-        if near.len() < self.most {
+        let mut is_placed: Vec<bool> = alone.iter().map(Option::is_some).collect();
+        let mut together = Vec::new();
+        let mut grouped = vec![false; listed.len()];
+        let placed = |list: &[bool]| list.iter().filter(|x| **x).count();
+        if placed(&is_placed) < self.most {
             let here = Certifier::new(m, s).ok()?;
-            while let Some(pose) = rest.pop() {
-                let Some((pair, own)) = pair_near(&here, &there, &pose.0.pose) else { continue };
-                let partner = rest.iter().position(|other| is_of(other.1, &own));
-                if let Some(partner) = partner.filter(|_| is_of(pose.1, &own)) {
-                    rest.swap_remove(partner);
-                    pairs.push(pair);
+            for k in 0..listed.len() {
+                if is_placed[k] {
+                    continue;
+                }
+                let Some((group, members)) = group_near(&here, &there, (&listed, m.size()), k) else {
+                    continue;
+                };
+                if members.iter().any(|i| grouped[*i]) {
+                    continue;
+                }
+                together.push(group);
+                for i in members {
+                    (alone[i], is_placed[i], grouped[i]) = (None, true, true);
                 }
             }
         }
-        let proved = near.len() + 2 * pairs.len() == self.most
-            && all_distinct(&near, &pairs) == Distinctness::AllDistinct;
-        let distance = self.distances.iter().copied().fold(0.0, f64::max);
-        proved.then_some(BoundedProof {
-            poses: self.most,
-            far: None,
-            rotation: None,
-            neighbour: Some(distance),
-            others: Vec::new(),
-        })
+        let near: Vec<Certificate> = alone.into_iter().flatten().collect();
+        let proved =
+            placed(&is_placed) == self.most && all_distinct(&near, &together) == Distinctness::AllDistinct;
+        proved.then(|| listed.iter().zip(&is_placed).filter(|(_, p)| **p).map(|(l, _)| l.place).collect())
     }
 
     /// All squared lengths that real poses of the design at the lengths `s` can have in the neighbour.
@@ -140,15 +178,44 @@ impl Neighbour {
     }
 }
 
-/// Two poses of the neighbour that are not told apart for all its lengths, where two of the design are the only ones.
-fn pair_near(
+/// A certified pose of the design and its place in the list.
+struct Listed<'a> {
+    place: usize,
+    root: &'a FkRoot,
+    certificate: &'a Certificate,
+}
+
+/// Poses of the neighbour that are not told apart for all its lengths, where as many listed poses are the only ones of
+/// the design: their certificate, and the listed poses, one of them `k`.
+fn group_near(
     here: &Certifier,
     there: &Certifier,
-    pose: &ComplexPose,
-) -> Option<(ClusterCertificate, ClusterCertificate)> {
-    let two = |certifier: &Certifier| {
-        certifier.clusters_near(pose, 2).map(|found| found.1).find(|c| c.multiplicity() == 2)
+    (listed, size): (&[Listed], f64),
+    k: usize,
+) -> Option<(ClusterCertificate, Vec<usize>)> {
+    let pose = &listed[k].root.pose;
+    // the middle of two poses is nearer to that of their group than either
+    let middle = |other: &Listed| {
+        let other = &other.root.pose;
+        (pose.distance(other, size) < CLOSE).then(|| ComplexPose {
+            rotation: (pose.rotation + other.rotation) / Complex64::from(2.0),
+            position: (pose.position + other.position) / Complex64::from(2.0),
+        })
     };
-    let (own, pair) = (two(here)?, two(there)?);
-    cluster_is_captured_by(&pair, &own).then_some((pair, own))
+    let starts: Vec<ComplexPose> = listed.iter().filter_map(middle).collect();
+    let mut found = starts
+        .iter()
+        .flat_map(|start| here.clusters_near(start, MOST_TOGETHER).map(move |own| (start, own.1)));
+    found.find_map(|(start, own)| {
+        let members: Vec<usize> = (0..listed.len()).filter(|i| is_of(listed[*i].certificate, &own)).collect();
+        if members.len() != own.multiplicity() || !members.contains(&k) {
+            return None;
+        }
+        let is_same = |group: &ClusterCertificate| {
+            group.multiplicity() == own.multiplicity()
+                && (group.reality() == ProvedReality::NonReal || cluster_is_captured_by(group, &own))
+        };
+        let group = there.clusters_near(start, own.multiplicity()).map(|found| found.1).find(is_same)?;
+        Some((group, members))
+    })
 }

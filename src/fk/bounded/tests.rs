@@ -1,7 +1,9 @@
 use super::*;
-use crate::{FkOptions, ForwardKinematics, Homotopy};
-use nalgebra::{Point3, Rotation3, Vector3};
+use crate::solve::certify::far::{C, D, PATCH};
+use crate::{FkOptions, ForwardKinematics, Homotopy, Reality};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use num::Rng;
+use num_complex::Complex64;
 use platform::geom::Pose;
 use platform::manipulator::Leg;
 
@@ -48,7 +50,7 @@ fn lengths(m: &Manipulator, rng: &mut Rng) -> SquaredLegLengths {
 
 /// Whether one of both proofs succeeds.
 fn concludes(m: &Manipulator, found: &mut FkSolutions, s: &SquaredLegLengths) -> bool {
-    Surroundings::new(m, 1).conclude_far(found, s).unwrap() || conclude_real(found, m, s)
+    Surroundings::new(m, 1).conclude(found, s).unwrap()
 }
 
 fn usual_hexapod() -> (Manipulator, SquaredLegLengths) {
@@ -119,6 +121,40 @@ fn far_poses_that_are_listed_as_well_are_counted_once() {
     assert!(counted > 0, "no list has far poses");
 }
 
+/// The coordinates of `certify::far` at a listed pose.
+fn far_point(root: &FkRoot, unit: f64) -> FarPoint {
+    let x = root.dual_quaternion.unwrap();
+    let patch: Complex64 = (0..4).map(|k| x[k] * PATCH[k]).sum();
+    let e: [Complex64; 4] = std::array::from_fn(|k| x[k] / patch);
+    let h: Complex64 = e.iter().map(|z| z * z).sum();
+    let [c, d] = [C, D].map(|v| Vector3::from(v).map(Complex64::from));
+    let turned = root.pose.rotation * c;
+    let frame = Matrix3::from_columns(&[turned, d, turned.cross(&d)]);
+    let shares = frame.try_inverse().unwrap() * root.pose.position / Complex64::from(unit);
+    let gamma = shares[2];
+    [e[0], e[1], e[2], e[3], shares[0], shares[1], gamma, gamma * gamma / h]
+}
+
+#[test]
+fn a_search_that_finds_listed_poses_hides_no_others() {
+    let (m, s) = usual_hexapod();
+    let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+    let unit = 2f64.powi(m.size().log2().floor() as i32);
+    let system = FarSystem::new(&m, &SquareData::from(&s)).unwrap();
+    let strays: Vec<FarPoint> = found
+        .roots
+        .iter()
+        .map(|root| far_point(root, unit))
+        .filter(|point| system.roots_near(point).iter().any(|far| far.rotation < 1e3))
+        .collect();
+    assert!(!strays.is_empty(), "no listed pose is a far one too");
+    found.completeness = Completeness::unproved([]);
+    let search = &mut FarSearch::new(&m, 1);
+    assert!(conclude_far(&mut found, &m, &s, strays.into_iter().chain(search.points())).unwrap());
+    let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{found}") };
+    assert_eq!((proof.poses, proof.far, proof.others.len()), (28, Some(12), 12));
+}
+
 #[test]
 fn pairs_of_far_poses_are_proved_together() {
     for digits in [16, 8] {
@@ -172,7 +208,7 @@ fn rounded_affine_hexagons_have_all_real_poses_next_to_those_of_their_neighbour(
         let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
         let proves = |found: &mut FkSolutions| {
             found.completeness = Completeness::unproved([]);
-            conclude_real(found, &m, &s)
+            concludes(&m, found, &s)
         };
         // all 40 need no proof: the farthest is left out
         found.roots.sort_by(|a, b| size(a).unwrap().0.total_cmp(&size(b).unwrap().0));
@@ -200,6 +236,35 @@ fn rounded_affine_hexagons_have_all_real_poses_next_to_those_of_their_neighbour(
         twice.roots[3] = twice.roots[4].clone();
         assert!(!proves(&mut twice));
     }
+}
+
+#[test]
+fn prepared_affine_hexagons_follow_only_the_poses_next_to_those_of_their_neighbour() {
+    let mut rng = Rng::new(9);
+    let ends = std::array::from_fn(|_| {
+        let (x, y) = (rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+        [[x, y, 0.0], [0.6 * x + 0.2 * y, 0.7 * y - 0.1 * x, 0.0]]
+    });
+    let m = platform(&ends, 12);
+    let options = FkOptions::default();
+    let prepared = Homotopy.prepare(&m, &options).unwrap();
+    let mut followed = 0;
+    for _ in 0..8 {
+        let s = lengths(&m, &mut rng);
+        let (found, fresh) =
+            (prepared.solve(&s, &options).unwrap(), Homotopy.solve(&m, &s, &options).unwrap());
+        assert!(found.is_complete(), "{found}");
+        let real = |f: &FkSolutions| f.roots.iter().filter(|r| r.reality == Reality::Real).count();
+        assert_eq!(real(&found), real(&fresh));
+        // each path stands for its mirror image as well
+        if found.paths.len() < 20 {
+            let Completeness::ProvedBounded { proof } = &found.completeness else { panic!("{found}") };
+            assert_eq!((found.paths.len(), found.roots.len(), proof.poses), (8, 16, 16));
+            assert!(proof.neighbour.is_some());
+            followed += 1;
+        }
+    }
+    assert!(followed >= 6, "{followed} of 8");
 }
 
 /// Times on this machine: `cargo test -p equipod-fk --features lab,serde --lib bounded -- --ignored --nocapture`.

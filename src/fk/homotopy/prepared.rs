@@ -7,7 +7,7 @@
 use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
-use crate::bounded::{KnownFarPoints, Surroundings};
+use crate::bounded::{KnownSurroundings, Surroundings};
 use crate::evidence::{Bounds, attach};
 use crate::harvest::harvest;
 use crate::judge::{RealityJudgement, judge};
@@ -34,13 +34,13 @@ pub(super) struct PreparedHomotopy {
     theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
-    /// The proof that the others are far out, when the start poses are all up to a distance.
-    far: Option<KnownFarPoints>,
+    /// The knowledge for the proof up to a distance, when the start poses are proved so.
+    known: Option<KnownSurroundings>,
 }
 
 impl PreparedHomotopy {
-    /// `None` unless the start poses are known to be all: as many certified ones as a theorem allows, or as the count
-    /// says.
+    /// `None` unless the start poses are known to be all, or all up to a distance: as many certified ones as a theorem
+    /// allows, or as the count says.
     pub(super) fn new(m: &Manipulator, o: &FkOptions) -> Option<Self> {
         let (from, to) = generic_lengths(m, o.seed)?;
         let quick = o.pose_count(PoseCounting::Never);
@@ -48,13 +48,13 @@ impl PreparedHomotopy {
         if found.roots.is_empty() || found.solution_set != SolutionSet::Isolated {
             return None;
         }
-        let (theorem, count, far) = match found.completeness {
+        let mut starts: Vec<usize> = (0..found.roots.len()).collect();
+        let (theorem, count, known) = match found.completeness {
             Completeness::Proved { theorem } => (theorem, None, None),
-            // a proof for real poses alone says nothing of complex starts
-            Completeness::ProvedBounded { ref proof } if proof.far.is_some() => {
-                let mut surroundings = Surroundings::new(m, o.seed);
-                surroundings.conclude_far(&mut found.clone(), &from).ok()?;
-                (Theorem::SixLegs, None, Some(surroundings.known()))
+            Completeness::ProvedBounded { .. } => {
+                let known;
+                (starts, known) = Surroundings::of_proved(m, o.seed, &found, &from).ok()??;
+                (Theorem::SixLegs, None, Some(known))
             }
             _ if o.pose_count == PoseCounting::Never => return None,
             _ => {
@@ -66,7 +66,8 @@ impl PreparedHomotopy {
                 (Theorem::SixLegs, Some(generic), None)
             }
         };
-        let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
+        let poses: Option<Vec<[Complex64; 8]>> =
+            starts.iter().map(|k| found.roots[*k].dual_quaternion).collect();
         let poses = poses?;
         let flat = ScaledFrames::planar(m, &from).and_then(|frame| {
             let points = poses.iter().map(|x| unit(&frame.to_frame(*x))).collect();
@@ -77,7 +78,7 @@ impl PreparedHomotopy {
             (StartKind::Generic, frame, poses.iter().map(|x| unit(&frame.to_frame(*x))).collect())
         });
         let start = LengthStart::new(kind, &frame, m, &from, &points, to)?;
-        Some(Self { manipulator: m.clone(), start, theorem, count, far })
+        Some(Self { manipulator: m.clone(), start, theorem, count, known })
     }
 
     /// The answer where it is whole, `None` where anything is left over.
@@ -96,8 +97,8 @@ impl PreparedHomotopy {
         if found.completeness.is_proved() {
             return Ok(Some(found));
         }
-        if let Some(far) = &self.far
-            && far.conclude(&mut found, m, s)?
+        if let Some(known) = &self.known
+            && known.conclude(&mut found, m, s)?
         {
             return Ok(Some(found));
         }
