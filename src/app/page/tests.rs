@@ -273,13 +273,13 @@ fn a_name_is_text_and_not_markup() {
 fn a_pose_by_its_angles_and_by_its_quaternion_has_the_lengths_of_its_rotation() {
     let session = session(GENERAL);
     let (position, rpy) = ([0.4, -0.3, 1.9], [12.0, -7.5, 33.0]);
-    let placed = ask(&session, &json!({"op": "place", "position": position, "rpy_deg": rpy}))["pose"].clone();
+    let placed = ask(&session, &json!({"op": "place", "numbers": [position, rpy].concat()}))["pose"].clone();
     let expected = Pose::new(position, Angles::from_degrees(rpy));
     let state = ask(&session, &json!({"op": "state", "pose": placed}));
     let squares = expected.squared_lengths(design(GENERAL).manipulator()).unwrap();
     let lengths = numbers(&state["platforms"][0]["lengths"]);
     assert!(lengths.iter().zip(squares.lengths().get()).all(|(a, b)| (a - b).abs() < 1e-12 * b));
-    assert!(numbers(&state["rpy_deg"]).iter().zip(rpy).all(|(a, b)| (a - b).abs() < 1e-12));
+    assert!(numbers(&state["written"])[3..].iter().zip(rpy).all(|(a, b)| (a - b).abs() < 1e-12));
     let again = ask(&session, &json!({"op": "quaternion", "p": position, "q": expected.quaternion()}));
     let rows = |v: &Value| v["R"].as_array().unwrap().iter().flat_map(numbers).collect::<Vec<_>>();
     assert!(rows(&again["pose"]).iter().zip(rows(&placed)).all(|(a, b)| (a - b).abs() < 1e-15));
@@ -550,7 +550,7 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
     }
     assert!(platform["inverse_condition"].as_f64().unwrap() > 0.0 && platform["sign"] != json!(0));
     // beyond reach there are only circles
-    let far = json!({"op": "place", "position": [0, 0, 300], "rpy_deg": [0, 0, 0]});
+    let far = json!({"op": "place", "numbers": [0, 0, 300, 0, 0, 0]});
     let pose = ask(&session, &far)["pose"].clone();
     let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": null}));
     let cranks = &state["platforms"][0]["cranks"];
