@@ -1,4 +1,4 @@
-//! What people hold in their hands: tables, lists and designs of public questions, with numbers of our own.
+//! Inputs of public questions: tables, lists, models and designs, with numbers of our own.
 //!
 //! Each test names the cases of the collection (`h01` to `h23`) whose kind it has. Others stand with their commands:
 //! `cli_limits` (`h15`, home beyond the legs), `cli_motion` (`h16`, legs that only push), `cli_conventions` (`h18`,

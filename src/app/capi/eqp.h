@@ -364,7 +364,7 @@ enum eqp_status eqp_design_from_joints(const double *base,
 
 /*
  The same design with another convention for poses as numbers: `text` holds the keys of `[frames]` in a design file,
- TOML, of `length` bytes, such as `rotation_order = "pi"`. What it does not state is as in this library.
+ TOML, of `length` bytes, such as `rotation_order = "pi"`. Keys that are absent are as in this library.
 
  # Safety
  `design` is a design, `text` points to `length` bytes, and `with` to a place for a pointer. The argument `error` is

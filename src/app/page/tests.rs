@@ -273,7 +273,8 @@ fn a_name_is_text_and_not_markup() {
 fn a_pose_by_its_angles_and_by_its_quaternion_has_the_lengths_of_its_rotation() {
     let session = session(GENERAL);
     let (position, rpy) = ([0.4, -0.3, 1.9], [12.0, -7.5, 33.0]);
-    let placed = ask(&session, &json!({"op": "place", "numbers": [position, rpy].concat()}))["pose"].clone();
+    let six = [position, rpy].concat();
+    let placed = ask(&session, &json!({"op": "place", "numbers": six}))["pose"].clone();
     let expected = Pose::new(position, Angles::from_degrees(rpy));
     let state = ask(&session, &json!({"op": "state", "pose": placed}));
     let squares = expected.squared_lengths(design(GENERAL).manipulator()).unwrap();

@@ -3,8 +3,9 @@
 use crate::Design;
 use crate::design::parse_with_cranks;
 use files::design::{Format, HexapodSizes, SnappedDesign};
-use fk::{CountOptions, FkOptions, count_generic_poses, solver};
-use platform::manipulator::{SquaredLegLengths, inverse_condition, jacobian};
+use fk::solve::pose_count::{CountOptions, count_generic_poses};
+use fk::{FkOptions, solver};
+use platform::manipulator::{Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use synthesis::singularity::SingularityVerdict;
 
 /// Below this inverse condition number at home, a new hexapod is reported as nearly singular.
@@ -28,8 +29,9 @@ impl Design {
     pub fn snapped_to_decide(&self, seed: u64) -> Option<SnappedDesign> {
         let snapped = self.snapped()?;
         let options = CountOptions { seed, ..CountOptions::default() };
-        let is_decided = |m| SingularityVerdict::of(m).is_ok_and(|found| found.is_singular().is_some());
-        let is_counted = |m| count_generic_poses(m, &options).finite().is_some();
+        let is_decided =
+            |m: &Manipulator| SingularityVerdict::of(m).is_ok_and(|found| found.is_singular().is_some());
+        let is_counted = |m: &Manipulator| count_generic_poses(m, &options).finite().is_some();
         let (own, exact) = (self.manipulator(), snapped.design.manipulator());
         let gains = (!is_decided(own) && is_decided(exact)) || (!is_counted(own) && is_counted(exact));
         gains.then_some(snapped)
@@ -52,7 +54,7 @@ impl Design {
         let read = |other: HexapodSizes| {
             let text = other.check().ok().map(|()| other.to_toml(&self.name, &self.units))?;
             let (design, _) = parse_with_cranks(&text, Format::Toml).ok()?;
-            Some(condition(&Self::from(design))).filter(|there| *there >= NEARLY_SINGULAR)
+            Some(condition(&design)).filter(|there| *there >= NEARLY_SINGULAR)
         };
         let would = read(other).map_or_else(String::new, |there| {
             format!(

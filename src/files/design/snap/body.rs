@@ -39,12 +39,23 @@ pub(super) struct SnappedBody {
 }
 
 impl SnappedBody {
-    pub(super) fn of(
-        joints: &[Point3<f64>],
-        names: &[String],
-        symmetry: BodySymmetry,
-        near: &Closeness,
-    ) -> Self {
+    /// The body with the symmetry that leaves the fewest joints with their own numbers.
+    pub(super) fn of(joints: &[Point3<f64>], names: &[String], near: &Closeness) -> Self {
+        let choices = BodySymmetry::choices(joints, near);
+        let bodies = choices.into_iter().map(|symmetry| Self::with(joints, names, symmetry, near));
+        let own = |body: &Self| body.joints.iter().filter(|joint| matches!(joint.seed, Seed::Own(_))).count();
+        bodies.min_by_key(own).unwrap_or(Self {
+            joints: Vec::new(),
+            symmetry: BodySymmetry {
+                level: None,
+                planes: Vec::new(),
+                maps: [Vec::new(), Vec::new()],
+                is_three_fold: false,
+            },
+        })
+    }
+
+    fn with(joints: &[Point3<f64>], names: &[String], symmetry: BodySymmetry, near: &Closeness) -> Self {
         let mut body = Self { joints: Vec::new(), symmetry };
         for p in joints {
             let own = body.copy(p, names, near).unwrap_or_else(|| body.seed(p, names, near));

@@ -130,6 +130,11 @@ impl BodyPlane {
         (0..3).find(|i| zero((i + 1) % 3) && zero((i + 2) % 3))
     }
 
+    /// Whether its normal is at 30 or 60 degrees to an axis, exactly.
+    fn is_at_sixty(&self) -> bool {
+        self.normal.iter().any(|n| n.text.contains("sqrt(3)") && !n.text.contains('2'))
+    }
+
     pub(super) fn distance(&self, p: &Point3<f64>) -> f64 {
         let n = self.vector();
         let through = self
@@ -187,7 +192,8 @@ impl BodySymmetry {
         self.planes.len() == 2 && self.maps[1].iter().all(|turn| turn.centre.norm() <= 0.0)
     }
 
-    pub(super) fn of(joints: &[Point3<f64>], near: &Closeness) -> Self {
+    /// The symmetry with each choice of a mirror plane of the whole body, the shortest in digits first.
+    pub(super) fn choices(joints: &[Point3<f64>], near: &Closeness) -> Vec<Self> {
         let level = [2, 1, 0].into_iter().find_map(|axis| {
             let height = joints.first().map_or(0.0, |p| p[axis]);
             let height = if height.abs() <= near.distance { 0.0 } else { height };
@@ -198,15 +204,19 @@ impl BodySymmetry {
         let joints = distinct(joints, near.distance);
         let (turns, centre) = turns(&joints, up, near);
         let is_three_fold = turns.first().is_some_and(|turn| turn.keeps(&joints, near.distance));
-        let mut planes: Vec<BodyPlane> = [(up + 2) % 3, (up + 1) % 3].map(BodyPlane::coordinate).into();
+        let planes: Vec<BodyPlane> = [(up + 2) % 3, (up + 1) % 3].map(BodyPlane::coordinate).into();
         let of_body = |plane: &BodyPlane| SymmetryMap::mirror(plane).keeps(&joints, near.distance);
-        if !planes.iter().any(of_body)
-            && let Some(plane) = general_plane(&joints, level.map(|(axis, _)| axis), centre.as_ref(), near)
-        {
-            planes.push(plane);
-        }
-        let mirrors = planes.iter().map(SymmetryMap::mirror).collect();
-        Self { level, planes, maps: [mirrors, turns], is_three_fold }
+        let is_about_axes = planes.iter().any(of_body);
+        let mut others = general_planes(&joints, level.map(|(axis, _)| axis), centre.as_ref(), near);
+        // beside a plane of the axes only the planes that thirds of a turn make of it are exact
+        others.retain(|plane| !is_about_axes || (is_three_fold && plane.is_at_sixty()));
+        let with = |more: Option<BodyPlane>| {
+            let planes: Vec<BodyPlane> = planes.iter().cloned().chain(more).collect();
+            let mirrors = planes.iter().map(SymmetryMap::mirror).collect();
+            Self { level, planes, maps: [mirrors, turns.clone()], is_three_fold }
+        };
+        let plain = (is_about_axes || others.is_empty()).then(|| with(None));
+        plain.into_iter().chain(others.into_iter().map(|plane| with(Some(plane)))).collect()
     }
 }
 
@@ -253,15 +263,15 @@ fn turns(
     (out, None)
 }
 
-/// A mirror plane of the whole body, through the centre of its turns; the one with the shortest normal in digits.
-fn general_plane(
+/// The mirror planes of the whole body, through the centre of its turns, the shortest normal in digits first.
+fn general_planes(
     joints: &[Point3<f64>],
     level: Option<usize>,
     centre: Option<&[ShortNumber; 3]>,
     near: &Closeness,
-) -> Option<BodyPlane> {
+) -> Vec<BodyPlane> {
     if joints.len() < 3 {
-        return None;
+        return Vec::new();
     }
     let pairs = (0..joints.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
     let plane = |(i, j): (usize, usize)| {
@@ -286,7 +296,13 @@ fn general_plane(
         SymmetryMap::mirror(&plane).keeps(joints, near.distance).then_some(plane)
     };
     let digits = |plane: &BodyPlane| plane.normal.iter().map(|n| n.text.len()).sum::<usize>();
-    pairs.filter_map(plane).min_by_key(digits)
+    let mut found: Vec<BodyPlane> = pairs
+        .filter_map(plane)
+        .filter(|plane| plane.axis().is_none_or(|_| plane.through.is_some()))
+        .collect();
+    found.sort_by_key(digits);
+    found.dedup_by(|a, b| (a.vector() - b.vector()).norm() <= near.distance / near.size);
+    found
 }
 
 /// The normal and a point of the mirror plane near the bisector of two joints: the mean of all pairs of joints.

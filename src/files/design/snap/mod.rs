@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use serde_json::{Value as Json, json};
 
 use self::body::{Seed, SnappedBody};
-use self::maps::{BodySymmetry, Closeness};
+use self::maps::Closeness;
 use self::similar::Similarity;
 use super::{DesignModel, Format, parse_with_cranks};
 use platform::manipulator::Body;
@@ -45,7 +45,7 @@ pub enum JointRelation {
     InPlane,
     /// At the height of the first joint of the body.
     Level,
-    /// Where the joint of the base is in a similar figure, which is described.
+    /// The place of this joint of the base in a similar figure, which is described.
     Similar(String, String),
 }
 
@@ -175,7 +175,7 @@ impl DesignModel {
         let near = Closeness { distance: TOLERANCE * size, size };
         let mut bodies = Body::BOTH.map(|body| {
             let (joints, names) = (self.manipulator().joints(body), self.joint_names(body));
-            SnappedBody::of(joints, names, BodySymmetry::of(joints, &near), &near)
+            SnappedBody::of(joints, names, &near)
         });
         let names = Body::BOTH.map(|body| self.joint_names(body));
         let similar = Similarity::between(&bodies, &near);

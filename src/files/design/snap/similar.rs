@@ -128,6 +128,10 @@ impl Similarity {
                     continue;
                 }
                 for factor in PlaneFactor::near(factor, near) {
+                    // the scale of heights has to be exact too
+                    if !is_level && matches!(factor, PlaneFactor::Any(..)) {
+                        continue;
+                    }
                     let m = factor.value();
                     let shift = plane(&p.1) - m * own(&first.1);
                     let along = if is_level { 0.0 } else { p.1[up] - m.norm() * first.1[up] };
