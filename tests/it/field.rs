@@ -136,7 +136,7 @@ fn lists_of_every_language_are_twelve_joints_h03_to_h08() {
         (
             "columns.m",
             format!(
-                "% columns are legs, in m\nFa = [{}];\nMb = [{}];\nFO_M = [0 0 0.11]';\n",
+                "% columns are legs, in m\nFa = [{}];\nMb = [{}];\nFO_M = [0; 0; 0.11];\n",
                 columns(0),
                 columns(1)
             ),
@@ -165,10 +165,10 @@ fn models_of_gazebo_and_ros_are_read_back_h09_h10() {
         });
         let model = found.last().unwrap();
         let (_, doc) = answer(&["new", "--points", model.to_str().unwrap()]);
-        // models have metres
         let read = lengths(&doc);
+        let scale = if doc["units"] == "m" { 1e-3 } else { 1.0 };
         for (a, b) in meant.iter().zip(&read) {
-            assert!((a / 1000.0 - b).abs() < 1e-6 * b, "{format}: {meant:?} {read:?}");
+            assert!((a * scale - b).abs() < 1e-6 * b, "{format}: {meant:?} {read:?}");
         }
     }
 }
@@ -184,12 +184,12 @@ fn polar(angles: [[f64; 6]; 2], radii: [f64; 2]) -> String {
             let _ = writeln!(out, "{name}{} = {{ radius = {}, angle_deg = {angle} }}", leg + 1, radii[k]);
         }
     }
-    out + "[home]\nposition = [0, 0, 80]\n"
+    out + "[home]\nposition = [0, 0, 80]\nrpy_deg = [0, 0, 0]\n"
 }
 
 #[test]
 fn exact_joints_that_no_pose_holds_are_proved_singular_h12_h13_h14() {
-    let midline = "name = \"midline\"\nunits = \"mm\"\nlegs = [[\"A1\",\"M1\"],[\"A2\",\"M2\"],[\"A3\",\"M3\"],[\"N1\",\"B2\"],[\"N2\",\"B3\"],[\"N3\",\"B1\"]]\n[base]\nA1 = { radius = 90, angle_deg = 0 }\nA2 = { radius = 90, angle_deg = 120 }\nA3 = { radius = 90, angle_deg = 240 }\nN1 = { on = [\"A1\", \"A2\"], t = 0.25 }\nN2 = { on = [\"A2\", \"A3\"], t = 0.25 }\nN3 = { on = [\"A3\", \"A1\"], t = 0.25 }\n[platform]\nB1 = { radius = 50, angle_deg = 60 }\nB2 = { radius = 50, angle_deg = 180 }\nB3 = { radius = 50, angle_deg = 300 }\nM1 = { on = [\"B1\", \"B2\"], t = 0.75 }\nM2 = { on = [\"B2\", \"B3\"], t = 0.75 }\nM3 = { on = [\"B3\", \"B1\"], t = 0.75 }\n[home]\nposition = [0, 0, 80]\n";
+    let midline = "name = \"midline\"\nunits = \"mm\"\nlegs = [[\"A1\",\"M1\"],[\"A2\",\"M2\"],[\"A3\",\"M3\"],[\"N1\",\"B2\"],[\"N2\",\"B3\"],[\"N3\",\"B1\"]]\n[base]\nA1 = { radius = 90, angle_deg = 0 }\nA2 = { radius = 90, angle_deg = 120 }\nA3 = { radius = 90, angle_deg = 240 }\nN1 = { on = [\"A1\", \"A2\"], t = 0.25 }\nN2 = { on = [\"A2\", \"A3\"], t = 0.25 }\nN3 = { on = [\"A3\", \"A1\"], t = 0.25 }\n[platform]\nB1 = { radius = 50, angle_deg = 60 }\nB2 = { radius = 50, angle_deg = 180 }\nB3 = { radius = 50, angle_deg = 300 }\nM1 = { on = [\"B1\", \"B2\"], t = 0.75 }\nM2 = { on = [\"B2\", \"B3\"], t = 0.75 }\nM3 = { on = [\"B3\", \"B1\"], t = 0.75 }\n[home]\nposition = [0, 0, 80]\nrpy_deg = [0, 0, 0]\n";
     let cyclic = [[0., 45., 90., 150., 225., 300.], [60., 105., 150., 210., 285., 0.]];
     let regular = [[0., 60., 120., 180., 240., 300.], [30., 90., 150., 210., 270., 330.]];
     for (name, text) in [
@@ -254,7 +254,7 @@ fn servos_in_mirror_pairs_have_equal_angles_at_home_h21() {
     {
         let _ = writeln!(text, "[cranks.{crank}]\nturn = \"{turn}\"\ndeg = {degrees}");
     }
-    text += "[home]\nposition = [0, 0, 140]\n";
+    text += "[home]\nposition = [0, 0, 140]\nrpy_deg = [0, 0, 0]\n";
     let (_folder, path) = file("servos.toml", &text);
     let (code, doc) = answer(&["ik", &path]);
     assert_eq!(code, Some(0), "{doc}");

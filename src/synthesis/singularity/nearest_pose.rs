@@ -139,7 +139,11 @@ impl Around<'_> {
                 let (mut low, mut high) = (at(k - 1), at(k));
                 for _ in 0..HALVINGS {
                     let middle = (low + high) * 0.5;
-                    if self.value(&middle) * before > 0.0 { low = middle } else { high = middle }
+                    let value = self.value(&middle);
+                    if !value.is_finite() {
+                        return None;
+                    }
+                    if value * before > 0.0 { low = middle } else { high = middle }
                 }
                 return Some((low + high) * 0.5);
             }
@@ -165,10 +169,18 @@ impl Around<'_> {
             let merit =
                 |y: &Vector6<f64>| 0.5 * y.norm_squared() + weight * self.value(y).abs() / square.sqrt();
             let (now, mut share) = (merit(&y), 1.0);
-            while share > 1e-3 && merit(&(y + (aim - y) * share)) > now {
+            let has_grown = |share: f64| {
+                let then = merit(&(y + (aim - y) * share));
+                // beyond the poses with a value
+                !then.is_finite() || then > now
+            };
+            while share > 1e-3 && has_grown(share) {
                 share *= 0.5;
             }
             let moved = (aim - y) * share;
+            if !merit(&(y + moved)).is_finite() {
+                break;
+            }
             y += moved;
             if moved.norm() < SETTLED * size {
                 break;
@@ -178,7 +190,7 @@ impl Around<'_> {
         // back onto det J = 0 along the gradient
         for _ in 0..3 {
             let correction = g * (self.value(&y) / g.norm_squared());
-            if correction.iter().all(|x| x.is_finite()) {
+            if self.value(&(y - correction)).is_finite() {
                 y -= correction;
             }
         }

@@ -55,10 +55,10 @@ impl PlaneFactor {
     }
 
     /// Fewer characters are simpler.
-    fn length(&self) -> (bool, usize, u64) {
+    fn length(&self) -> (usize, u64) {
         match self {
-            Self::Turned(scale, degrees) => (false, scale.text.len(), degrees.unsigned_abs().into()),
-            Self::Any(c, s) => (true, c.text.len() + s.text.len(), 0),
+            Self::Turned(scale, degrees) => (scale.text.len(), degrees.unsigned_abs().into()),
+            Self::Any(c, s) => (c.text.len() + s.text.len(), 0),
         }
     }
 
@@ -180,10 +180,11 @@ impl Similarity {
     }
 
     /// The length of its text: joints with their own numbers come from such joints where they can.
-    fn effort(&self, bodies: &[SnappedBody; 2]) -> (usize, bool, (bool, usize, u64)) {
+    fn effort(&self, bodies: &[SnappedBody; 2]) -> (bool, usize, bool, (usize, u64)) {
         let has_numbers = |k: usize, joint: usize| matches!(bodies[k].joints[joint].seed, Seed::Own(_));
         let foreign = self.partners.iter().filter(|(j, i)| has_numbers(1, *j) && !has_numbers(0, *i));
-        (foreign.count(), self.is_mirrored, self.factor.length())
+        let is_any = matches!(self.factor, PlaneFactor::Any(..));
+        (is_any, foreign.count(), self.is_mirrored, self.factor.length())
     }
 
     fn words(&self) -> String {
