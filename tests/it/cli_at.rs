@@ -206,8 +206,45 @@ fn a_singular_pose_is_an_answer_of_no() {
         let (code, _) = asked(&[&["at", HEXAPOD], words].concat());
         assert_eq!(code, Some(2), "{words:?}");
     }
-    let (code, doc) = asked(&["at", CRANKS, "--nearest-singular"]);
-    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("at::not_computed")));
+}
+
+#[test]
+fn cranks_have_a_stiffness_and_a_nearest_singular_pose() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stiff.toml");
+    let text = std::fs::read_to_string(CRANKS).unwrap();
+    let spring = 900.0;
+    std::fs::write(&path, text.replacen("max_torque", &format!("stiffness = {spring}\nmax_torque"), 1))
+        .unwrap();
+    let design = path.to_str().unwrap();
+    let (_, doc) = asked(&["at", CRANKS]);
+    assert!(doc["stiffness"].is_null(), "{doc}");
+    let (code, doc) = asked(&["at", design, "--nearest-singular"]);
+    assert_eq!(code, Some(0), "{doc}");
+    let home = [numbers(&doc["pose"]["p"]), vec![0.0; 3]].concat();
+    let turns = [0, 1, 2].map(|axis| rates(design, home.clone().try_into().unwrap(), axis));
+    for i in 0..3 {
+        let row = numbers(&doc["stiffness"]["K"][i]);
+        for j in 0..3 {
+            let product: f64 =
+                turns[i].iter().zip(&turns[j]).map(|(a, b)| a.to_radians() * b.to_radians()).sum();
+            assert!(
+                (row[j] - spring * product).abs() < 1e-5 * row[i],
+                "{i} {j}: {row:?} {}",
+                spring * product
+            );
+        }
+    }
+    // longer rods reach a singular pose
+    std::fs::write(&path, text.replacen("rod_length = 85.0", "rod_length = 110.0", 1)).unwrap();
+    let (_, doc) = asked(&["at", design, "--nearest-singular"]);
+    let near = &doc["nearest_singular"];
+    assert_eq!(near["stationary"], true, "{near}");
+    let pose = [numbers(&near["in_frames"]["position"]), numbers(&near["in_frames"]["angles"])].concat();
+    let text = format!("--pose={}", pose.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(","));
+    let (_, there) = asked(&["at", design, &text]);
+    let condition = |doc: &Value| doc["inverse_condition"].as_f64().unwrap();
+    assert!(condition(&there) < 1e-9 * condition(&doc), "{near} {there}");
 }
 
 #[test]

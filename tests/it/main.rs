@@ -56,6 +56,7 @@ mod evidence;
 mod exact_decisions;
 mod exact_designs;
 mod examples;
+mod field;
 mod fk_laws;
 mod hidden_lengths;
 mod independence;

@@ -80,3 +80,26 @@ def from_points(shown, folder):
     page.fill("#points", "one two three")
     page.locator("#points-form button").click()
     assert "bad" in page.get_attribute("#begin-words", "class") and page.locator("#guesses li").count() == 0
+
+
+def ring(radius, degrees):
+    return [[round(radius * math.cos(math.radians(x)), 6), round(radius * math.sin(math.radians(x)), 6), 0.0] for x in degrees]
+
+
+def symmetry_is_written(shown, program, folder):
+    """Rings of rounded decimals: the symmetry is said, and the button writes the constructions of `design convert --snap`."""
+    page = shown.page
+    rows = zip(ring(500, [-10, 10, 110, 130, 230, 250]), ring(280, [-50, 50, 70, 170, 190, 290]))
+    page.fill("#points", "\n".join(",".join(map(repr, [*a, *b])) for a, b in rows))
+    page.locator("#points-form button").click()
+    shown.settle()
+    assert page.is_visible("#symmetry") and "turned by a third" in page.text_content("#symmetry-found")
+    typed = shown.download("design, TOML", folder / "typed.toml")
+    page.locator("#snap").click()
+    shown.settle()
+    assert not page.is_visible("#symmetry") and "exact constructions" in page.text_content("#begin-words")
+    written = tomllib.loads(shown.download("design, TOML", folder / "written.toml").read_text())
+    program.run("design", "convert", typed, "--snap", "-o", folder / "converted.toml", "--quiet")
+    converted = tomllib.loads((folder / "converted.toml").read_text())
+    assert [written[body] for body in ("base", "platform")] == [converted[body] for body in ("base", "platform")], written
+    assert any("turn" in joint for joint in written["base"].values())

@@ -98,6 +98,28 @@ def singular(chromium, program, folder, pictures):
         shown.quiet()
 
 
+def framed(chromium, program, folder, pictures):
+    """Poses are shown and taken in the convention of the design, and the page states the order."""
+    text = (DESIGNS / "symmetric-hexapod.toml").read_text()
+    design = folder / "framed.toml"
+    design.write_text(f'{text}\n[frames]\nrotation_order = "pi"\nrelative_to = "home"\npivot = [0, 0, 40]\n')
+    with Opened(chromium, program.page(design, folder / "framed.html")) as shown:
+        names = ["x", "y", "z", "rx", "ry", "rz"]
+        assert "Rx(a) Ry(b) Rz(c)" in shown.page.text_content("#pose-help")
+        field = {name: poses.field(shown.page, name) for name in names}
+        assert all(abs(float(field[name].input_value())) < 1e-9 for name in names)
+        aim = [4.5, -3.25, 6.0, 5.0, 3.0, 10.0]
+        for name, value in zip(names, aim):
+            field[name].fill(repr(value))
+            shown.page.keyboard.press("Enter")
+        shown.settle()
+        picture(shown, pictures, "framed")
+        asked = ",".join(map(repr, aim))
+        assert poses.near(poses.lengths(shown), program.json("ik", design, f"--pose={asked}")["lengths"])
+        access.names(shown)
+        shown.quiet()
+
+
 def general(chromium, program, folder, pictures):
     for name in ("general-6-6", "dietmaier"):
         path = program.page(DESIGNS / f"{name}.toml", folder / f"{name}.html")
@@ -228,6 +250,7 @@ def start(chromium, program, folder, pictures):
         begin.shared_joints(shown)
         begin.what_is_no_hexapod(shown)
         begin.from_points(shown, folder)
+        begin.symmetry_is_written(shown, program, folder)
         begin.examples(shown)
         shown.quiet()
     with Opened(chromium, path, width=390, height=780, touch=True) as shown:
@@ -381,7 +404,7 @@ def picture(shown, folder, name):
 
 
 CHECKS = [
-    rods, faults, first, spaces, lengths, whole, shared, start, octahedral, hidden, slow, required, equivalent, singular, general, phone, recorded, printed, reported, foreign,
+    rods, faults, first, spaces, lengths, whole, shared, start, framed, octahedral, hidden, slow, required, equivalent, singular, general, phone, recorded, printed, reported, foreign,
 ]
 
 

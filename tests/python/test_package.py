@@ -317,6 +317,13 @@ def test_bad_input_is_refused_with_code_place_and_help(octahedral):
     assert caught.value.code == "not_octahedral"
 
 
+def test_the_pose_of_the_machine_is_marked():
+    design = equipod.Design.preset("bench-l16")
+    found = design.fk(design.ik(design.home))
+    assert np.allclose(found[found.nearest_home].transform, design.home, atol=1e-6)
+    assert found._repr_html_().count("nearest to home") == 1
+
+
 def test_rings_of_decimals_are_snapped():
     def ring(radius, degrees):
         turn = np.radians(degrees)

@@ -6,11 +6,12 @@ use nalgebra::Point3;
 
 use super::failure::{CallFault, EqpError, EqpStatus, give, items, places, read, take_back, told, write};
 use super::pose::EqpPose;
-use ask::Design;
 use ask::Error;
 use ask::design::parse;
+use ask::{Design, PoseFrames};
 use files::design::Format;
 use machine::requirements::Requirements;
+use platform::geom::PoseConvention;
 use platform::manipulator::{Leg, Manipulator, jacobian};
 
 /// An immutable design, which threads may share.
@@ -20,6 +21,7 @@ pub struct EqpDesign {
     pub(super) required: Requirements,
     name: CString,
     units: CString,
+    frames: CString,
 }
 
 impl EqpDesign {
@@ -27,7 +29,29 @@ impl EqpDesign {
         // names containing a zero end there
         let text = |s: &str| CString::new(s.split('\0').next().unwrap_or_default()).unwrap_or_default();
         let required = design.requirements();
-        Self { name: text(&design.name), units: text(&design.units), required, design }
+        Self {
+            name: text(&design.name),
+            units: text(&design.units),
+            frames: text(&design.frames.sentences()),
+            required,
+            design,
+        }
+    }
+
+    /// The convention of poses as numbers, with home.
+    pub(super) fn frames(&self) -> PoseFrames {
+        self.design.pose_frames(PoseConvention::default())
+    }
+
+    /// The design with the keys of a `[frames]` table in place of its own.
+    fn with_frames(&self, keys: &str) -> Result<Self, CallFault> {
+        let mut plain = self.design.clone();
+        plain.frames = PoseConvention::default();
+        let text = format!("{}\n[frames]\n{keys}", plain.to_toml());
+        let (read, _) =
+            parse(&text, Format::Toml).map_err(|violations| Error::Design { file: None, violations })?;
+        plain.frames = read.frames;
+        Ok(Self::new(plain))
     }
 }
 
@@ -122,6 +146,31 @@ pub unsafe extern "C" fn eqp_design_from_joints(
     }
 }
 
+/// The same design with another convention for poses as numbers: `text` holds the keys of `[frames]` in a design file,
+/// TOML, of `length` bytes, such as `rotation_order = "pi"`. Keys that are absent are as in this library.
+///
+/// # Safety
+/// `design` is a design, `text` points to `length` bytes, and `with` to a place for a pointer. The argument `error` is
+/// null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_with_frames(
+    design: *const EqpDesign,
+    text: *const c_char,
+    length: usize,
+    with: *mut *mut EqpDesign,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let bytes = items(text.cast::<u8>(), length, "text")?;
+            let keys =
+                std::str::from_utf8(bytes).map_err(|e| CallFault::new(EqpStatus::BadText, e.to_string()))?;
+            give(read(design, "design")?.with_frames(keys)?, with, "with")
+        })
+    }
+}
+
 /// Frees a design; null is ignored. Objects made from it stay valid.
 ///
 /// # Safety
@@ -150,6 +199,16 @@ pub unsafe extern "C" fn eqp_design_name(design: *const EqpDesign) -> *const c_c
 pub unsafe extern "C" fn eqp_design_units(design: *const EqpDesign) -> *const c_char {
     // SAFETY: the caller's promise.
     unsafe { design.as_ref() }.map_or(std::ptr::null(), |d| d.units.as_ptr())
+}
+
+/// The convention of poses as numbers in sentences, valid as long as the design; null for null.
+///
+/// # Safety
+/// `design` is null or a design.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_design_frames(design: *const EqpDesign) -> *const c_char {
+    // SAFETY: the caller's promise.
+    unsafe { design.as_ref() }.map_or(std::ptr::null(), |d| d.frames.as_ptr())
 }
 
 /// The home pose of a design, or the default pose above the base.

@@ -363,6 +363,20 @@ enum eqp_status eqp_design_from_joints(const double *base,
                                        struct eqp_error *error);
 
 /*
+ The same design with another convention for poses as numbers: `text` holds the keys of `[frames]` in a design file,
+ TOML, of `length` bytes, such as `rotation_order = "pi"`. Keys that are absent are as in this library.
+
+ # Safety
+ `design` is a design, `text` points to `length` bytes, and `with` to a place for a pointer. The argument `error` is
+ null or points to a place for an error.
+ */
+enum eqp_status eqp_design_with_frames(const struct eqp_design *design,
+                                       const char *text,
+                                       size_t length,
+                                       struct eqp_design **with,
+                                       struct eqp_error *error);
+
+/*
  Frees a design; null is ignored. Objects made from it stay valid.
 
  # Safety
@@ -385,6 +399,14 @@ const char *eqp_design_name(const struct eqp_design *design);
  `design` is null or a design.
  */
 const char *eqp_design_units(const struct eqp_design *design);
+
+/*
+ The convention of poses as numbers in sentences, valid as long as the design; null for null.
+
+ # Safety
+ `design` is null or a design.
+ */
+const char *eqp_design_frames(const struct eqp_design *design);
 
 /*
  The home pose of a design, or the default pose above the base.
@@ -485,6 +507,34 @@ enum eqp_status eqp_pose_from_rpy(const double *position,
  `pose` points to a pose, `rpy_deg` to places for three numbers, `error` is null or points to a place for an error.
  */
 enum eqp_status eqp_pose_rpy(const struct eqp_pose *pose, double *rpy_deg, struct eqp_error *error);
+
+/*
+ Makes the pose of `count` numbers in the convention of a design (`eqp_design_frames`): six are position and angles,
+ seven are position and a unit quaternion.
+
+ # Safety
+ `design` is a design, `numbers` points to `count` numbers, and `pose` to a place for a pose. The argument `error` is
+ null or points to a place for an error.
+ */
+enum eqp_status eqp_pose_from_numbers(const struct eqp_design *design,
+                                      const double *numbers,
+                                      size_t count,
+                                      struct eqp_pose *pose,
+                                      struct eqp_error *error);
+
+/*
+ Position and angles of a pose in the convention of a design, six numbers, and its quaternion, four numbers;
+ `quaternion` may be null.
+
+ # Safety
+ `design` is a design, `pose` points to a pose, `numbers` to places for six numbers, and `quaternion` is null or
+ points to places for four. The argument `error` is null or points to a place for an error.
+ */
+enum eqp_status eqp_pose_numbers(const struct eqp_design *design,
+                                 const struct eqp_pose *pose,
+                                 double *numbers,
+                                 double *quaternion,
+                                 struct eqp_error *error);
 
 /*
  Prepares a design; the solver does not need the design afterwards. The same seed gives the same answers.

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Matrix4};
 
-use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
+use super::design::EqpDesign;
+use super::failure::{CallFault, EqpError, EqpStatus, items, read, told, write};
 use ask::Error;
 use platform::geom::{Angles, Pose};
 
@@ -81,6 +82,61 @@ pub unsafe extern "C" fn eqp_pose_rpy(
         told(error, || {
             let pose = read(pose, "pose")?.checked()?;
             *write(rpy_deg.cast::<[f64; 3]>(), "rpy_deg")? = pose.angles().degrees();
+            Ok(())
+        })
+    }
+}
+
+/// Makes the pose of `count` numbers in the convention of a design (`eqp_design_frames`): six are position and angles,
+/// seven are position and a unit quaternion.
+///
+/// # Safety
+/// `design` is a design, `numbers` points to `count` numbers, and `pose` to a place for a pose. The argument `error` is
+/// null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_pose_from_numbers(
+    design: *const EqpDesign,
+    numbers: *const f64,
+    count: usize,
+    pose: *mut EqpPose,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let frames = read(design, "design")?.frames();
+            let numbers = items(numbers, count, "numbers")?;
+            let found = frames.convention.read(numbers, &frames.home).map_err(Error::from)?;
+            *write(pose, "pose")? = (&found).into();
+            Ok(())
+        })
+    }
+}
+
+/// Position and angles of a pose in the convention of a design, six numbers, and its quaternion, four numbers;
+/// `quaternion` may be null.
+///
+/// # Safety
+/// `design` is a design, `pose` points to a pose, `numbers` to places for six numbers, and `quaternion` is null or
+/// points to places for four. The argument `error` is null or points to a place for an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eqp_pose_numbers(
+    design: *const EqpDesign,
+    pose: *const EqpPose,
+    numbers: *mut f64,
+    quaternion: *mut f64,
+    error: *mut EqpError,
+) -> EqpStatus {
+    // SAFETY: the caller's promises, here and in the body.
+    unsafe {
+        told(error, || {
+            let frames = read(design, "design")?.frames();
+            let pose = read(pose, "pose")?.checked()?;
+            let numbers = write(numbers.cast::<[f64; 6]>(), "numbers")?;
+            if let Some(to) = quaternion.cast::<[f64; 4]>().as_mut() {
+                *to = frames.write(&pose).quaternion;
+            }
+            *numbers = frames.numbers(&pose);
             Ok(())
         })
     }

@@ -333,3 +333,44 @@ fn cranks_are_refused_with_a_code_of_their_own() {
     let text = unsafe { CStr::from_ptr(eqp_status_text(13)) }.to_str().unwrap();
     assert!(text.contains("cranks"), "{text}");
 }
+
+#[test]
+fn poses_as_numbers_have_the_convention_of_the_design() {
+    const FRAMES: &str = "rotation_order = \"pi\"\npivot = [0, 0, 50]\nrelative_to = \"home\"\nup = \"y\"\nquaternion = \"xyzw\"";
+    // SAFETY: the pointers are those of the test's own values.
+    unsafe {
+        let usual = design();
+        let mut own = null_mut();
+        let made =
+            eqp_design_with_frames(usual, FRAMES.as_ptr().cast(), FRAMES.len(), &raw mut own, null_mut());
+        assert_eq!(made, EqpStatus::Ok);
+        let sentence = CStr::from_ptr(eqp_design_frames(own)).to_str().unwrap();
+        assert!(sentence.contains("Rx(a) Ry(b) Rz(c)") && sentence.contains("from home"), "{sentence}");
+        let given = [1.0, 2.0, -3.0, 4.0, -5.0, 6.0];
+        let mut pose = MaybeUninit::<EqpPose>::uninit();
+        let read = |of: *mut EqpDesign, pose: &mut MaybeUninit<EqpPose>| {
+            eqp_pose_from_numbers(of, given.as_ptr(), 6, pose.as_mut_ptr(), null_mut())
+        };
+        assert_eq!(read(own, &mut pose), EqpStatus::Ok);
+        let (mut numbers, mut quaternion) = ([0.0; 6], [0.0; 4]);
+        let status =
+            eqp_pose_numbers(own, pose.as_ptr(), numbers.as_mut_ptr(), quaternion.as_mut_ptr(), null_mut());
+        assert_eq!(status, EqpStatus::Ok);
+        assert!(numbers.iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-12), "{numbers:?}");
+        assert!(quaternion[3] > 0.9, "the scalar is last: {quaternion:?}");
+        // the same numbers in the usual convention are another pose
+        let theirs = pose.assume_init();
+        let mut ours = MaybeUninit::<EqpPose>::uninit();
+        assert_eq!(read(usual, &mut ours), EqpStatus::Ok);
+        assert_ne!(ours.assume_init(), theirs);
+        let mut error = no_error();
+        let bad = "up = \"x\"";
+        let status =
+            eqp_design_with_frames(own, bad.as_ptr().cast(), bad.len(), &raw mut own, &raw mut error);
+        assert_eq!(status, EqpStatus::BadDesign, "{}", message(&error));
+        let status = eqp_pose_from_numbers(own, given.as_ptr(), 5, ours.as_mut_ptr(), &raw mut error);
+        assert_eq!(status, EqpStatus::BadPose);
+        eqp_design_free(usual);
+        eqp_design_free(own);
+    }
+}

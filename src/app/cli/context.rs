@@ -10,7 +10,7 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
-use ::files::design::{FiveLegs, Format, Warning, parse_five_legs};
+use ::files::design::{FiveLegs, Format, SnappedDesign, Warning, parse_five_legs};
 use ask::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
 use ask::{Design, PoseFrames};
 use machine::coupled::CoupledLegs;
@@ -141,6 +141,16 @@ impl Context {
     pub(crate) fn note(&self, words: &str) {
         if !self.json {
             diagnostic::print_note(words);
+        }
+    }
+
+    /// Tells of the symmetry that makes an answer a proof.
+    pub(crate) fn offer_symmetry(&self, snapped: Option<SnappedDesign>, units: &str) {
+        if let Some(snapped) = snapped {
+            self.note(&format!(
+                "The joints have a symmetry but for {:.1e} {units}, and the exact design has a proof: `equipod design convert DESIGN --snap -o FILE` writes it.",
+                snapped.off()
+            ));
         }
     }
 

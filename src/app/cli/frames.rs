@@ -2,6 +2,7 @@
 
 use ask::{Design, PoseFrames};
 use nalgebra::Vector3;
+use num::names::named;
 use platform::geom::{AngleUnit, ListedFrom, PoseConvention, QuaternionOrder, RotationOrder, UpAxis};
 
 use super::context::Context;
@@ -19,24 +20,17 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
     pivot: Option<Vector3<f64>>,
     /// The origin of poses: `base` or `home`
-    #[arg(long, value_name = "FRAME", value_parser = |word: &str| one(word, &[ListedFrom::Base, ListedFrom::Home], ListedFrom::name))]
+    #[arg(long, value_name = "FRAME", value_parser = |word: &str| named("frame", word, &[ListedFrom::Base, ListedFrom::Home], ListedFrom::name))]
     relative_to: Option<ListedFrom>,
     /// Axis that points up: `z` or `y`
-    #[arg(long, value_name = "AXIS", value_parser = |word: &str| one(word, &UpAxis::BOTH, UpAxis::name))]
+    #[arg(long, value_name = "AXIS", value_parser = |word: &str| named("axis", word, &UpAxis::BOTH, UpAxis::name))]
     up: Option<UpAxis>,
     /// Unit of angles: `deg` or `rad`
-    #[arg(long, value_name = "UNIT", value_parser = |word: &str| one(word, &AngleUnit::BOTH, AngleUnit::name))]
+    #[arg(long, value_name = "UNIT", value_parser = |word: &str| named("unit of angles", word, &AngleUnit::BOTH, AngleUnit::name))]
     angle_unit: Option<AngleUnit>,
     /// Order of quaternions: `wxyz` or `xyzw`
-    #[arg(long, value_name = "ORDER", value_parser = |word: &str| one(word, &QuaternionOrder::BOTH, QuaternionOrder::name))]
+    #[arg(long, value_name = "ORDER", value_parser = |word: &str| named("order of quaternions", word, &QuaternionOrder::BOTH, QuaternionOrder::name))]
     quaternion: Option<QuaternionOrder>,
-}
-
-fn one<T: Copy>(word: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, String> {
-    all.iter().copied().find(|value| name(*value) == word).ok_or_else(|| {
-        let words: Vec<String> = all.iter().map(|value| format!("`{}`", name(*value))).collect();
-        format!("write {}", words.join(" or "))
-    })
 }
 
 fn point(text: &str) -> Result<Vector3<f64>, String> {

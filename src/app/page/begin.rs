@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::request::Refusal;
 use super::session::{InvalidStart, Session};
 use crate::app::presets::PRESETS;
+use ask::Design;
 use ask::design::parse;
 use files::design::{Format, HexapodSizes, PointTable, Violation};
 
@@ -68,6 +69,15 @@ pub(super) fn points(text: &str, units: &str) -> Result<MadeRecord, Refusal> {
     Ok(MadeRecord { toml: design.to_toml(), guesses: table.guesses })
 }
 
+/// The design with the symmetry of its joints as constructions.
+pub(super) fn snapped(design: &Design) -> Result<MadeRecord, Refusal> {
+    let snapped = design.snapped().ok_or_else(|| {
+        Refusal::new("symmetry", "no symmetry was found that the joints do not have exactly")
+    })?;
+    let guesses = snapped.sentences(&design.units);
+    Ok(MadeRecord { toml: snapped.design.to_toml(), guesses })
+}
+
 impl DataSheet {
     /// The design as a file with constructions, so that its symmetry is exact ([`HexapodSizes`]).
     pub(super) fn made(&self) -> Result<MadeRecord, Refusal> {
@@ -77,8 +87,10 @@ impl DataSheet {
             height: self.height,
         };
         sizes.check().map_err(|e| Refusal::new("sizes", e))?;
-        let guesses = sizes.understood(&self.units).to_vec();
-        Ok(MadeRecord { toml: sizes.to_toml(NAME, &self.units), guesses })
+        let toml = sizes.to_toml(NAME, &self.units);
+        let (design, _) =
+            parse(&toml, Format::Toml).map_err(|violations| Refusal::new("sizes", sentences(&violations)))?;
+        Ok(MadeRecord { toml, guesses: design.told_of_sizes(&sizes) })
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::request::Refusal;
 use super::scene::sign;
 use super::session::Session;
-use ask::Design;
+use ask::{Design, PoseFrames};
 use fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{ComplexPose, Pose, turn_between};
@@ -50,6 +50,8 @@ pub(super) struct ModesRecord {
 #[derive(Debug, Serialize)]
 struct ModeRecord {
     pose: PoseRecord,
+    /// Position and angles in the convention of the design.
+    written: [f64; 6],
     turn_deg: f64,
     sign: i8,
     inverse_condition: f64,
@@ -130,6 +132,7 @@ pub(super) fn record(
     at: &Pose,
     lengths: Option<[f64; 6]>,
 ) -> Result<ModesRecord, Refusal> {
+    let frames = session.frames();
     let asked = InputsOfPoses::of(session, design, at, lengths)?;
     let m = &asked.m;
     let found = solve(m, asked.squares)?;
@@ -154,20 +157,21 @@ pub(super) fn record(
         reason: found.completeness.to_string(),
         here,
         nearest,
-        modes: real.iter().map(|r| mode(&asked, design, &session.home, r)).collect(),
+        modes: real.iter().map(|r| mode(&asked, design, &frames, r)).collect(),
         complex: roots.iter().filter(|r| r.reality != Reality::Real).count(),
     })
 }
 
-fn mode(asked: &InputsOfPoses, design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
+fn mode(asked: &InputsOfPoses, design: &Design, frames: &PoseFrames, root: &FkRoot) -> ModeRecord {
     let real = root.pose.real_part();
     let j = jacobian(&asked.m, &real, design.characteristic_length());
     let kept = |(platform, angles): &(RotaryPlatform, [f64; 6])| {
         platform.elbows_kept(&real, angles).iter().all(|kept| *kept)
     };
-    let turn = turn_between(&home.rotation, &real.rotation).norm();
+    let turn = turn_between(&frames.home.rotation, &real.rotation).norm();
     ModeRecord {
         pose: (&real).into(),
+        written: frames.numbers(&real),
         turn_deg: turn.to_degrees(),
         sign: sign(&j),
         inverse_condition: inverse_condition(&j),

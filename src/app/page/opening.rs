@@ -7,6 +7,7 @@ use super::session::{Equivalent, Session};
 use ask::Design;
 use ask::equivalents::Original;
 use machine::requirements::Hardware;
+use platform::geom::{PoseConvention, UpAxis};
 use platform::manipulator::Body;
 use records::PoseRecord;
 use synthesis::singularity::SingularityVerdict;
@@ -41,6 +42,9 @@ pub(super) struct OpeningRecord<'a> {
     limits: LimitsRecord,
     hardware: HardwareRecord,
     slides: SlidesRecord,
+    frames: FramesRecord,
+    /// Sentences about the symmetry that the joints have up to rounding; `null`: none was found.
+    symmetry: Option<Vec<String>>,
     /// The hexagon of the octahedral original.
     hexagon: Option<HexagonRecord>,
     /// The equivalents to choose from.
@@ -91,8 +95,30 @@ impl HardwareRecord {
 struct SlidesRecord {
     /// Range of the position, design units.
     position: [f64; 3],
-    /// Range of roll, pitch, yaw, degrees.
-    rpy_deg: [f64; 3],
+    /// Range of the three angles, in their unit.
+    angles: [f64; 3],
+}
+
+/// The convention of the six numbers of a pose.
+#[derive(Debug, Serialize)]
+struct FramesRecord {
+    /// Names of the numbers.
+    names: [&'static str; 6],
+    /// The unit of angles.
+    angle_unit: &'static str,
+    /// The convention in sentences.
+    sentence: String,
+}
+
+impl FramesRecord {
+    fn of(convention: &PoseConvention) -> Self {
+        let [a, b, c] = convention.angle_words();
+        Self {
+            names: ["x", "y", "z", a, b, c],
+            angle_unit: convention.angle_unit().name(),
+            sentence: convention.sentences(),
+        }
+    }
 }
 
 /// The factor by which sliders exceed the workspace, so that poses beyond it can be seen.
@@ -109,9 +135,12 @@ pub(super) fn reach(design: &Design) -> ([f64; 3], [f64; 3]) {
 }
 
 impl SlidesRecord {
-    fn of(design: &Design) -> Self {
-        let (position, rpy_deg) = reach(design);
-        Self { position, rpy_deg }
+    fn of(design: &Design, convention: &PoseConvention) -> Self {
+        let (position, degrees) = reach(design);
+        let [x, y, z] = position;
+        let position = if convention.up_axis() == UpAxis::Y { [x, z, y] } else { position };
+        let angles = degrees.map(|range| convention.angle_unit().of_radians(range.to_radians()));
+        Self { position, angles }
     }
 }
 
@@ -204,6 +233,7 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         None => "general",
     };
     let original = session.original.as_ref();
+    let frames = session.frames();
     OpeningRecord {
         name: &design.name,
         units: &design.units,
@@ -226,7 +256,9 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         }),
         limits: LimitsRecord { spacing: session.limits.0, det: session.limits.1 },
         hardware: HardwareRecord::of(&design.hardware),
-        slides: SlidesRecord::of(design),
+        slides: SlidesRecord::of(design, &frames.convention),
+        frames: FramesRecord::of(&frames.convention),
+        symmetry: design.snapped().map(|snapped| snapped.sentences(&design.units)),
         hexagon: original.map(hexagon),
         patterns: session.start.as_ref().zip(original).map(|(s, o)| patterns(s, o)),
         start: session.start.as_ref().map(Chosen::from),

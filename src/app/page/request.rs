@@ -10,7 +10,7 @@ use super::{
 use ask::design::parse_ideal;
 use files::design::Format;
 use machine::requirements::AssessOptions;
-use platform::geom::{Angles, Pose};
+use platform::geom::Pose;
 use records::PoseRecord;
 use synthesis::Pattern;
 
@@ -47,8 +47,8 @@ pub(super) enum PageRequest {
     Start { pattern: String },
     /// The pose at a share of the path.
     Path { at: f64 },
-    /// The pose at a position with roll, pitch and yaw.
-    Place { position: [f64; 3], rpy_deg: [f64; 3] },
+    /// The pose of six numbers in the convention of the design.
+    Place { numbers: [f64; 6] },
     /// The pose at a position with a unit quaternion, scalar part first, as other answers give their worst poses.
     Quaternion { p: [f64; 3], q: [f64; 4] },
     /// All results about both platforms at a pose.
@@ -83,6 +83,8 @@ pub(super) enum PageRequest {
     Points { text: String, units: String },
     /// A hexapod with the numbers of a data sheet, as a design file.
     Sheet(begin::DataSheet),
+    /// The design with the symmetry of its joints as constructions, as a design file.
+    Snap,
     /// The platform as a design file.
     Design { which: Which, chosen: Option<Chosen> },
 }
@@ -179,9 +181,10 @@ impl Session {
                 Ok(value(OffsetsRecord { offsets: self.first_offsets(&pattern)? }))
             }
             PageRequest::Path { at } => Ok(value(path::record(self, at))),
-            PageRequest::Place { position, rpy_deg } => {
-                let pose = Pose::new(position, Angles::from_degrees(rpy_deg));
-                Ok(value(path::PathPose::from(&pose)))
+            PageRequest::Place { numbers } => {
+                let frames = self.frames();
+                let pose = frames.convention.read(&numbers, &frames.home);
+                Ok(value(path::PathPose::from(&pose.map_err(|e| Refusal::new("pose", e))?)))
             }
             PageRequest::Quaternion { p, q } => {
                 let pose = Pose::from_quaternion(p, q).map_err(|e| Refusal::new("pose", e))?;
@@ -227,6 +230,7 @@ impl Session {
             PageRequest::Preset { name } => begin::preset(&name).map(value),
             PageRequest::Points { text, units } => begin::points(&text, &units).map(value),
             PageRequest::Sheet(sheet) => sheet.made().map(value),
+            PageRequest::Snap => begin::snapped(&self.design).map(value),
             PageRequest::Design { which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 let (toml, json) = (design.to_toml(), design.to_json());

@@ -22,8 +22,8 @@ const ROUNDING: f64 = 1e-13;
 #[derive(Debug, Serialize)]
 pub(super) struct SceneRecord {
     pose: PoseRecord,
-    /// Roll, pitch and yaw of the pose, degrees.
-    rpy_deg: [f64; 3],
+    /// Position and angles of the pose in the convention of the design.
+    written: [f64; 6],
     platforms: Vec<PlatformRecord>,
     /// The leg map from the lengths of the first platform to those of the second.
     map: Option<RelationRecord>,
@@ -120,7 +120,7 @@ pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Re
         platforms.push(platform(session, &second, at, &own, true));
         map = Some(relation(e, &a, &s, &own)?);
     }
-    Ok(SceneRecord { pose: at.into(), rpy_deg: at.angles().degrees(), platforms, map })
+    Ok(SceneRecord { pose: at.into(), written: session.frames().numbers(at), platforms, map })
 }
 
 fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {

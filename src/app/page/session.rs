@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-use ask::Design;
 use ask::equivalents::Original;
+use ask::{Design, PoseFrames};
 use machine::rotary::RotaryPlatform;
 use optimize::offsets::OffsetProblem;
-use platform::geom::Pose;
+use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::Manipulator;
 use synthesis::{AffineLegMap, InstantiateError, Pattern};
 
@@ -109,6 +109,11 @@ impl Session {
     pub fn shown(&self) -> Design {
         let equivalent = self.start.as_ref().and_then(|e| self.second(e).ok());
         equivalent.map_or_else(|| self.design.clone(), |(design, _)| design)
+    }
+
+    /// The convention of the poses that people type and see: `[frames]` of the design.
+    pub(super) fn frames(&self) -> PoseFrames {
+        PoseFrames { home: self.home, ..self.design.pose_frames(PoseConvention::default()) }
     }
 
     /// The octahedral original, or else the design itself.

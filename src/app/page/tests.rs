@@ -273,13 +273,14 @@ fn a_name_is_text_and_not_markup() {
 fn a_pose_by_its_angles_and_by_its_quaternion_has_the_lengths_of_its_rotation() {
     let session = session(GENERAL);
     let (position, rpy) = ([0.4, -0.3, 1.9], [12.0, -7.5, 33.0]);
-    let placed = ask(&session, &json!({"op": "place", "position": position, "rpy_deg": rpy}))["pose"].clone();
+    let six = [position, rpy].concat();
+    let placed = ask(&session, &json!({"op": "place", "numbers": six}))["pose"].clone();
     let expected = Pose::new(position, Angles::from_degrees(rpy));
     let state = ask(&session, &json!({"op": "state", "pose": placed}));
     let squares = expected.squared_lengths(design(GENERAL).manipulator()).unwrap();
     let lengths = numbers(&state["platforms"][0]["lengths"]);
     assert!(lengths.iter().zip(squares.lengths().get()).all(|(a, b)| (a - b).abs() < 1e-12 * b));
-    assert!(numbers(&state["rpy_deg"]).iter().zip(rpy).all(|(a, b)| (a - b).abs() < 1e-12));
+    assert!(numbers(&state["written"])[3..].iter().zip(rpy).all(|(a, b)| (a - b).abs() < 1e-12));
     let again = ask(&session, &json!({"op": "quaternion", "p": position, "q": expected.quaternion()}));
     let rows = |v: &Value| v["R"].as_array().unwrap().iter().flat_map(numbers).collect::<Vec<_>>();
     assert!(rows(&again["pose"]).iter().zip(rows(&placed)).all(|(a, b)| (a - b).abs() < 1e-15));
@@ -550,7 +551,7 @@ fn cranks_have_both_tips_and_no_questions_about_legs_that_change_their_lengths()
     }
     assert!(platform["inverse_condition"].as_f64().unwrap() > 0.0 && platform["sign"] != json!(0));
     // beyond reach there are only circles
-    let far = json!({"op": "place", "position": [0, 0, 300], "rpy_deg": [0, 0, 0]});
+    let far = json!({"op": "place", "numbers": [0, 0, 300, 0, 0, 0]});
     let pose = ask(&session, &far)["pose"].clone();
     let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": null}));
     let cranks = &state["platforms"][0]["cranks"];
@@ -611,4 +612,66 @@ fn the_derivation_is_the_sheet_of_the_command() {
         text.contains("Cayley-Menger") && !text.contains("<b>&"),
         "the page without a core has it recorded"
     );
+}
+
+#[test]
+fn numbers_of_poses_have_the_convention_of_the_design() {
+    let frames = "\n[frames]\nrotation_order = \"pi\"\npivot = [0, 0, 0.5]\nrelative_to = \"home\"\nangles = \"rad\"\n";
+    let session = session(&format!("{GENERAL}{frames}"));
+    let opening = ask(&session, &json!({"op": "open"}));
+    assert_eq!(opening["frames"]["names"], json!(["x", "y", "z", "rx", "ry", "rz"]), "{opening}");
+    assert!(opening["frames"]["sentence"].as_str().unwrap().contains("Rx(a) Ry(b) Rz(c)"));
+    assert!(numbers(&opening["slides"]["angles"]).iter().all(|range| *range < 6.3));
+    let home = ask(&session, &json!({"op": "state", "pose": opening["home"]}));
+    assert!(numbers(&home["written"]).iter().all(|x| x.abs() < 1e-12), "{home}");
+    let given = [0.1, -0.2, 0.3, 0.2, -0.1, 0.4];
+    let placed = ask(&session, &json!({"op": "place", "numbers": given}))["pose"].clone();
+    let own = session.frames();
+    let meant = own.convention.read(&given, &own.home).unwrap();
+    assert!((numbers(&placed["p"])[2] - meant.position.z).abs() < 1e-12);
+    let state = ask(&session, &json!({"op": "state", "pose": placed}));
+    assert!(numbers(&state["written"]).iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-12), "{state}");
+    let modes = ask(&session, &json!({"op": "modes", "pose": placed, "which": "first"}));
+    let here = &modes["modes"][modes["here"].as_u64().unwrap() as usize]["written"];
+    assert!(numbers(here).iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-6), "{modes}");
+}
+
+#[test]
+fn symmetry_of_decimals_is_offered_and_written() {
+    let rows: Vec<String> = [-10.0_f64, 10.0, 110.0, 130.0, 230.0, 250.0]
+        .iter()
+        .zip([-50.0_f64, 50.0, 70.0, 170.0, 190.0, 290.0])
+        .map(|(a, b)| {
+            let at = |r: f64, degrees: f64| {
+                let (s, c) = degrees.to_radians().sin_cos();
+                format!("{:.6},{:.6},0", r * c, r * s)
+            };
+            format!("{},{}", at(500.0, *a), at(280.0, b))
+        })
+        .collect();
+    let points = json!({"op": "points", "text": rows.join("\n"), "units": "mm"});
+    let made = ask(&session(GENERAL), &points)["toml"].as_str().unwrap().to_owned();
+    let typed = session(&made);
+    let symmetry = ask(&typed, &json!({"op": "open"}))["symmetry"].to_string();
+    assert!(symmetry.contains("turned by a third"), "{symmetry}");
+    let snapped = ask(&typed, &json!({"op": "snap"}));
+    // the same constructions as `design convert --snap`
+    assert_eq!(snapped["toml"].as_str().unwrap(), typed.design.snapped().unwrap().design.to_toml());
+    let exact = session(snapped["toml"].as_str().unwrap());
+    assert!(ask(&exact, &json!({"op": "open"}))["symmetry"].is_null());
+    assert_eq!(ask(&exact, &json!({"op": "snap"}))["error"]["code"], "symmetry");
+}
+
+#[test]
+fn a_nearly_singular_data_sheet_is_said_to_be_one() {
+    let sheet = |spread: f64| {
+        json!({"op": "sheet", "base_radius": 500, "platform_radius": 300, "base_spread_deg": 20,
+            "platform_spread_deg": spread, "height": 400, "units": "mm"})
+    };
+    let session = session(GENERAL);
+    let told = ask(&session, &sheet(98.0))["guesses"].to_string();
+    assert!(told.contains("nearly singular") && told.contains("(22 degrees)"), "{told}");
+    assert!(!ask(&session, &sheet(20.0))["guesses"].to_string().contains("singular"));
+    let refused = ask(&session, &sheet(100.0))["error"]["message"].to_string();
+    assert!(refused.contains("it would be 20 degrees"), "{refused}");
 }

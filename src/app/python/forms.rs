@@ -1,6 +1,7 @@
 //! Angles and quaternions of poses, as the library has them.
 
 use ndarray::{Array2, Array3};
+use num::names::named;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
@@ -69,18 +70,13 @@ pub(super) type ConventionWords =
 
 fn word<T: Copy>(
     py: Python<'_>,
-    what: &str,
+    what: &'static str,
     given: Option<&String>,
     all: &[T],
     name: fn(T) -> &'static str,
 ) -> PyResult<Option<T>> {
     let Some(given) = given else { return Ok(None) };
-    if let Some(value) = all.iter().copied().find(|value| name(*value) == given) {
-        Ok(Some(value))
-    } else {
-        let known: Vec<&str> = all.iter().map(|value| name(*value)).collect();
-        Err(refused(py, "frames", &format!("{what} is `{given}`, not one of {}", known.join(", "))))
-    }
+    named(what, given, all, name).map(Some).map_err(|why| refused(py, "frames", &why.to_string()))
 }
 
 fn convention(py: Python<'_>, words: &ConventionWords) -> PyResult<PoseConvention> {
@@ -88,10 +84,10 @@ fn convention(py: Python<'_>, words: &ConventionWords) -> PyResult<PoseConventio
     let order = order.as_ref().map(|text| text.parse::<RotationOrder>()).transpose();
     Ok(PoseConvention {
         rotation_order: order.map_err(|why| refused(py, "frames", &why.to_string()))?,
-        angles: word(py, "angles", angles.as_ref(), &AngleUnit::BOTH, AngleUnit::name)?,
+        angles: word(py, "unit of angles", angles.as_ref(), &AngleUnit::BOTH, AngleUnit::name)?,
         quaternion: word(
             py,
-            "quaternion",
+            "order of quaternions",
             quaternion.as_ref(),
             &QuaternionOrder::BOTH,
             QuaternionOrder::name,
@@ -99,12 +95,12 @@ fn convention(py: Python<'_>, words: &ConventionWords) -> PyResult<PoseConventio
         pivot: pivot.map(Into::into),
         relative_to: word(
             py,
-            "relative_to",
+            "frame",
             relative_to.as_ref(),
             &[ListedFrom::Base, ListedFrom::Home],
             ListedFrom::name,
         )?,
-        up: word(py, "up", up.as_ref(), &UpAxis::BOTH, UpAxis::name)?,
+        up: word(py, "axis", up.as_ref(), &UpAxis::BOTH, UpAxis::name)?,
     })
 }
 

@@ -14,7 +14,7 @@ use ask::Design;
 use ask::Error;
 use fk::{Completeness, FkRoot, FkSolutions, Reality, SolutionSet};
 use machine::rotary::RotaryPlatform;
-use platform::geom::PoseConvention;
+use platform::geom::{ComplexPose, PoseConvention};
 use platform::manipulator::LegLengths;
 use records::{ClosureRecord, FkOneAnswer, RotationPolynomialRecord, SolvedRecord};
 
@@ -87,6 +87,19 @@ impl NativeSolutions {
     /// The multiplicity of each pose; uint32, shape (n,).
     fn multiplicity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
         self.column(py, |r| r.multiplicity)
+    }
+
+    /// The real pose nearest to home, by its index; `None` without real poses.
+    fn nearest_home(&self) -> Option<usize> {
+        let (design, size) = match &self.of {
+            SolvedFor::Lengths(design, _) => (design, design.manipulator().size()),
+            SolvedFor::Angles(design, platform, angles) => (design, platform.at(angles).ok()?.size()),
+        };
+        let home = ComplexPose::from(design.home_or_default());
+        let distance =
+            |k: usize| ComplexPose::from(self.found.roots[k].pose.real_part()).distance(&home, size);
+        let real = (0..self.found.roots.len()).filter(|k| self.found.roots[*k].reality == Reality::Real);
+        real.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
     }
 
     /// The level of completeness: `proved`, `proved_bounded`, `modular` or `unproved`.

@@ -54,7 +54,7 @@ pub struct AtPoseAnswer {
     /// Rows of the matrix that maps leg forces (or crank torques) to the wrench that they hold, force before torque, as
     /// in a six-axis load cell; null where a rod does not reach or a crank is singular.
     pub wrench_matrix: Option<[[Number; 6]; 6]>,
-    /// Stiffness at the point; null: the design does not say that of its legs.
+    /// Stiffness at the point; null: the design states neither `leg_stiffness` nor, for cranks, `stiffness`.
     pub stiffness: Option<PointStiffnessRecord>,
     /// The motion of the point for a step of the drives; null at a singular pose.
     pub resolution: Option<ResolutionRecord>,

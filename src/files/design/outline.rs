@@ -51,7 +51,8 @@ impl HexapodSizes {
         }
         if self.spread_deg[0] + self.spread_deg[1] == PAIRS_DEG {
             let message = format!(
-                "the spreads add up to {PAIRS_DEG} degrees: base and platform are then similar hexagons on circles, and such a design is architecturally singular"
+                "the spreads add up to {PAIRS_DEG} degrees: base and platform are then similar hexagons on circles, and such a design is architecturally singular{}",
+                self.regular_reading()
             );
             return Err(InvalidOutline(message));
         }
@@ -78,6 +79,18 @@ impl HexapodSizes {
                 self.spread_deg[1]
             ),
         ]
+    }
+
+    /// The other reading, if its hexagons are not similar too.
+    fn regular_reading(self) -> String {
+        let spread = self.other_reading().spread_deg;
+        if spread[0] + spread[1] == PAIRS_DEG {
+            return String::new();
+        }
+        format!(
+            "; with the platform spread counted from the legs of a base pair it would be {} degrees, and regular",
+            spread[1]
+        )
     }
 
     /// The same numbers if the pair of the platform is counted from the legs of a base pair, as some makers do.

@@ -61,7 +61,24 @@ pub fn nearest_singular_pose(
     from: &Pose,
     search: &NearestPoseSearch,
 ) -> Option<NearestSingularPose> {
-    let around = Around { m, from, length: search.length };
+    let prove = |from: &Pose, to: &Pose| {
+        let along: SignsAlong = signs_along(m, from, to);
+        along.changes().next().is_some()
+    };
+    nearest_zero(&|pose| leg_determinant(m, pose), Some(&prove), m.size(), from, search)
+}
+
+/// The same for any function of poses that vanishes at the singular ones, not finite where it has no value. Ways end
+/// there. A pose is proved only where `prove` tells that the function changes its sign between two poses.
+#[must_use]
+pub fn nearest_zero(
+    value: &dyn Fn(&Pose) -> f64,
+    prove: Option<&dyn Fn(&Pose, &Pose) -> bool>,
+    size: f64,
+    from: &Pose,
+    search: &NearestPoseSearch,
+) -> Option<NearestSingularPose> {
+    let around = Around { of: value, prove, size, from, length: search.length };
     let mut starts: Vec<Vector6<f64>> =
         directions(search).into_iter().filter_map(|direction| around.first_zero(&direction)).collect();
     starts.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
@@ -79,7 +96,10 @@ fn directions(search: &NearestPoseSearch) -> Vec<Vector6<f64>> {
 
 /// Poses around the given one.
 struct Around<'a> {
-    m: &'a Manipulator,
+    of: &'a dyn Fn(&Pose) -> f64,
+    prove: Option<&'a dyn Fn(&Pose, &Pose) -> bool>,
+    /// The size of the design.
+    size: f64,
     from: &'a Pose,
     length: f64,
 }
@@ -92,11 +112,11 @@ impl Around<'_> {
     }
 
     fn value(&self, y: &Vector6<f64>) -> f64 {
-        leg_determinant(self.m, &self.pose(y))
+        (self.of)(&self.pose(y))
     }
 
     fn gradient(&self, y: &Vector6<f64>) -> Vector6<f64> {
-        let step = DIFFERENCE * self.m.size();
+        let step = DIFFERENCE * self.size;
         Vector6::from_fn(|k, _| {
             let h = Vector6::ith(k, step);
             (self.value(&(y + h)) - self.value(&(y - h))) / (2.0 * step)
@@ -106,17 +126,24 @@ impl Around<'_> {
     /// The first change of sign in a direction.
     fn first_zero(&self, direction: &Vector6<f64>) -> Option<Vector6<f64>> {
         let turning = direction.fixed_rows::<3>(3).norm() / self.length;
-        let most = (FARTHEST * self.m.size()).min(std::f64::consts::PI / turning.max(f64::MIN_POSITIVE));
+        let most = (FARTHEST * self.size).min(std::f64::consts::PI / turning.max(f64::MIN_POSITIVE));
         let at = |k: usize| direction * (most * k as f64 / STEPS as f64);
         let mut before = self.value(&at(0));
         for k in 1..=STEPS {
             let after = self.value(&at(k));
+            if !after.is_finite() {
+                return None;
+            }
             // at a singular pose the sign is none
             if before * after <= 0.0 {
                 let (mut low, mut high) = (at(k - 1), at(k));
                 for _ in 0..HALVINGS {
                     let middle = (low + high) * 0.5;
-                    if self.value(&middle) * before > 0.0 { low = middle } else { high = middle }
+                    let value = self.value(&middle);
+                    if !value.is_finite() {
+                        return None;
+                    }
+                    if value * before > 0.0 { low = middle } else { high = middle }
                 }
                 return Some((low + high) * 0.5);
             }
@@ -127,7 +154,7 @@ impl Around<'_> {
 
     /// Follows the singular poses from one of them towards the given pose.
     fn foot(&self, start: Vector6<f64>) -> NearestSingularPose {
-        let size = self.m.size();
+        let size = self.size;
         // heavier than the multiplier of det J = 0, so that a step towards the foot makes the merit less
         let weight = 2.0 * (size + start.norm());
         let mut y = start;
@@ -142,10 +169,18 @@ impl Around<'_> {
             let merit =
                 |y: &Vector6<f64>| 0.5 * y.norm_squared() + weight * self.value(y).abs() / square.sqrt();
             let (now, mut share) = (merit(&y), 1.0);
-            while share > 1e-3 && merit(&(y + (aim - y) * share)) > now {
+            let has_grown = |share: f64| {
+                let then = merit(&(y + (aim - y) * share));
+                // beyond the poses with a value
+                !then.is_finite() || then > now
+            };
+            while share > 1e-3 && has_grown(share) {
                 share *= 0.5;
             }
             let moved = (aim - y) * share;
+            if !merit(&(y + moved)).is_finite() {
+                break;
+            }
             y += moved;
             if moved.norm() < SETTLED * size {
                 break;
@@ -155,7 +190,7 @@ impl Around<'_> {
         // back onto det J = 0 along the gradient
         for _ in 0..3 {
             let correction = g * (self.value(&y) / g.norm_squared());
-            if correction.iter().all(|x| x.is_finite()) {
+            if self.value(&(y - correction)).is_finite() {
                 y -= correction;
             }
         }
@@ -172,12 +207,12 @@ impl Around<'_> {
 
     /// Half the length of a straight way across the pose on which `det J` is proved to change its sign.
     fn proved_within(&self, y: &Vector6<f64>, g: &Vector6<f64>) -> Option<f64> {
+        let prove = self.prove?;
         let normal = g.normalize();
-        let half = [1e-10, 1e-8, 1e-6, 1e-4].map(|share| share * self.m.size());
+        let half = [1e-10, 1e-8, 1e-6, 1e-4].map(|share| share * self.size);
         half.into_iter().find(|half| {
             let ends = [-1.0, 1.0].map(|sign| self.pose(&(y + normal * (sign * half))));
-            let along: SignsAlong = signs_along(self.m, &ends[0], &ends[1]);
-            along.changes().next().is_some()
+            prove(&ends[0], &ends[1])
         })
     }
 }
@@ -213,7 +248,8 @@ mod tests {
             let found = nearest_singular_pose(&m, &from, &search).unwrap();
             assert!(found.is_stationary && found.proved_within.unwrap() < 1e-5, "{found:?}");
             assert!(leg_determinant(&m, &found.pose).abs() < 1e-9);
-            let around = Around { m: &m, from: &from, length: 0.6 };
+            let of = |pose: &Pose| leg_determinant(&m, pose);
+            let around = Around { of: &of, prove: None, size: m.size(), from: &from, length: 0.6 };
             let sign = leg_determinant(&m, &from).signum();
             for _ in 0..20_000 {
                 let direction = Vector6::from_fn(|_, _| rng.normal()).normalize();

@@ -10,9 +10,11 @@ use machine::requirements::LeastStiffness;
 use machine::rotary::OutOfReach;
 use machine::statics::{PoseStatics, Screw, both_in, in_axes};
 use platform::geom::Pose;
-use platform::manipulator::{Body, LegLengths, Manipulator, inverse_condition, jacobian, jacobian_of_legs};
+use platform::manipulator::{
+    Body, LegLengths, Manipulator, inverse_condition, jacobian, jacobian_of_legs, leg_determinant,
+};
 use synthesis::singularity::{
-    NearestPoseSearch, NearestSingularPose, SingularEvidence, nearest_singular_pose,
+    NearestPoseSearch, NearestSingularPose, SingularEvidence, nearest_singular_pose, nearest_zero,
 };
 
 /// The questions at a pose.
@@ -42,9 +44,6 @@ pub enum NoAtPose {
     /// A leg has no length at the pose.
     #[error("the leg lengths at this pose are not finite positive numbers")]
     NoLengths,
-    /// The legs are rods on cranks, and the question is about legs that change their lengths.
-    #[error("{0} is computed for legs that change their lengths, and the legs are rods on cranks")]
-    Cranks(&'static str),
 }
 
 /// The state of the drives.
@@ -99,7 +98,7 @@ pub struct AtPoseReport {
     pub wrench: Option<[f64; 6]>,
     /// Wrenches for unit efforts, by columns; `None` where a rod does not reach or a crank is singular.
     pub wrenches: Option<Matrix6<f64>>,
-    /// Stiffness at the point; `None` where the design does not say that of its legs.
+    /// Stiffness at the point; `None` where the design does not say that of its drives.
     pub stiffness: Option<(Matrix6<f64>, Option<LeastStiffness>)>,
     /// Twists of the point for unit steps of the drives, by columns; `None` at a singular pose.
     pub motions: Option<Matrix6<f64>>,
@@ -118,7 +117,7 @@ impl Design {
     /// Forces, small motions and stiffness at a pose about a point of the platform.
     ///
     /// # Errors
-    /// A leg without a length, and questions about lengths where the legs are rods on cranks.
+    /// A leg without a length.
     pub fn at_pose(&self, frames: &PoseFrames, asked: &AtPoseOptions) -> Result<AtPoseReport, NoAtPose> {
         let (pose, length) = (&asked.pose, self.characteristic_length());
         // cranks of a design that was read make a platform
@@ -155,7 +154,11 @@ impl Design {
             loads.map(move |load| (Some(load.name.clone()), at_point(load.wrench(rods, pose), &arm)))
         });
         let own = asked.wrench.map(|wrench| (None, both * Vector6::from(wrench)));
-        let springs = self.hardware.leg_stiffness.filter(|_| cranks.is_none()).map(|leg| [leg; 6]);
+        let springs = match &cranks {
+            None => self.hardware.leg_stiffness,
+            Some(_) => self.crank_limits().stiffness,
+        };
+        let springs = springs.map(|drive| [drive; 6]);
         let motions = statics.as_ref().and_then(|s| s.motions().copied());
         Ok(AtPoseReport {
             singular: self.singular_at(pose).map(|found| found.evidence),
@@ -178,12 +181,20 @@ impl Design {
             },
             nearest_singular: match asked.directions {
                 None => None,
-                Some(_) if cranks.is_some() => {
-                    return Err(NoAtPose::Cranks("the nearest singular pose"));
-                }
                 Some(directions) => {
                     let search = NearestPoseSearch { length, directions, seed: asked.seed };
-                    nearest_singular_pose(self.manipulator(), pose, &search)
+                    match &cranks {
+                        None => nearest_singular_pose(self.manipulator(), pose, &search),
+                        Some(platform) => {
+                            // rods as legs from the crank tips; a pose out of reach has no value
+                            let of = |pose: &Pose| {
+                                let rods =
+                                    platform.ik(pose).ok().and_then(|angles| platform.at(&angles).ok());
+                                rods.map_or(f64::NAN, |rods| leg_determinant(&rods, pose))
+                            };
+                            nearest_zero(&of, None, self.manipulator().size(), pose, &search)
+                        }
+                    }
                 }
             },
             drives,

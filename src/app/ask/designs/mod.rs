@@ -23,6 +23,8 @@ mod pentapod;
 pub mod presets;
 mod reaching;
 mod reaching_space;
+#[cfg(feature = "files")]
+mod recognising;
 mod relocating;
 mod replaceable;
 pub mod rounding;

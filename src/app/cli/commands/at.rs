@@ -10,7 +10,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::output::Answer;
 use crate::app::cli::{numbers, poses};
-use ask::{AtPoseOptions, NoAtPose};
+use ask::AtPoseOptions;
 use platform::manipulator::Body;
 use records::AtPoseAnswer;
 
@@ -78,13 +78,9 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
         directions: args.nearest_singular.then_some(args.directions as usize),
         seed: if args.nearest_singular { context.seed() } else { 0 },
     };
-    let found = design.at_pose(&frames, &asked).map_err(|why| {
-        let failure = Failure::refused("at::not_computed", why.to_string());
-        match why {
-            NoAtPose::NoLengths => failure,
-            NoAtPose::Cranks(_) => failure.with_help("leave out --nearest-singular"),
-        }
-    })?;
+    let found = design
+        .at_pose(&frames, &asked)
+        .map_err(|why| Failure::refused("at::not_computed", why.to_string()))?;
     let answer = AtPoseAnswer::new(&design, &frames, (&asked, args.step), &found);
     let exit = if answer.is_held() { Exit::Yes } else { Exit::No };
     let text = sheet::answers::at_pose(&answer);

@@ -36,6 +36,9 @@ pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Fai
         Some(_) => Exit::No,
         None => Exit::Inconclusive,
     };
+    if exit == Exit::Inconclusive || answer.pose_count.finite.is_none() {
+        context.offer_symmetry(design.snapped_to_decide(context.seed()), &design.units);
+    }
     let sheet = sheet::answers::check(&answer, args.details);
     Ok(Answer::new(exit, answer, sheet))
 }

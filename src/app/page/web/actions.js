@@ -24,9 +24,9 @@ Object.assign(App.prototype, {
     this.soon();
   },
 
-  /** The pose at a position with roll, pitch and yaw; `null` where the core refuses it. */
+  /** The pose of six numbers in the convention of the design; `null` where the core refuses it. */
   place(values) {
-    const { pose, error } = this.core.ask({ op: "place", position: values.slice(0, 3), rpy_deg: values.slice(3) });
+    const { pose, error } = this.core.ask({ op: "place", numbers: values });
     if (error) return null;
     this.stand(pose);
     return pose;
@@ -390,8 +390,7 @@ Object.assign(App.prototype, {
 
   /** The design, the equivalent chosen and the pose in a link. */
   async share() {
-    const { pose, rpy_deg } = this.state;
-    const hash = await Share.pack({ ...this.core.opening, start: this.chosen, at: { position: pose.p, rpy_deg } });
+    const hash = await Share.pack({ ...this.core.opening, start: this.chosen, at: { numbers: this.state.written } });
     $("link").value = location.href.split("#")[0] + hash;
     $("link").hidden = false;
     $("link").select();
@@ -405,7 +404,8 @@ Object.assign(App.prototype, {
       if (!held) return;
       const { at, ...opening } = held;
       this.reopen(opening);
-      if (at) this.place([...at.position, ...at.rpy_deg]);
+      // links of 0.1.0 have position and roll, pitch, yaw
+      if (at) this.place(at.numbers || [...at.position, ...at.rpy_deg]);
     } catch (error) {
       $("note").hidden = false;
       $("note").textContent = `The link holds no design that can be opened: ${error.message}.`;

@@ -118,7 +118,8 @@ class App {
     const { cranks } = this;
     $("regular-first").title = open.reason || (cranks ? "" : "some pose holds the platform: proved in exact arithmetic");
     $("pose-title").textContent = cranks ? "Pose and crank angles" : "Pose and leg lengths";
-    $("pose-help").textContent = `Move a slider or type a number, and the ${cranks ? "crank angles" : "leg lengths"} follow. Type ${cranks ? "angles" : "leg lengths"} (or paste all six into one field) to find their poses.`;
+    $("pose-help").textContent = `Move a slider or type a number, and the ${cranks ? "crank angles" : "leg lengths"} follow. Type ${cranks ? "angles" : "leg lengths"} (or paste all six into one field) to find their poses. ${open.frames.sentence}`;
+    Begin.symmetry(this);
     $("lengths-what").textContent = cranks ? "Crank angles" : "Leg lengths";
     $("lengths-title").textContent = cranks ? "Cranks" : "Leg lengths";
     $("locus-label").hidden = cranks;
@@ -150,10 +151,10 @@ class App {
     this.soon();
   }
 
-  /** Position and roll, pitch, yaw of home. */
+  /** The six numbers of home. */
   home() {
     const state = this.core.ask({ op: "state", pose: this.open.home, chosen: this.chosen });
-    return [...this.open.home.p, ...(state.rpy_deg || [0, 0, 0])];
+    return state.written || [...this.open.home.p, 0, 0, 0];
   }
 
   /** The first direction of view. */

@@ -25,6 +25,18 @@ const Begin = {
     });
   },
 
+  /** Says which symmetry the joints have but for rounding, with a button that makes it exact. */
+  symmetry(app) {
+    const found = app.core.live ? app.open.symmetry : null;
+    $("symmetry").hidden = !found;
+    $("symmetry-found").replaceChildren(...(found || []).map((sentence) => el("li", {}, sentence)));
+    $("snap").onclick = () => {
+      Begin.take(app, { op: "snap" }, "The joints are written as exact constructions; the design below has them.");
+      $("begin").open = true;
+      $("begin-words").scrollIntoView({ block: "nearest" });
+    };
+  },
+
   take(app, request, words) {
     const made = app.core.ask(request);
     if (made.error) {
@@ -32,7 +44,7 @@ const Begin = {
       return;
     }
     try {
-      app.reopen({ design: made.toml, trajectory: [], start: null });
+      app.reopen({ design: made.toml, trajectory: request.op === "snap" ? app.core.opening.trajectory : [], start: null });
     } catch (error) {
       Begin.say(error.message, [], true);
       return;

@@ -6,10 +6,8 @@ const numbersIn = (text) => text.split(/[\s,;]+/).filter(Boolean).map(Number);
 /** A number for a field: enough digits to be read back as the same pose. */
 const plain = (x) => String(Number(x.toPrecision(9)));
 
-const COORDINATES = ["x", "y", "z", "roll", "pitch", "yaw"];
-
 class PoseFields {
-  /** `place(values)` takes position and roll, pitch, yaw in degrees. */
+  /** `place(values)` takes position and angles in the convention of the design. */
   constructor(box, place) {
     this.box = box;
     this.place = place;
@@ -17,11 +15,12 @@ class PoseFields {
 
   build(open, home, enabled) {
     const { slides } = open;
-    const reach = [...slides.position, ...slides.rpy_deg];
+    const reach = [...slides.position, ...slides.angles];
+    const angleUnit = open.frames.angle_unit === "rad" ? " [rad]" : " [°]";
     this.own = null;
-    this.rows = COORDINATES.map((name, k) => {
-      const unitHere = k < 3 ? inUnits(open.units) : " [°]";
-      const step = k < 3 ? 10 ** Math.floor(Math.log10(reach[k] / 50)) : 0.5;
+    this.rows = open.frames.names.map((name, k) => {
+      const unitHere = k < 3 ? inUnits(open.units) : angleUnit;
+      const step = k < 3 || open.frames.angle_unit === "rad" ? 10 ** Math.floor(Math.log10(reach[k] / 50)) : 0.5;
       const low = home[k] - reach[k];
       const range = el("input", { type: "range", id: `pose-${name}`, min: low, max: home[k] + reach[k], step: "any", disabled: !enabled,
         input: () => this.set(k, Math.round(Number(range.value) / step) * step) });
@@ -45,7 +44,7 @@ class PoseFields {
   }
 
   update(pose, state) {
-    this.values = this.own?.pose === pose ? this.own.values : [...state.pose.p, ...state.rpy_deg];
+    this.values = this.own?.pose === pose ? this.own.values : state.written;
     this.rows.forEach(({ range, field }, k) => {
       const value = Number(this.values[k].toPrecision(12));
       range.value = value;

@@ -80,7 +80,7 @@ const Tables = {
     const turns = open.kind === "cranks";
     const rows = found.modes.map((mode, k) => {
       // what rounding leaves of a zero is one
-      const p = mode.pose.p.map((x) => show(Math.abs(x) < 1e-9 * open.size ? 0 : x, 3)).join(", ");
+      const p = mode.written.slice(0, 3).map((x) => show(Math.abs(x) < 1e-9 * open.size ? 0 : x, 3)).join(", ");
       const cells = [[radio("mode", k, k === shown, "show"), `${k + 1}`], [radio("ghost", k, k === compared, "compare with")],
         { 1: "+", 0: "0", "-1": "−" }[mode.sign], ...(turns ? [mode.elbows_kept ? "yes" : "no"] : []), show(mode.inverse_condition, 3), `${fixed(mode.turn_deg, 0)}°`, `(${p})`];
       return row(cells, { class: k === shown ? "on" : null });

@@ -492,8 +492,8 @@ class Design:
 
     @property
     def symmetry(self) -> list[str]:
-        """What the joints have but for rounding, with how far off it is: joints at one place, turned by a third of a
-        turn about z, mirrored in a plane of the axes, in such a plane. Empty where nothing was found."""
+        """The symmetry that the joints have but for rounding, with its distance: joints at one place, mirrored, turned by
+        a third, on lines and circles of others, and similar bodies. Empty where nothing was found."""
         found = self._native.snapped()
         return [] if found is None else found[1]
 

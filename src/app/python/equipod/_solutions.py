@@ -165,6 +165,11 @@ class Solutions(Sequence[Solution]):
         """The real poses, float64, shape (m, 4, 4)."""
         return np.ascontiguousarray(self.T[self.real].real)
 
+    @property
+    def nearest_home(self) -> int | None:
+        """The index of the real pose nearest to home, where the machine usually is; None where there is no real pose."""
+        return self._native.nearest_home()
+
     def nearest(self, pose: PoseLike, *, length: float | None = None) -> Solution | None:
         """The real pose nearest to another one.
 
@@ -276,10 +281,11 @@ class Solutions(Sequence[Solution]):
         )
 
     def _repr_html_(self) -> str:
+        machine = self.nearest_home
         rows = "".join(
             f"<tr><td>{k}</td><td>{ {1: 'yes', 0: 'no', -1: 'undecided'}[int(self.reality[k])] }</td>"
             + "".join(f"<td>{z.real:.6g}{'' if self.real[k] else f' {z.imag:+.3g}i'}</td>" for z in self.T[k, :3, 3])
-            + f"<td>{'yes' if self.certified[k] else 'no'}</td></tr>"
+            + f"<td>{'yes' if self.certified[k] else 'no'}{', nearest to home' if k == machine else ''}</td></tr>"
             for k in range(len(self))
         )
         head = "".join(f"<th>{name}</th>" for name in ("", "real", "x", "y", "z", "certified"))

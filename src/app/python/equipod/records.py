@@ -306,7 +306,8 @@ class AtAnswer(Record):
     #: A six-axis load cell: rows of the matrix that maps forces of the legs (torques of the cranks) to the
     #: wrench that they hold, force before torque; null where a rod does not reach or a crank is singular.
     wrench_matrix: Union[tuple[tuple[Union[float, None], ...], ...], None]
-    #: Stiffness at the point; null: the design does not say that of its legs.
+    #: Stiffness at the point; null: the design states neither `leg_stiffness` nor, for cranks,
+    #: `stiffness`.
     stiffness: Union[PointStiffnessRecord, None]
     #: The motion of the point for a step of the drives; null at a singular pose.
     resolution: Union[ResolutionRecord, None]

@@ -108,6 +108,8 @@ pub struct CrankLimits {
     pub max_torque: Option<f64>,
     /// Greatest speed of a crank, degrees per second.
     pub max_speed_deg: Option<f64>,
+    /// Torque of a drive for a turn of its crank by one radian, force units times design units.
+    pub stiffness: Option<f64>,
     /// Least transmission angle, degrees.
     pub least_transmission_deg: Option<f64>,
     /// Cone angle of the joint at the tip, out of the plane in which the crank turns, degrees.

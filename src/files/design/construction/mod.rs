@@ -154,6 +154,38 @@ impl CoordinatePlane {
     }
 }
 
+/// An axis of a turn, parallel to an axis of the frame of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TurnAxis {
+    X,
+    Y,
+    Z,
+}
+
+impl TurnAxis {
+    pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    pub(super) fn name(self) -> &'static str {
+        ["x", "y", "z"][self.index()]
+    }
+
+    pub(super) fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+        }
+    }
+}
+
+/// The plane of a mirror, up to its place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum MirrorPlane {
+    Coordinate(CoordinatePlane),
+    /// Perpendicular to this vector of any length.
+    Normal([WrittenNumber; 3]),
+}
+
 /// The definition of a joint by other means than three numbers. Joints are named by their index in the same body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Construction {
@@ -163,10 +195,10 @@ pub(crate) enum Construction {
     OnLine { through: [usize; 2], at: LinePlace },
     /// `{ radius = "r", angle_deg = 30, z = 0 }`: the angle from the x axis towards the y axis.
     Polar { radius: WrittenNumber, angle_deg: WrittenNumber, z: Option<WrittenNumber> },
-    /// `{ turn = "A1", deg = 120 }`: about the z axis.
-    Turned { joint: usize, deg: WrittenNumber },
-    /// `{ mirror = "A1", plane = "xz" }`.
-    Mirrored { joint: usize, plane: CoordinatePlane },
+    /// `{ turn = "A1", deg = 120 }`: about the z axis, or about a parallel to an axis through a point.
+    Turned { joint: usize, deg: WrittenNumber, about: TurnAxis, through: Option<[WrittenNumber; 3]> },
+    /// `{ mirror = "A1", plane = "xz" }`, `{ mirror = "A1", normal = [1, 2, 0], through = [10, 0, 0] }`.
+    Mirrored { joint: usize, plane: MirrorPlane, through: Option<[WrittenNumber; 3]> },
 }
 
 impl Construction {
@@ -190,8 +222,14 @@ impl Construction {
                     .filter_map(|(i, q)| Some((i, q?)))
                     .collect()
             }
-            Self::Turned { deg, .. } => vec![(1, deg)],
-            Self::Mirrored { .. } => Vec::new(),
+            Self::Turned { deg, through, .. } => {
+                std::iter::once(deg).chain(through.iter().flatten()).zip(1..).map(|(q, i)| (i, q)).collect()
+            }
+            Self::Mirrored { plane, through, .. } => {
+                let normal: &[WrittenNumber] =
+                    if let MirrorPlane::Normal(normal) = plane { normal } else { &[] };
+                normal.iter().chain(through.iter().flatten()).zip(1..).map(|(q, i)| (i, q)).collect()
+            }
         }
     }
 }

@@ -7,8 +7,8 @@ use thiserror::Error;
 
 use super::expression::{Expression, Unsolved};
 use super::{
-    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenCranks, WrittenHome,
-    WrittenNumber, exact_double,
+    Construction, Constructions, CoordinatePlane, LinePlace, MirrorPlane, RealPoint, WrittenCranks,
+    WrittenHome, WrittenNumber, exact_double,
 };
 use crate::design::Code;
 use crate::design::keys::nearest_help;
@@ -282,8 +282,18 @@ impl Constructions {
                 let z = values.get(2).cloned().unwrap_or_else(|| RealNumber::integer(0));
                 values[1].turn().and_then(|(c, s)| Ok(Some([values[0].times(&c)?, values[0].times(&s)?, z])))
             }
-            Construction::Turned { .. } => values[0].turn().and_then(|(c, s)| turned(points[0], &c, &s)),
-            Construction::Mirrored { plane, .. } => Ok(Some(mirrored(points[0], *plane))),
+            Construction::Turned { about, .. } => {
+                let [deg, through @ ..] = values.as_slice() else { return None };
+                deg.turn()
+                    .and_then(|cos_sin| around(points[0], through, |p| turned(p, about.index(), &cos_sin)))
+            }
+            Construction::Mirrored { plane: MirrorPlane::Coordinate(plane), .. } => {
+                around(points[0], &values, |p| Ok(mirrored(p, *plane)))
+            }
+            Construction::Mirrored { .. } => {
+                let (normal, through) = values.split_at(3);
+                around(points[0], through, |p| reflected(p, normal))
+            }
         };
         made.unwrap_or_else(|why| {
             let (code, message, help) = no_real(why);
@@ -324,11 +334,35 @@ pub(super) fn on_line(
     }
 }
 
-fn turned(p: &RealPoint, c: &RealNumber, s: &RealNumber) -> Result<Option<RealPoint>, NoReal> {
-    let [x, y, z] = p;
-    let along = x.times(c)?.minus(&y.times(s)?)?;
-    let across = x.times(s)?.plus(&y.times(c)?)?;
-    Ok(Some([along, across, z.clone()]))
+/// The image of a point under a map that fixes another point: the origin if there is none.
+fn around(
+    p: &RealPoint,
+    through: &[RealNumber],
+    map: impl Fn(&RealPoint) -> Result<RealPoint, NoReal>,
+) -> Result<Option<RealPoint>, NoReal> {
+    let [x, y, z] = through else { return map(p).map(Some) };
+    let [a, b, c] = p;
+    let [a, b, c] = map(&[a.minus(x)?, b.minus(y)?, c.minus(z)?])?;
+    Ok(Some([a.plus(x)?, b.plus(y)?, c.plus(z)?]))
+}
+
+/// Turned about an axis of the frame.
+fn turned(p: &RealPoint, axis: usize, (c, s): &(RealNumber, RealNumber)) -> Result<RealPoint, NoReal> {
+    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut image = p.clone();
+    image[i] = p[i].times(c)?.minus(&p[j].times(s)?)?;
+    image[j] = p[i].times(s)?.plus(&p[j].times(c)?)?;
+    Ok(image)
+}
+
+/// `p - 2 n (n p) / (n n)`.
+fn reflected(p: &RealPoint, normal: &[RealNumber]) -> Result<RealPoint, NoReal> {
+    let product = |a: &[RealNumber], b: &[RealNumber]| {
+        a.iter().zip(b).try_fold(RealNumber::integer(0), |sum, (x, y)| sum.plus(&x.times(y)?))
+    };
+    let share = product(normal, p)?.over(&product(normal, normal)?)?.times(&RealNumber::integer(2))?;
+    let one = |i: usize| p[i].minus(&share.times(&normal[i])?);
+    Ok([one(0)?, one(1)?, one(2)?])
 }
 
 fn mirrored(p: &RealPoint, plane: CoordinatePlane) -> RealPoint {

@@ -15,7 +15,8 @@ use super::{Code, KeyTable, TEXT, key};
 use crate::design::construction::expression::{Slip, UnitsBehind, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
-    Construction, Constructions, CoordinatePlane, LinePlace, WrittenCranks, WrittenHome, WrittenNumber,
+    Construction, Constructions, CoordinatePlane, LinePlace, MirrorPlane, TurnAxis, WrittenCranks,
+    WrittenHome, WrittenNumber,
 };
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
@@ -47,11 +48,16 @@ static POLAR: KeyTable<()> = KeyTable {
     ..KeyTable::EMPTY
 };
 
+static LENGTH: KeyKind = quantity_of(unit::LENGTH);
+static NUMBER: KeyKind = quantity_of(unit::NONE);
+
 /// A rotated copy.
 static TURNED: KeyTable<()> = KeyTable {
     keys: &[
         key!("turn": TEXT; ""),
-        key!("deg": quantity_of(unit::DEGREES); "about the z axis of the frame of the body"),
+        key!("deg": quantity_of(unit::DEGREES); "about an axis of the frame of the body"),
+        key!("about": word(TurnAxis::words); "the direction of the axis; default z"),
+        key!("through": list_of(3, &LENGTH); "a point of the axis; default the origin"),
     ],
     rules: r#"{"required": ["turn", "deg"], "description": "a joint of the same body, turned"}"#,
     ..KeyTable::EMPTY
@@ -59,8 +65,17 @@ static TURNED: KeyTable<()> = KeyTable {
 
 /// A mirrored copy.
 static MIRRORED: KeyTable<()> = KeyTable {
-    keys: &[key!("mirror": TEXT; ""), key!("plane": word(CoordinatePlane::words); "")],
-    rules: r#"{"required": ["mirror", "plane"], "description": "a joint of the same body, mirrored in a plane of two axes"}"#,
+    keys: &[
+        key!("mirror": TEXT; ""),
+        key!("plane": word(CoordinatePlane::words); "parallel to a plane of two axes"),
+        key!("normal": list_of(3, &NUMBER); "perpendicular to this vector of any length"),
+        key!("through": list_of(3, &LENGTH); "a point of the plane; default the origin"),
+    ],
+    rules: r#"{
+        "required": ["mirror"],
+        "oneOf": [{"required": ["plane"]}, {"required": ["normal"]}],
+        "description": "a joint of the same body, mirrored in a plane"
+    }"#,
     ..KeyTable::EMPTY
 };
 
@@ -106,9 +121,29 @@ pub(super) fn written(made: &Construction, names: &[String]) -> Json {
             }
             out
         }
-        Construction::Turned { joint, deg } => json!({"turn": name(joint), "deg": deg.json()}),
-        Construction::Mirrored { joint, plane } => json!({"mirror": name(joint), "plane": plane.name()}),
+        Construction::Turned { joint, deg, about, through } => {
+            let mut out = json!({"turn": name(joint), "deg": deg.json()});
+            if *about != TurnAxis::Z {
+                out["about"] = json!(about.name());
+            }
+            with_point(out, through.as_ref())
+        }
+        Construction::Mirrored { joint, plane, through } => {
+            let mut out = json!({"mirror": name(joint)});
+            match plane {
+                MirrorPlane::Coordinate(plane) => out["plane"] = json!(plane.name()),
+                MirrorPlane::Normal(normal) => out["normal"] = stored::quantities(normal),
+            }
+            with_point(out, through.as_ref())
+        }
     }
+}
+
+fn with_point(mut written: Json, through: Option<&[WrittenNumber; 3]>) -> Json {
+    if let Some(point) = through {
+        written["through"] = stored::quantities(point);
+    }
+    written
 }
 
 /// Places of a value in the text, for reports of faults.
@@ -303,12 +338,43 @@ fn form(
         "turn" => {
             let deg = number_of("deg", false);
             let joint = reference(report, &find(entries, "turn")?.node, what, names);
-            (Construction::Turned { joint: joint?, deg: deg?? }, vec![span("turn"), span("deg")])
+            let about = match find(entries, "about") {
+                Some(entry) => {
+                    known_word(report, entry, what, "no axis", "write about = \"x\", \"y\" or \"z\"")
+                }
+                None => Some(TurnAxis::Z),
+            };
+            let through = vector(report, entries, "through", what);
+            let mut places = vec![span("turn"), span("deg")];
+            let through = through?.map(|(point, spans)| {
+                places.extend(spans);
+                point
+            });
+            (Construction::Turned { joint: joint?, deg: deg??, about: about?, through }, places)
         }
         "mirror" => {
             let joint = reference(report, &find(entries, "mirror")?.node, what, names);
-            let plane = plane(report, node, entries, what);
-            (Construction::Mirrored { joint: joint?, plane: plane? }, vec![span("mirror")])
+            let normal = vector(report, entries, "normal", what);
+            let through = vector(report, entries, "through", what);
+            let mut places = vec![span("mirror")];
+            let plane = match (normal?, find(entries, "plane")) {
+                (Some(_), Some(_)) => {
+                    let message = format!("{what} has both `plane` and `normal`");
+                    let help = "give one of them";
+                    report.refuse(Code::ConflictingKeys, &node.span, message, help);
+                    return None;
+                }
+                (Some((normal, spans)), None) => {
+                    places.extend(spans);
+                    MirrorPlane::Normal(normal)
+                }
+                (None, _) => MirrorPlane::Coordinate(plane(report, node, entries, what)?),
+            };
+            let through = through?.map(|(point, spans)| {
+                places.extend(spans);
+                point
+            });
+            (Construction::Mirrored { joint: joint?, plane, through }, places)
         }
         _ => {
             let (t, offset) = (number_of("t", true), number_of("offset", true));
@@ -333,18 +399,40 @@ fn form(
 }
 
 fn plane(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> Option<CoordinatePlane> {
-    let help = "write plane = \"xy\", \"xz\" or \"yz\"";
+    let help = "write plane = \"xy\", \"xz\" or \"yz\", or the normal of the plane: normal = [1, 2, 0]";
     let Some(entry) = find(entries, "plane") else {
         report.refuse(Code::MissingKey, &node.span, format!("`plane` of {what} is missing"), help);
         return None;
     };
-    let known = |text: &str| CoordinatePlane::ALL.into_iter().find(|p| p.name() == text);
-    let plane = if let Value::Text(text) = &entry.node.value { known(text) } else { None };
-    if plane.is_none() {
-        let message = format!("`plane` of {what} is no plane of two axes");
+    known_word(report, entry, what, "no plane of two axes", help)
+}
+
+/// A word of a key.
+fn known_word<W: Word>(
+    report: &mut Findings<'_>,
+    entry: &Entry,
+    what: &str,
+    fault: &str,
+    help: &str,
+) -> Option<W> {
+    let word = if let Value::Text(text) = &entry.node.value { W::of(text) } else { None };
+    if word.is_none() {
+        let message = format!("`{}` of {what} is {fault}", entry.key);
         report.refuse(Code::WrongType, &entry.node.span, message, help);
     }
-    plane
+    word
+}
+
+/// Three numbers with their places; `Some(None)` if the key is absent.
+fn vector(
+    report: &mut Findings<'_>,
+    entries: &[Entry],
+    key: &str,
+    what: &str,
+) -> Option<Option<([WrittenNumber; 3], Vec<Span>)>> {
+    let Some(entry) = find(entries, key) else { return Some(None) };
+    let kind = if key == "through" { NumberKind::Length } else { NumberKind::Plain };
+    three_quantities(report, &entry.node, (kind, &format!("`{key}` of {what}")), COORDINATES).map(Some)
 }
 
 fn line(

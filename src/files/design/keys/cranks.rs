@@ -93,6 +93,8 @@ static LIMITS: KeyTable<CrankLimits> = KeyTable {
             "greatest torque of a crank, force units times design units"),
         key!("max_speed_deg": positive(unit::DEGREES), max_speed_deg;
             "greatest speed of a crank, degrees per second"),
+        key!("stiffness": positive(unit::TORQUE), stiffness;
+            "stiffness of the drive of a crank about its axis, the rod rigid, force units times design units per radian"),
         key!("least_transmission_deg": angle(Range::Below(90)), least_transmission_deg;
             "least transmission angle of a crank, degrees: its sine is the share of a force along the rod that drives the crank; 0 when absent"),
         key!("tip_swing_deg": angle(Range::Below(90)), tip_swing_deg;

@@ -6,7 +6,10 @@ use serde_json::{Value as Json, json};
 use super::found::FoundKey;
 use super::optimize::WeighingMode;
 use crate::design::construction::Spelling;
-use crate::design::{WrittenNumber, construction::CoordinatePlane};
+use crate::design::{
+    WrittenNumber,
+    construction::{CoordinatePlane, TurnAxis},
+};
 use machine::requirements::{
     BoltsFrom, ForceUnit, HolePattern, JointType, KeptSymmetry, ListedFrom, MassUnit, Objective, PlateMass,
     Region, VariableKind,
@@ -119,7 +122,7 @@ macro_rules! words {
             }
 
             fn of(word: &str) -> Option<Self> {
-                $all.into_iter().find(|value| $word(*value) == word)
+                num::names::named("word", word, &$all, $word).ok()
             }
         }
 
@@ -140,6 +143,7 @@ words! {
     Body: Self::BOTH, Self::name;
     BoltsFrom: Self::ALL, Self::name;
     CoordinatePlane: Self::ALL, Self::name;
+    TurnAxis: Self::ALL, Self::name;
     Elbow: Self::BOTH, Self::name;
     ForceUnit: Self::ALL, Self::label;
     HolePattern: Self::ALL, Self::name;

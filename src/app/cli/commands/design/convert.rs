@@ -22,8 +22,8 @@ pub(crate) struct DesignConvertArgs {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
-    /// Write joints as constructions if they coincide, are mirrored, rotated by 120 degrees, or lie in a coordinate
-    /// plane, up to rounding
+    /// Write the symmetry that joints have up to rounding as constructions: coincident, mirrored and rotated joints,
+    /// joints on lines and circles, and similar bodies
     #[arg(long)]
     snap: bool,
     /// Write the parameters of a motion-simulator program instead of a design. The long side of the base is L4 in

@@ -141,14 +141,9 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             )?;
             let solutions = solve(method, m, &l.distances, &options)?;
             let exit = exit_of(&solutions);
-            if exit == Exit::Inconclusive
-                && let Some(snapped) = design.snapped()
-            {
-                let off = snapped.found.iter().map(|found| found.off).fold(0.0, f64::max);
-                context.note(&format!(
-                    "The joints have a symmetry but for {off:.1e} {}: `equipod design convert DESIGN --snap -o FILE` writes it, so that joints are exact and poses can be proved complete.",
-                    design.units
-                ));
+            if exit == Exit::Inconclusive {
+                let lengths = l.distances.squared();
+                context.offer_symmetry(design.snapped_to_prove(&lengths, &options), &design.units);
             }
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &frames));
             let squares = l.distances.squared();
@@ -168,6 +163,12 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             context.no_effect("polynomial", "a polynomial belongs to one set of lengths")?;
             let table = PoseTable { time_name: series.time_name, ..table };
             let (exit, answer) = many(method, (m, &frames), &series.rows, &options, threads(args.threads));
+            if exit == Exit::Inconclusive
+                && let Some(row) = series.rows.first()
+            {
+                let lengths = row.value.distances.squared();
+                context.offer_symmetry(design.snapped_to_prove(&lengths, &options), &design.units);
+            }
             Ok(answered(exit, answer, &design, &table))
         }
     }

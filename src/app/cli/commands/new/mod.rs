@@ -20,7 +20,6 @@ use ::files::design::{
 use ask::Design;
 use ask::design::parse_with_cranks;
 use platform::geom::{Angles, Pose};
-use platform::manipulator::{inverse_condition, jacobian};
 use records::{NewAnswer, PresetFile};
 use synthesis::singularity::Architecture;
 
@@ -62,8 +61,8 @@ pub(crate) struct NewArgs {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
-    /// Write joints of --points as constructions if they coincide, are mirrored, rotated by 120 degrees, or lie in a
-    /// coordinate plane, up to rounding
+    /// Write the symmetry that joints of --points have up to rounding as constructions: coincident, mirrored and rotated
+    /// joints, joints on lines and circles, and similar bodies
     #[arg(long, requires = "points")]
     snap: bool,
     /// Parameters of a motion-simulator program named by --dialect (`-` for standard input). Lines `L1 = 900` to `L4`,
@@ -158,32 +157,10 @@ fn bad(why: impl Into<String>) -> Failure {
 fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str, context: &Context) -> Result<Made, Failure> {
     sizes.check().map_err(|why| bad(why.to_string()))?;
     let mut made = read_back(sizes.to_toml(name, units))?;
-    made.guesses = sizes.understood(units).to_vec();
-    let condition = |made: &Made| {
-        let (m, home) = (made.design.manipulator(), made.design.home_or_default());
-        inverse_condition(&jacobian(m, &home, made.design.characteristic_length()))
-    };
-    let here = condition(&made);
-    if here < NEARLY_SINGULAR {
-        let other = sizes.other_reading();
-        let there =
-            other.check().ok().and_then(|()| Some(condition(&read_back(other.to_toml(name, units)).ok()?)));
-        let would = match there.filter(|there| *there >= NEARLY_SINGULAR) {
-            Some(there) => format!(
-                ", and {there:.3} with the platform spread counted from the legs of a base pair ({} degrees)",
-                other.spread_deg[1]
-            ),
-            None => String::new(),
-        };
-        made.guesses
-            .push(format!("Home is nearly singular: the inverse condition number is {here:.3}{would}."));
-    }
+    made.guesses = made.design.told_of_sizes(sizes);
     made.guesses.iter().for_each(|sentence| context.note(sentence));
     Ok(made)
 }
-
-/// Below this inverse condition number at home, a new hexapod is reported as nearly singular.
-const NEARLY_SINGULAR: f64 = 0.05;
 
 /// The design read from a text that this command made.
 fn read_back(toml: String) -> Result<Made, Failure> {
