@@ -25,11 +25,11 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
         out,
         "\nlargest displacement {} {units}, root mean square {} {units}; det A = {}\n\
          leg {} differs most in length: by {} {units} at {POSE} = {} ({} poses of the {} workspace)",
-        figure(n.largest_displacement.0),
+        figure(n.error.largest_displacement.0),
         figure(n.rms_displacement.0),
-        figure(n.det.0),
+        figure(n.error.det.0),
         n.deviating_leg,
-        figure(n.largest_length_deviation.0),
+        figure(n.error.largest_length_deviation.0),
         pose(&n.deviating_pose),
         n.poses,
         if n.workspace_from == SourceWord::Design { "design's" } else { "default" }
