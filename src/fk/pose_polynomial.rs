@@ -149,11 +149,21 @@ impl PosePolynomial {
     /// The polynomial with these roots, which are closed under conjugation.
     fn of(roots: &[Disc]) -> Result<Self, NoPosePolynomial> {
         let real_roots = real_roots(roots)?;
-        let coefficients = interpolated(roots);
-        if !coefficients.iter().all(|c| c.magnitude() < LARGEST) {
+        // on a circle of the size of the roots no coefficient is much larger than the others
+        let sizes = roots.iter().map(|root| root.centre.norm().log2()).filter(|size| size.is_finite());
+        let exponent = (sizes.sum::<f64>() / roots.len() as f64).round() as i32;
+        let shrunk: Vec<Disc> = roots.iter().map(|root| root.scaled(2f64.powi(-exponent))).collect();
+        let scaled = interpolated(&shrunk);
+        if !scaled.iter().all(|c| c.magnitude() < LARGEST) {
             return Err(NoPosePolynomial::TooLarge);
         }
-        let mut coefficients: Vec<Interval> = coefficients.iter().map(real_part).collect();
+        let degrees_below = (1..=roots.len()).rev().map(|k| i32::try_from(k).unwrap_or(i32::MAX));
+        let unit = |below: i32| Interval::from(2f64.powi(exponent.saturating_mul(below)));
+        let mut coefficients: Vec<Interval> =
+            scaled.iter().zip(degrees_below).map(|(c, below)| real_part(c) * unit(below)).collect();
+        if !coefficients.iter().all(|c| c.lo().is_finite() && c.hi().is_finite()) {
+            return Err(NoPosePolynomial::TooLarge);
+        }
         coefficients.push(Interval::from(1.0));
         Ok(Self { coefficients, real_roots })
     }
@@ -238,7 +248,8 @@ mod tests {
             let m = Manipulator::try_new(points(5), points(5), legs).unwrap();
             let rotation = random_rotation(&mut rng);
             let pose = Pose { rotation, position: Vector3::new(0.3, 0.2, 2.5) };
-            let found = Homotopy.solve(&m, &pose.squared_lengths(&m).unwrap(), &FkOptions::default()).unwrap();
+            let found =
+                Homotopy.solve(&m, &pose.squared_lengths(&m).unwrap(), &FkOptions::default()).unwrap();
             let p = distance_polynomial(&m, &found, (1, 3)).unwrap();
             assert_eq!(p.coefficients.len(), degree + 1);
             let leg = Leg { base: m.base_joints()[1], platform: m.platform_joints()[3] };

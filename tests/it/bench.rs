@@ -146,7 +146,8 @@ fn the_template_takes_almost_planar_platforms_in_some_arrangement_of_legs_and_bo
     };
     let well = (0..plan.count).filter(|k| lifted_well(*k)).count() as u64;
     assert!(0 < well && well < plan.count, "{well}");
-    assert_eq!((template.complete, template.raw.unwrap().refused), (plan.count, plan.count - well));
+    assert!(template.complete > well && template.passed(), "{}", template.complete);
+    assert_eq!(template.raw.unwrap().refused, plan.count - well);
     let automatic = run(&plan, solver(None).as_ref(), &Homotopy).unwrap();
     assert_eq!((automatic.complete, automatic.proved), (plan.count, plan.count));
     assert!(automatic.passed() && automatic.raw.is_none());

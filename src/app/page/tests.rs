@@ -224,7 +224,9 @@ fn the_table_of_requirements_has_the_workspace_and_the_pose_shown() {
     let rows = limits["requirements"].as_array().unwrap().len();
     let (here, whole) = (state(&Value::Null), state(&limits));
     assert_eq!((here.matches("<tr>").count(), whole.matches("<tr>").count()), (rows + 1, rows + 3));
-    assert!(here.contains("here, equivalent") && !here.contains("least margin") && !here.contains("data-pose"));
+    assert!(
+        here.contains("here, equivalent") && !here.contains("least margin") && !here.contains("data-pose")
+    );
     let posed = limits["requirements"].as_array().unwrap().iter().filter(|m| !m["pose"].is_null()).count();
     // the conditioning has a pose as well
     assert!(whole.matches("data-pose").count() > posed && whole.contains("least margin"), "{whole}");

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::nearest::short;
 use super::{
-    AssessAnswer, NearestErrorRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SearchesBesideRecord, SolvedRecord,
+    AssessAnswer, NearestErrorRecord, NoRoundingError, NoRoundingRecord, Number, OptimalityWord,
+    OptimizeAnswer, RidingRecord, SearchesBesideRecord, SolvedRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
 use ask::{ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation};

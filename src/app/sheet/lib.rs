@@ -250,8 +250,12 @@ mod tests {
     use super::*;
 
     fn sheet() -> Sheet {
-        let mut table =
-            Table::new([left("name", 6), left("status", 8), right("margin", 8).gap(2), left("of", 0).minor()]);
+        let mut table = Table::new([
+            left("name", 6),
+            left("status", 8),
+            right("margin", 8).gap(2),
+            left("of", 0).minor(),
+        ]);
         table.row([Cell::from("a"), Cell::toned("violated", Tone::No), "-1.5".into(), "leg 1".into()]);
         table.row([Cell::from("b_c"), Cell::toned("met", Tone::Yes), Cell::toned("0", Tone::AtLimit)]);
         let mut sheet = Sheet::new();

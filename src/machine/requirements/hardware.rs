@@ -405,11 +405,7 @@ impl Hardware {
 
     /// The same with another drive in each leg; unknown properties stay.
     #[must_use]
-    pub fn with_drive(
-        &self,
-        lengths: LengthLimits,
-        [force, speed, stiffness]: [Option<f64>; 3],
-    ) -> Self {
+    pub fn with_drive(&self, lengths: LengthLimits, [force, speed, stiffness]: [Option<f64>; 3]) -> Self {
         Self {
             leg_length: Some(lengths),
             max_leg_force: force.or(self.max_leg_force),

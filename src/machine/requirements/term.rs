@@ -712,7 +712,9 @@ impl<'a> Terms<'a> {
                 }
             }
         }
-        if let (Some(greatest), Some(speed)) = (hardware.drive_limit(TermKind::LegSpeed), self.required.platform_speed) {
+        if let (Some(greatest), Some(speed)) =
+            (hardware.drive_limit(TermKind::LegSpeed), self.required.platform_speed)
+        {
             // u.v + (R b x u).w over all |v| <= linear, |w| <= angular
             let rows = if self.are_coupled() { None } else { Some(jacobian(m, pose, 1.0)) };
             let rows = rows.or_else(|| legs.states.as_ref().map(|states| CoupledLegs::jacobian(states, 1.0)));

@@ -269,7 +269,9 @@ impl Design {
         let (force, speed) = if self.has_cranks() {
             ((TermKind::CrankTorque, cranks.max_torque), (TermKind::CrankSpeed, cranks.max_speed_deg))
         } else {
-            [TermKind::LegForce, TermKind::LegSpeed].map(|kind| (kind, self.hardware.drive_limit(kind))).into()
+            [TermKind::LegForce, TermKind::LegSpeed]
+                .map(|kind| (kind, self.hardware.drive_limit(kind)))
+                .into()
         };
         let mut out = Vec::new();
         for i in 0..6 {

@@ -19,8 +19,8 @@ pub use self::drive::{DriveSearchRecord, DriveSearchWord, SearchedDriveRecord};
 pub use self::freedom::FreedomRecord;
 pub use self::platform::{
     FoundPlatformRecord, FrontMemberRecord, HeldPosesRecord, JointAxesRecord, LocalOptimalityRecord,
-    NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord,
-    VerifiedRecord, WorstPoseRecord,
+    NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, VerifiedRecord,
+    WorstPoseRecord,
 };
 pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::SymmetryRecord;

@@ -153,7 +153,9 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
         let [status, margin, after_reserve, proved, of, pose] = over;
         let mut cells = vec![name.into()];
         if found.is_some() {
-            cells.extend([status, margin].into_iter().chain(reserved.then_some(after_reserve)).chain([proved]));
+            cells.extend(
+                [status, margin].into_iter().chain(reserved.then_some(after_reserve)).chain([proved]),
+            );
         }
         cells.push(unit.into());
         if found.is_some() {
@@ -173,9 +175,15 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
         let of = |margins: &'_ [MarginRecord]| margins.iter().find(|m| m.name == kind).cloned();
         let whole = of(over);
         let single: Vec<_> = here.iter().map(|at| of(&at.margins)).collect();
-        let unit = whole.iter().chain(single.iter().flatten()).map(|m| m.unit.clone()).next().unwrap_or_default();
+        let unit =
+            whole.iter().chain(single.iter().flatten()).map(|m| m.unit.clone()).next().unwrap_or_default();
         let at_poses = single.iter().map(|m| m.as_ref().map_or_else(none, margin_at_pose)).collect();
-        row(kind.label(), whole.as_ref().map_or_else(|| std::array::from_fn(|_| none()), over_poses), &unit, at_poses);
+        row(
+            kind.label(),
+            whole.as_ref().map_or_else(|| std::array::from_fn(|_| none()), over_poses),
+            &unit,
+            at_poses,
+        );
     }
     let Some(found) = found else { return table };
     // rows without a margin: the sign of det J, and the conditioning, which has no limit
@@ -185,7 +193,8 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
         RegularityWord::Undecided => (Tone::Open, "undecided"),
     };
     let at = found.regular.pose.as_ref();
-    let over = [Cell::toned(status, tone), none().at(at), none(), none(), "sign of det J".into(), place(at).into()];
+    let over =
+        [Cell::toned(status, tone), none().at(at), none(), none(), "sign of det J".into(), place(at).into()];
     row("no singular pose", over, "", here.iter().map(|_| none()).collect());
     let c = &found.conditioning;
     let of = "1 at best, 0 at a singular pose";

@@ -8,7 +8,8 @@ use machine::coupled::DriveSolutionWord;
 use platform::geom::ComplexPose;
 use records::{
     ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
-    PolynomialRecord, PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
+    PolynomialRecord, PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord,
+    SolvedRecord,
 };
 
 /// The answer of `fk` for a design of this name, in its units.

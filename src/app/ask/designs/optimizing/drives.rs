@@ -114,8 +114,7 @@ impl DriveRange {
         let driven = design.with_drive(drive);
         let (required, hardware) = (driven.requirements(), &driven.hardware);
         let (least, greatest) = drive.lengths.range();
-        let limit =
-            |kind| hardware.drive_limit(kind).map_or(f64::INFINITY, |x| x - required.reserve(kind));
+        let limit = |kind| hardware.drive_limit(kind).map_or(f64::INFINITY, |x| x - required.reserve(kind));
         Self {
             legs: [
                 least + required.reserve(TermKind::LegTooShort),
