@@ -260,8 +260,9 @@ mod tests {
             let sum: Complex64 = found.roots.iter().map(|r| r.pose.squared_length(&leg)).sum();
             let sum = sum.re * degree as f64 / found.roots.len() as f64;
             let last = p.coefficients[degree - 1];
-            let (middle, width) = (0.5 * (last.lo() + last.hi()), last.hi() - last.lo());
-            assert!(width < 1e-6 * sum.abs() && (middle + sum).abs() < 1e-6 * sum.abs(), "{middle}, {sum}");
+            let error = 1e-9 * sum.abs();
+            assert!(last.lo() - error <= -sum && -sum <= last.hi() + error, "{last:?}, {sum}");
+            assert!(last.hi() - last.lo() < 1e-3 * sum.abs(), "{last:?}");
             assert_eq!(distance_polynomial(&m, &found, (0, 0)), Err(NoPosePolynomial::Leg));
         }
     }
