@@ -433,7 +433,7 @@ fn a_platform_is_shaded_where_a_requirement_is_violated_at_a_pose_of_the_workspa
             json!({"op": "design", "which": "second", "chosen": {"pattern": pattern, "offsets": there}});
         let saved = ask(&session, &request);
         if !saved["error"].is_null() {
-            assert_eq!(shade, &json!("no_platform"), "{there:?}");
+            assert_eq!(shade, &json!("joints coincide"), "{there:?}");
             continue;
         }
         let platform = built(&saved);
@@ -445,7 +445,7 @@ fn a_platform_is_shaded_where_a_requirement_is_violated_at_a_pose_of_the_workspa
         );
         assert_eq!(answer["poses"].as_u64().unwrap() as usize, found.poses);
         let bad: Vec<&str> =
-            found.margins.iter().filter(|m| !m.standing.is_met()).map(|m| m.term.kind.code()).collect();
+            found.margins.iter().filter(|m| !m.standing.is_met()).map(|m| m.term.kind.label()).collect();
         match shade.as_str() {
             Some(kind) => assert!(bad.contains(&kind), "{there:?}: {kind} is not among {bad:?}"),
             None => assert!(bad.is_empty(), "{there:?}: {bad:?}"),
