@@ -33,8 +33,8 @@ mod near;
 mod newton;
 mod octic;
 mod pentapod;
+mod pose_polynomial;
 mod real_points;
-mod rotation_polynomial;
 mod solutions;
 mod solvability;
 pub mod solve;
@@ -59,7 +59,7 @@ use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, NearWord, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use pentapod::{LineClass, LinePose, LinePoses, NoLinePoses, count_line_poses, line_class, line_poses};
-pub use rotation_polynomial::{NoRotationPolynomial, RotationPolynomial, rotation_polynomial};
+pub use pose_polynomial::{NoPosePolynomial, PosePolynomial, distance_polynomial, rotation_polynomial};
 pub use solutions::{
     FkRoot, FkSolutions, LibraryCalls, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
     SolutionSet,

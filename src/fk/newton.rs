@@ -44,8 +44,12 @@ fn displaced(pose: &ComplexPose, twist: &Twist, size: f64) -> Option<ComplexPose
     pose.less_step(&turn, &shift)
 }
 
-/// Solves `A x = b` by elimination with partial pivoting; `None` for a column of zeros or NaN.
-fn solve(mut a: Jacobian, mut b: Twist) -> Option<Twist> {
+/// Solves `A X = B` by elimination with partial pivoting; `None` for a column of zeros or NaN.
+#[inline]
+pub(super) fn solve<const N: usize>(
+    mut a: Jacobian,
+    mut b: SMatrix<Complex64, 6, N>,
+) -> Option<SMatrix<Complex64, 6, N>> {
     for k in 0..6 {
         let best = (k..6).max_by(|i, j| a[(*i, k)].norm_sqr().total_cmp(&a[(*j, k)].norm_sqr()))?;
         a.swap_rows(k, best);
@@ -57,7 +61,9 @@ fn solve(mut a: Jacobian, mut b: Twist) -> Option<Twist> {
         let mut factors = [Complex64::ZERO; 6];
         for i in k + 1..6 {
             factors[i] = a[(i, k)] * inverse;
-            b[i] = b[i] - factors[i] * b[k];
+            for c in 0..N {
+                b[(i, c)] = b[(i, c)] - factors[i] * b[(k, c)];
+            }
         }
         for j in k + 1..6 {
             let top = a[(k, j)];
@@ -65,7 +71,9 @@ fn solve(mut a: Jacobian, mut b: Twist) -> Option<Twist> {
                 a[(i, j)] -= factors[i] * top;
             }
         }
-        b[k] *= inverse;
+        for c in 0..N {
+            b[(k, c)] *= inverse;
+        }
         // the pivot row is wanted divided by the pivot
         for j in k + 1..6 {
             a[(k, j)] *= inverse;
@@ -73,7 +81,9 @@ fn solve(mut a: Jacobian, mut b: Twist) -> Option<Twist> {
     }
     for k in (0..5).rev() {
         for j in k + 1..6 {
-            b[k] = b[k] - a[(k, j)] * b[j];
+            for c in 0..N {
+                b[(k, c)] = b[(k, c)] - a[(k, j)] * b[(j, c)];
+            }
         }
     }
     Some(b)

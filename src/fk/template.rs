@@ -6,18 +6,55 @@ use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, LibraryCalls, Me
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::template::TemplateLayout;
 use num::Purpose;
+use platform::geom::ComplexPose;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
-const ATTEMPTS: u64 = 3;
+/// Eliminations in different frames while fewer than 40 poses are proved.
+const ATTEMPTS: usize = 3;
+
+/// The legs and bodies of a design in another arrangement, which has the same poses.
+#[derive(Debug, Clone, Copy)]
+struct Arrangement {
+    /// Number of legs moved from the end of the list to its beginning.
+    shift: usize,
+    /// Base and platform are exchanged.
+    exchanged: bool,
+}
+
+/// The arrangements in the order of trial. The template treats legs 5 and 6 and the bodies differently; with one joint
+/// outside the plane of its body it keeps its rank if this joint is a platform joint of legs 1 to 4.
+const ARRANGEMENTS: [Arrangement; 4] = [
+    Arrangement { shift: 0, exchanged: false },
+    Arrangement { shift: 2, exchanged: false },
+    Arrangement { shift: 0, exchanged: true },
+    Arrangement { shift: 2, exchanged: true },
+];
+
+impl Arrangement {
+    fn of(self, m: &Manipulator, s: &SquaredLegLengths) -> Option<(Manipulator, SquaredLegLengths)> {
+        let order: [usize; 6] = std::array::from_fn(|i| (i + 6 - self.shift) % 6);
+        let bodies = if self.exchanged { m.exchanged() } else { m.clone() };
+        let squares = SquaredLegLengths::try_new(order.map(|i| s.get()[i])).ok()?;
+        Some((bodies.reordered(order).ok()?, squares))
+    }
+
+    /// The pose of the design that belongs to a pose in this arrangement.
+    fn pose(self, found: ComplexPose) -> ComplexPose {
+        if !self.exchanged {
+            return found;
+        }
+        let rotation = found.rotation.transpose();
+        ComplexPose { rotation, position: -(rotation * found.position) }
+    }
+}
 
 /// Forward kinematics of a general platform by the elimination template of Martyushev.
 ///
 /// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations. The set is
 /// complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as long as they
-/// have 40 poses. Platforms with fewer finite poses get [`FkError::NotApplicable`] or an answer that says roots may be
-/// missing. The same holds for platforms on which the template loses rank. These have planar base and planar platform,
-/// and in many cases also one joint outside of its plane.
+/// have 40 poses. Other orders of the legs and exchanged bodies are tried if the template loses rank. Platforms with fewer
+/// finite poses get [`FkError::NotApplicable`] or an answer that says roots may be missing. The same holds for platforms
+/// on which the template loses rank in every arrangement, as with planar base and planar platform.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Template;
 
@@ -39,32 +76,38 @@ fn solve_with(
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
     let mut candidates = PoseCandidates::default();
-    let (mut best, mut eigenproblems) = (0.0f64, 0);
-    for attempt in 0..ATTEMPTS {
-        let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));
-        let eliminated = layout.fill(&problem).eliminate();
-        best = best.max(eliminated.pivot_ratio);
-        if !eliminated.has_rank() {
-            continue;
-        }
-        let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
-        candidates.add(pairs.iter().map(|pair| layout.pose(&problem, pair)));
-        eigenproblems += 1;
-        let mut found = candidates.solutions(Method::Template, m, s, o)?;
-        if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
-            found.library_calls = library_calls(layout, attempt + 1, eigenproblems);
-            return Ok(found);
+    let (mut best, mut eliminations, mut eigenproblems) = (0.0f64, 0, 0);
+    for arrangement in ARRANGEMENTS {
+        let Some((legs, squares)) = arrangement.of(m, s) else { continue };
+        while eigenproblems < ATTEMPTS {
+            let rng = &mut Purpose::GENERIC_FRAMES.item(o.seed, eliminations);
+            let problem = GenericProblem::draw(&legs, &squares, rng);
+            let eliminated = layout.fill(&problem).eliminate();
+            eliminations += 1;
+            best = best.max(eliminated.pivot_ratio);
+            if !eliminated.has_rank() {
+                break;
+            }
+            let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
+            let poses = pairs.iter().map(|pair| layout.pose(&problem, pair));
+            candidates.add(poses.map(|pose| pose.map(|pose| arrangement.pose(pose))));
+            eigenproblems += 1;
+            let mut found = candidates.solutions(Method::Template, m, s, o)?;
+            if eigenproblems == ATTEMPTS || found.completeness.is_proved() {
+                found.library_calls = library_calls(layout, eliminations, eigenproblems);
+                return Ok(found);
+            }
         }
     }
     if candidates.is_empty() {
         let reason = format!(
-            "the elimination template loses rank on this platform (pivot ratio {best:.1e}), as it does when base \
-             and platform are planar, or all but one joint of them, or share joints as in a 6-4"
+            "the elimination template loses rank on this platform in every arrangement of legs and bodies (pivot ratio \
+             {best:.1e}), as it does when base and platform are planar or share joints as in a 6-4"
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }
     let mut found = candidates.solutions(Method::Template, m, s, o)?;
-    found.library_calls = library_calls(layout, ATTEMPTS, eigenproblems);
+    found.library_calls = library_calls(layout, eliminations, eigenproblems);
     Ok(found)
 }
 
@@ -80,7 +123,28 @@ mod tests {
     use super::*;
     use nalgebra::{Point3, Vector3};
     use num::Rng;
-    use platform::manipulator::Leg;
+    use platform::manipulator::{Body, Leg};
+
+    /// One joint outside the plane of its body: on either body, at the first and at the last leg.
+    #[test]
+    fn almost_planar_platforms_are_solved_in_another_arrangement() {
+        let mut rng = Rng::new(3);
+        let s = SquaredLegLengths::try_new([0.7, 1.1, 2.0, 0.9, 2.9, 1.5]).unwrap();
+        for outside in [None, Some((Body::Base, 0)), Some((Body::Base, 5)), Some((Body::Platform, 5))] {
+            let legs = std::array::from_fn(|i| {
+                let mut point = |body: Body| {
+                    let z = if outside == Some((body, i)) { 1.0 } else { 0.0 };
+                    Point3::new(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), z)
+                };
+                Leg { base: point(Body::Base), platform: point(Body::Platform) }
+            });
+            let found = Template.solve(&Manipulator::from_legs(legs).unwrap(), &s, &FkOptions::default());
+            match outside {
+                None => assert!(matches!(found, Err(FkError::NotApplicable { .. })), "planar bodies"),
+                Some(_) => assert!(found.unwrap().completeness.is_proved(), "{outside:?}"),
+            }
+        }
+    }
 
     #[test]
     #[ignore = "evidence"]

@@ -131,10 +131,10 @@ fn rounded_members_of_special_classes_have_all_real_poses_proved() {
     }
 }
 
-/// Martyushev (2025), sec. 5, remark 2: his template takes them. It does where the joint that is lifted is one of the
-/// platform, of legs 1 to 4.
+/// Martyushev (2025), sec. 5, remark 2: his template takes them. As drawn it does where the joint that is lifted is one
+/// of the platform, of legs 1 to 4; the method then tries other orders of the legs and exchanged bodies.
 #[test]
-fn the_template_refuses_many_almost_planar_platforms_and_the_automatic_choice_proves_them_all() {
+fn the_template_takes_almost_planar_platforms_in_some_arrangement_of_legs_and_bodies() {
     let plan = plan(Class::AlmostPlanar, 12);
     let template = run(&plan, solver(Some(Method::Template)).as_ref(), &Homotopy).unwrap();
     assert_eq!((template.expected, template.silent_failures), (40, 0));
@@ -146,7 +146,8 @@ fn the_template_refuses_many_almost_planar_platforms_and_the_automatic_choice_pr
     };
     let well = (0..plan.count).filter(|k| lifted_well(*k)).count() as u64;
     assert!(0 < well && well < plan.count, "{well}");
-    assert_eq!((template.complete, template.raw.unwrap().refused), (well, plan.count - well));
+    assert!(template.complete > well && template.passed(), "{}", template.complete);
+    assert_eq!(template.raw.unwrap().refused, plan.count - well);
     let automatic = run(&plan, solver(None).as_ref(), &Homotopy).unwrap();
     assert_eq!((automatic.complete, automatic.proved), (plan.count, plan.count));
     assert!(automatic.passed() && automatic.raw.is_none());

@@ -71,7 +71,7 @@ def beyond_reach(shown):
     assert "does not reach" in shown.page.text_content("#regular-first")
     assert "too short" in shown.page.text_content("#lengths-words")
     assert shown.page.input_value("#length-1") == "" and shown.page.locator("#lengths tbody tr").count() == 0
-    assert shown.page.locator("#margins td .bad").count() > 0
+    assert shown.page.locator("#margins td.no").count() > 0
     shown.page.click("#home")
     shown.settle()
     assert shown.page.text_content("#regular-first") == "all rods reach"
@@ -80,6 +80,6 @@ def beyond_reach(shown):
 def required(shown, program):
     """The table of requirements has the rows of `assess`."""
     names = [row["name"] for row in program.json("assess", HEAD, "--cells", "50", "--points", "50", "--searches", "1", exits=(0, 1, 3))["requirements"]]
-    shown.page.wait_for_function("document.querySelectorAll('#margins thead th').length > 2", timeout=120000)
+    shown.page.wait_for_function("[...document.querySelectorAll('#margins thead th')].some((h) => h.textContent === 'least margin')", timeout=120000)
     heads = shown.page.eval_on_selector_all("#margins tbody th", "list => list.map((h) => h.textContent)")
     assert len(heads) == len(names) + 2, (heads, names)

@@ -9,8 +9,8 @@ use ask::Design;
 use machine::requirements::{AssessOptions, Requirements, Terms, ViolationSearch};
 use platform::geom::Pose;
 
-/// The code for offsets that give no platform: some of its joints or legs coincide.
-const NO_PLATFORM: &str = "no_platform";
+/// The name for offsets that give no platform: some of its joints or legs coincide.
+const NO_PLATFORM: &str = "joints coincide";
 
 /// Requirements on a square of two offsets.
 #[derive(Debug, Serialize)]
@@ -21,7 +21,7 @@ pub(super) struct FeasibleRecord {
     high: f64,
     /// Greatest number of poses of the workspace evaluated for each platform.
     poses: usize,
-    /// Row by row, the first offset to the right: the code of one violated requirement; `null` if none is violated at
+    /// Row by row, the first offset to the right: the name of one violated requirement; `null` if none is violated at
     /// these poses.
     violated: Vec<Option<&'static str>>,
 }
@@ -62,7 +62,7 @@ pub(super) fn record(
                 search = ViolationSearch::new(&space_of(&design), options);
             }
             let kind = search.violated(design.manipulator(), &design.requirements());
-            violated.push(kind.map(machine::requirements::TermKind::code));
+            violated.push(kind.map(machine::requirements::TermKind::label));
         }
     }
     Ok(FeasibleRecord { points, low: range[0], high: range[1], poses: search.poses(), violated })

@@ -170,8 +170,10 @@ struct RecordedDesigns {
 fn recorded(session: &Session) -> Recorded {
     let chosen = session.start.as_ref().map(Chosen::from);
     let frames = if session.cranks.is_some() { CRANK_FRAMES } else { FRAMES };
-    let state =
-        |p: Pose| session.reply(PageRequest::State { pose: PoseRecord::from(&p), chosen: chosen.clone() });
+    let state = |p: Pose| {
+        let pose = PoseRecord::from(&p);
+        session.reply(PageRequest::State { pose, chosen: chosen.clone(), limits: None })
+    };
     let home = PoseRecord::from(&session.home);
     let two = session.start.as_ref().filter(|s| s.offsets.len() > 1);
     let plane = |chosen| PageRequest::Plane { chosen, axes: [0, 1], range: [-0.5, 1.5], points: PLANE };

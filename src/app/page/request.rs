@@ -11,7 +11,7 @@ use ask::design::parse_ideal;
 use files::design::Format;
 use machine::requirements::AssessOptions;
 use platform::geom::Pose;
-use records::PoseRecord;
+use records::{AssessAnswer, PoseRecord};
 use synthesis::Pattern;
 
 /// A platform of the page.
@@ -51,8 +51,8 @@ pub(super) enum PageRequest {
     Place { numbers: [f64; 6] },
     /// The pose at a position with a unit quaternion, scalar part first, as other answers give their worst poses.
     Quaternion { p: [f64; 3], q: [f64; 4] },
-    /// All results about both platforms at a pose.
-    State { pose: PoseRecord, chosen: Option<Chosen> },
+    /// All results about both platforms at a pose, with the answer of `Assess` in the table of requirements.
+    State { pose: PoseRecord, chosen: Option<Chosen>, limits: Option<Box<AssessAnswer>> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
     /// The requirements of a platform over its whole workspace, as in `assess` with these numbers; the default for
@@ -190,8 +190,9 @@ impl Session {
                 let pose = Pose::from_quaternion(p, q).map_err(|e| Refusal::new("pose", e))?;
                 Ok(value(path::PathPose::from(&pose)))
             }
-            PageRequest::State { pose, chosen } => {
-                scene::record(self, &Pose::from(&pose), equivalent(chosen)?.as_ref()).map(value)
+            PageRequest::State { pose, chosen, limits } => {
+                let chosen = equivalent(chosen)?;
+                scene::record(self, &Pose::from(&pose), chosen.as_ref(), limits.as_deref()).map(value)
             }
             PageRequest::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()).map(value),
             PageRequest::Assess { which, chosen, points, searches, cells } => {

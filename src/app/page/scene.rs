@@ -12,7 +12,9 @@ use machine::requirements::{Margin, Term, TermKind, Terms};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
-use records::{CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
+use records::{AssessAnswer, CrankRecord, MarginRecord, OutOfReachRecord, PoseRecord, RotaryIkRecord};
+use sheet::Sheet;
+use sheet::answers::{MarginsAtPose, requirements_table};
 use synthesis::AffineLegMap;
 
 /// Singular values below this count as zero.
@@ -27,6 +29,8 @@ pub(super) struct SceneRecord {
     platforms: Vec<PlatformRecord>,
     /// The leg map from the lengths of the first platform to those of the second.
     map: Option<RelationRecord>,
+    /// The table of requirements as markup, in which every text is escaped.
+    requirements: String,
 }
 
 /// A platform at a pose.
@@ -42,8 +46,6 @@ struct PlatformRecord {
     inverse_condition: f64,
     sign: i8,
     spacing: BodySpacings,
-    /// The least margin of each kind of requirement at the pose.
-    margins: Vec<MarginRecord>,
     /// The cranks, for rods on cranks; the lengths are then rod lengths.
     cranks: Option<CranksRecord>,
 }
@@ -105,22 +107,44 @@ struct RelationRecord {
     zeros: Vec<Option<f64>>,
 }
 
-/// All data that a page shows at a pose.
-pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Result<SceneRecord, Refusal> {
+/// All data that a page shows at a pose; `limits` is the answer about the whole workspace.
+pub(super) fn record(
+    session: &Session,
+    at: &Pose,
+    e: Option<&Equivalent>,
+    limits: Option<&AssessAnswer>,
+) -> Result<SceneRecord, Refusal> {
     let first = session.first();
     let s = match &session.cranks {
         Some(platform) => platform.rods().squared(),
         None => squares(first, at)?,
     };
-    let mut platforms = vec![platform(session, first, at, &s, session.first_is_given())];
+    let mut platforms = vec![platform(session, first, at, &s)];
+    let mut here = Vec::new();
+    let mut column = |title, design, shown: &PlatformRecord| {
+        let margins = margins(session, design, at);
+        here.push(MarginsAtPose { title, margins, inverse_condition: shown.inverse_condition });
+    };
+    if session.first_is_given() {
+        column(if e.is_some() { "here, original" } else { "here" }, first, &platforms[0]);
+    }
     let mut map = None;
     if let Some(e) = e {
         let (second, a) = session.second(e)?;
         let own = squares(&second, at)?;
-        platforms.push(platform(session, &second, at, &own, true));
+        let shown = platform(session, &second, at, &own);
+        column("here, equivalent", &second, &shown);
+        platforms.push(shown);
         map = Some(relation(e, &a, &s, &own)?);
     }
-    Ok(SceneRecord { pose: at.into(), written: session.frames().numbers(at), platforms, map })
+    let requirements = Sheet::from(requirements_table(limits, &here)).html();
+    Ok(SceneRecord {
+        pose: at.into(),
+        written: session.frames().numbers(at),
+        platforms,
+        map,
+        requirements: sheet::shown(&requirements),
+    })
 }
 
 fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
@@ -128,13 +152,7 @@ fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
     s.ok_or_else(|| Refusal::new("pose", "a leg length at this pose is not a finite positive number"))
 }
 
-fn platform(
-    session: &Session,
-    design: &Design,
-    at: &Pose,
-    s: &SquaredLegLengths,
-    required: bool,
-) -> PlatformRecord {
+fn platform(session: &Session, design: &Design, at: &Pose, s: &SquaredLegLengths) -> PlatformRecord {
     let m = design.manipulator();
     let place = |(name, p): (&String, Point3<f64>)| PlaceRecord { name: name.clone(), at: p.coords.into() };
     let base = design.base_names().iter().zip(m.base_joints().iter().copied());
@@ -155,7 +173,6 @@ fn platform(
             base: spacing(m, Body::Base, design.base_names()),
             platform: spacing(m, Body::Platform, design.platform_names()),
         },
-        margins: if required { margins(session, design, at) } else { Vec::new() },
         cranks: session.cranks.as_ref().map(|platform| cranks(design, platform, at)),
     }
 }

@@ -163,6 +163,9 @@ fn a_singular_platform_moves_and_a_regular_one_does_not() {
     assert_eq!(moving(EQUIVALENT)["dimension"], json!(0));
 }
 
+/// The mark of a violation in the table of requirements.
+const VIOLATED: &str = "<td class=\"no\">";
+
 /// Every class begins with a regular platform; if some regular one meets the requirements of the file, so does this
 /// one.
 #[test]
@@ -176,11 +179,8 @@ fn the_first_offsets_meet_the_requirements_at_home() {
             let chosen = json!({"pattern": pattern["id"], "offsets": first["offsets"]});
             let state = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": chosen}));
             assert!(state["map"]["det"].as_f64().unwrap().abs() >= 0.1, "{pattern}: {first}");
-            let margins = state["platforms"][1]["margins"].as_array().unwrap();
-            assert!(
-                margins.len() >= 2 && margins.iter().all(|m| m["met"] == json!(true)),
-                "{first}: {margins:?}"
-            );
+            let table = state["requirements"].as_str().unwrap();
+            assert!(table.matches("<tr>").count() > 2 && !table.contains(VIOLATED), "{first}: {table}");
         }
         assert_eq!(
             open["start"]["offsets"],
@@ -191,7 +191,7 @@ fn the_first_offsets_meet_the_requirements_at_home() {
     let session = session(&OCTAHEDRAL.replace("min_joint_distance = 1.2", "min_joint_distance = 7.0"));
     let open = ask(&session, &json!({"op": "open"}));
     let state = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": open["start"]}));
-    assert!(state["platforms"][1]["margins"].as_array().unwrap().iter().any(|m| m["met"] == json!(false)));
+    assert!(state["requirements"].as_str().unwrap().contains(VIOLATED));
 }
 
 #[test]
@@ -201,12 +201,35 @@ fn joints_exactly_as_far_apart_as_required_are_at_the_limit() {
     let platform = |t: f64| {
         let chosen = json!({"pattern": "S123456", "offsets": [0.3, t, 0.3, t, 0.3, t]});
         let state = ask(&session, &json!({"op": "state", "pose": home, "chosen": chosen}));
-        let margin = &state["platforms"][1]["margins"][1];
-        (margin["met"].as_bool().unwrap(), margin["at_limit"].as_bool().unwrap())
+        let table = state["requirements"].as_str().unwrap();
+        let row = table.split("<tr>").find(|row| row.contains("spacing of platform joints")).unwrap();
+        (!row.contains(VIOLATED), row.contains("0, at the limit"))
     };
     assert_eq!(platform(0.2), (true, true), "0.2 of an edge of 6 is 1.2");
     assert_eq!(platform(0.2 - 1e-9), (false, false));
     assert_eq!(platform(0.2 + 1e-9), (true, false));
+}
+
+/// The answer about the workspace and the margins at the pose shown are one table, with poses to be shown.
+#[test]
+fn the_table_of_requirements_has_the_workspace_and_the_pose_shown() {
+    let session = session(OCTAHEDRAL);
+    let open = ask(&session, &json!({"op": "open"}));
+    let request = json!({"op": "assess", "which": "second", "chosen": open["start"], "points": 20, "searches": 0, "cells": 0});
+    let limits = ask(&session, &request);
+    let state = |limits: &Value| {
+        let request = json!({"op": "state", "pose": open["home"], "chosen": open["start"], "limits": limits});
+        ask(&session, &request)["requirements"].as_str().unwrap().to_owned()
+    };
+    let rows = limits["requirements"].as_array().unwrap().len();
+    let (here, whole) = (state(&Value::Null), state(&limits));
+    assert_eq!((here.matches("<tr>").count(), whole.matches("<tr>").count()), (rows + 1, rows + 3));
+    assert!(
+        here.contains("here, equivalent") && !here.contains("least margin") && !here.contains("data-pose")
+    );
+    let posed = limits["requirements"].as_array().unwrap().iter().filter(|m| !m["pose"].is_null()).count();
+    // the conditioning has a pose as well
+    assert!(whole.matches("data-pose").count() > posed && whole.contains("least margin"), "{whole}");
 }
 
 #[test]
@@ -411,7 +434,7 @@ fn a_platform_is_shaded_where_a_requirement_is_violated_at_a_pose_of_the_workspa
             json!({"op": "design", "which": "second", "chosen": {"pattern": pattern, "offsets": there}});
         let saved = ask(&session, &request);
         if !saved["error"].is_null() {
-            assert_eq!(shade, &json!("no_platform"), "{there:?}");
+            assert_eq!(shade, &json!("joints coincide"), "{there:?}");
             continue;
         }
         let platform = built(&saved);
@@ -423,7 +446,7 @@ fn a_platform_is_shaded_where_a_requirement_is_violated_at_a_pose_of_the_workspa
         );
         assert_eq!(answer["poses"].as_u64().unwrap() as usize, found.poses);
         let bad: Vec<&str> =
-            found.margins.iter().filter(|m| !m.standing.is_met()).map(|m| m.term.kind.code()).collect();
+            found.margins.iter().filter(|m| !m.standing.is_met()).map(|m| m.term.kind.label()).collect();
         match shade.as_str() {
             Some(kind) => assert!(bad.contains(&kind), "{there:?}: {kind} is not among {bad:?}"),
             None => assert!(bad.is_empty(), "{there:?}: {bad:?}"),

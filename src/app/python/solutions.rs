@@ -141,9 +141,8 @@ impl NativeSolutions {
         let (design, lengths) = self.of_legs(py)?;
         let shown = LegLengths::try_new(lengths).map_err(|e| raised(py, e.into()))?;
         let distances = shown.without(&design.leg_offsets()).map_err(|e| raised(py, e.into()))?;
-        let found =
-            py.detach(|| fk::closure_between(design.manipulator(), &distances.squared(), &self.found, pair));
-        as_json(&ClosureRecord::new(design, &found))
+        let record = || ClosureRecord::between(design, &distances.squared(), &self.found, pair);
+        as_json(&py.detach(record))
     }
 
     /// The document of one set of lengths, certificates included.

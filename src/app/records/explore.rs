@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::nearest::short;
 use super::{
-    AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SolvedRecord, SymmetryRecord,
+    AssessAnswer, NearestErrorRecord, NoRoundingError, NoRoundingRecord, Number, OptimalityWord,
+    OptimizeAnswer, RidingRecord, SearchesBesideRecord, SolvedRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
 use ask::{ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation};
@@ -127,30 +127,6 @@ pub struct MovesFoundRecord {
     pub det: Option<Number>,
 }
 
-/// A summary of the nearest octahedral platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct NearestErrorRecord {
-    /// The largest displacement of a leg end, design units.
-    pub largest_displacement: Number,
-    /// The largest displacement divided by the size of the design.
-    pub relative_displacement: Number,
-    /// The largest difference of leg lengths over the poses of the workspace, design units.
-    pub largest_length_deviation: Number,
-    /// det A of the leg map from the octahedral platform to the equivalent one near the design.
-    pub det: Number,
-}
-
-impl From<&NearestRecord> for NearestErrorRecord {
-    fn from(n: &NearestRecord) -> Self {
-        Self {
-            largest_displacement: n.largest_displacement,
-            relative_displacement: n.relative_displacement,
-            largest_length_deviation: n.largest_length_deviation,
-            det: n.det,
-        }
-    }
-}
-
 /// The answer of `explore` about an octahedral design.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreOctahedralAnswer {
@@ -180,14 +156,9 @@ pub struct ExploreOctahedralAnswer {
     /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The
     /// assessment applies to this platform.
     pub holes: Option<OnHolesRecord>,
-    /// The result for the three-fold symmetry of the design. Null: the design has none or names one, or the search
-    /// could not break it or did not check it.
-    pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table with the search result for each; null: no table was given.
-    pub drive_search: Option<DriveSearchRecord>,
-    /// Further freedoms that might allow a platform, each with its search result. Null: a platform meets the
-    /// requirements, or no freedom was tried.
-    pub freedoms: Option<Vec<FreedomRecord>>,
+    /// The searches with other freedoms, symmetry and drives.
+    #[serde(flatten)]
+    pub beside: SearchesBesideRecord,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
 }

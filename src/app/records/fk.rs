@@ -9,7 +9,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
-pub use self::closure::{ClosurePolynomialRecord, ClosureRecord, TrilaterationStepRecord};
+pub use self::closure::{
+    ClosurePolynomialRecord, ClosureRecord, DistancePolynomialRecord, TrilaterationStepRecord,
+};
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
 use super::{
     ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number, PoseConventionRecord,
@@ -124,7 +126,7 @@ pub struct FkOneAnswer {
     /// certificate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
-    /// The exact closure polynomial, with `--method trilateration`.
+    /// The closure polynomial, with `--method trilateration` or `--between`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
     /// The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.

@@ -34,20 +34,14 @@ pub struct NearestRecord {
     pub order: [usize; 6],
     /// The offset `t_k` of the leg on side k; 0 or 1 at a corner.
     pub offsets: [Number; 6],
-    /// det A of the leg map from the octahedral platform to the equivalent one near the design.
-    pub det: Number,
+    /// The largest errors.
+    #[serde(flatten)]
+    pub error: NearestErrorRecord,
     /// Displacements of the base end and the platform end of each leg, design units.
     pub displacements: [[Number; 2]; 6],
-    /// The largest displacement, design units.
-    pub largest_displacement: Number,
     /// Root mean square of the displacements, the objective of the fit, design units.
     pub rms_displacement: Number,
-    /// The largest displacement divided by the size of the design.
-    pub relative_displacement: Number,
-    /// The largest difference of leg lengths between the design and the equivalent platform near it, over the poses of
-    /// the workspace, design units.
-    pub largest_length_deviation: Number,
-    /// The leg with this difference, from 1.
+    /// The leg with the largest difference of leg lengths, from 1.
     pub deviating_leg: usize,
     /// The pose with this difference.
     pub deviating_pose: PoseQuaternionRecord,
@@ -66,6 +60,19 @@ pub struct NearestRecord {
     pub octahedral: DesignRecord,
 }
 
+/// The errors of the nearest octahedral platform.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct NearestErrorRecord {
+    /// The largest displacement of a leg end, design units.
+    pub largest_displacement: Number,
+    /// The largest displacement divided by the size of the design.
+    pub relative_displacement: Number,
+    /// The largest difference of leg lengths over the poses of the workspace, design units.
+    pub largest_length_deviation: Number,
+    /// det A of the leg map from the octahedral platform to the equivalent one near the design.
+    pub det: Number,
+}
+
 impl NearestRecord {
     fn new(design: &Design, near: &NearestDesigns, poses: &[Pose], worst: LengthDeviation) -> Self {
         let n = &near.found;
@@ -73,12 +80,14 @@ impl NearestRecord {
         Self {
             order: n.order.map(|leg| leg.get() + 1),
             offsets: n.offsets.map(Number),
-            det: Number(n.determinant),
+            error: NearestErrorRecord {
+                largest_displacement: Number(largest),
+                relative_displacement: Number(largest / design.manipulator().size()),
+                largest_length_deviation: Number(worst.value),
+                det: Number(n.determinant),
+            },
             displacements: n.displacements.map(|d| d.map(Number)),
-            largest_displacement: Number(largest),
             rms_displacement: Number(n.rms_displacement()),
-            relative_displacement: Number(largest / design.manipulator().size()),
-            largest_length_deviation: Number(worst.value),
             deviating_leg: worst.leg.get() + 1,
             deviating_pose: (&poses[worst.pose]).into(),
             poses: poses.len(),
@@ -106,16 +115,16 @@ impl NearestAnswer {
                  and joints at most {} lengths of their side beyond its corners",
                 options.min_abs_det, options.extension
             ),
-            Some(n) if n.relative_displacement.0 <= SAME => format!(
+            Some(n) if n.error.relative_displacement.0 <= SAME => format!(
                 "the legs of the design lie on the sides of two triangles: it is equivalent to an octahedral platform (det A = {})",
-                short(n.det.0)
+                short(n.error.det.0)
             ),
             Some(n) => format!(
                 "an octahedral platform whose equivalent has every joint within {} of the design ({} of its size), \
                  and leg lengths within {} at {} poses of the workspace",
-                length(n.largest_displacement.0, &design.units),
-                short(n.relative_displacement.0),
-                length(n.largest_length_deviation.0, &design.units),
+                length(n.error.largest_displacement.0, &design.units),
+                short(n.error.relative_displacement.0),
+                length(n.error.largest_length_deviation.0, &design.units),
                 n.poses
             ),
         };
@@ -127,12 +136,6 @@ impl NearestAnswer {
             nearest,
             paths: Vec::new(),
         }
-    }
-
-    /// Whether the design itself lies on the sides of two triangles, within rounding.
-    #[must_use]
-    pub fn is_the_design(&self) -> bool {
-        self.nearest.as_ref().is_some_and(|n| n.relative_displacement.0 <= SAME)
     }
 }
 

@@ -38,17 +38,6 @@ pub enum AllOrNone<T> {
     None {},
 }
 
-impl<T> AllOrNone<T> {
-    /// The record, if present.
-    #[must_use]
-    pub fn as_option(&self) -> Option<&T> {
-        match self {
-            Self::All(record) => Some(record),
-            Self::None {} => None,
-        }
-    }
-}
-
 impl<T> From<Option<T>> for AllOrNone<T> {
     fn from(record: Option<T>) -> Self {
         record.map_or(Self::None {}, Self::All)

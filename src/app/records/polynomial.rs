@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use fk::{Closure, NoRotationPolynomial, RotationPolynomial};
+use fk::{Closure, NoPosePolynomial, PosePolynomial};
 use num::algebraic::Algebraic;
 use num::poly::{EnclosedRoot, IntPoly, sturm_count_of_line};
 use platform::topology::JointIndex;
@@ -86,7 +86,7 @@ impl PolynomialRecord {
     /// The closure polynomial, with the names of joints.
     pub(crate) fn of_closure(c: &Closure, name: &impl Fn(JointIndex) -> String) -> Self {
         let p = &c.polynomial;
-        let [x, y] = p.unknown.map(name);
+        let unknown = squared_distance(&p.unknown.map(name));
         let roots: Vec<EnclosedRoot> = p.real_roots.iter().map(EnclosedRoot::from).collect();
         let removed = c.degrees.factors.iter().filter(|f| f.removed > 0).map(|f| {
             let of = p.sequence.steps.iter().filter(|s| !s.rigid).nth(f.step);
@@ -100,15 +100,15 @@ impl PolynomialRecord {
         Self {
             degree_before: c.degrees.before,
             removed: removed.collect(),
-            ..Self::of_integers(format!("squared distance of {x} and {y}"), &p.polynomial, p.distinct, &roots)
+            ..Self::of_integers(unknown, &p.polynomial, p.distinct, &roots)
         }
     }
 
-    /// The polynomial in a Cayley parameter of all poses.
-    fn of_rotations(p: &RotationPolynomial) -> Self {
+    /// The polynomial in a number at all poses.
+    pub(crate) fn of_poses(unknown: String, p: &PosePolynomial) -> Self {
         let degree = p.coefficients.len().saturating_sub(1);
         Self {
-            unknowns: vec!["c3".to_owned()],
+            unknowns: vec![unknown],
             degree_before: degree,
             degree: Some(degree),
             removed: Vec::new(),
@@ -168,6 +168,11 @@ impl PolynomialRecord {
     }
 }
 
+/// The name of the unknown of two joints.
+pub(crate) fn squared_distance([x, y]: &[String; 2]) -> String {
+    format!("squared distance of {x} and {y}")
+}
+
 /// The polynomial in a Cayley parameter of all poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
@@ -182,10 +187,10 @@ pub enum RotationPolynomialRecord {
     },
 }
 
-impl From<Result<RotationPolynomial, NoRotationPolynomial>> for RotationPolynomialRecord {
-    fn from(found: Result<RotationPolynomial, NoRotationPolynomial>) -> Self {
+impl From<Result<PosePolynomial, NoPosePolynomial>> for RotationPolynomialRecord {
+    fn from(found: Result<PosePolynomial, NoPosePolynomial>) -> Self {
         match found {
-            Ok(p) => Self::Polynomial(Box::new(PolynomialRecord::of_rotations(&p))),
+            Ok(p) => Self::Polynomial(Box::new(PolynomialRecord::of_poses("c3".to_owned(), &p))),
             Err(why) => Self::None { error: why.to_string() },
         }
     }

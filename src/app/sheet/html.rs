@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::{Block, Cell, DIGITS, Sheet, Table, Tone};
+use super::{Block, Cell, Column, DIGITS, Sheet, Table, Tone};
 use files::plot::visible;
 
 impl Sheet {
@@ -38,7 +38,7 @@ fn rows(table: &Table) -> Markup {
     html! {
         div.wide { table {
             thead { tr { @for column in &table.columns {
-                th scope="col" class=[column.right.then_some("right")] { (column.title) }
+                th scope="col" class=[classes(column, None)] { (column.title) }
             } } }
             (body(table))
         } }
@@ -49,9 +49,16 @@ fn body(table: &Table) -> Markup {
     html! {
         tbody { @for row in &table.rows { tr { @for (k, (column, cell)) in table.cells(row).enumerate() {
             @if k == 0 { th scope="row" { (judged(cell)) } }
-            @else { td class=[class(cell.tone).or(column.right.then_some("right"))] { (judged(cell)) } }
+            @else { td class=[classes(column, class(cell.tone))] data-pose=[&cell.pose] { (judged(cell)) } }
         } } } }
     }
+}
+
+/// The classes of a cell: the judgement or else the side of the column, and whether a narrow page leaves it out.
+fn classes(column: &Column, tone: Option<&'static str>) -> Option<String> {
+    let main = tone.or(column.right.then_some("right"));
+    let all: Vec<_> = main.into_iter().chain(column.minor.then_some("minor")).collect();
+    (!all.is_empty()).then(|| all.join(" "))
 }
 
 /// The text with the sign of its tone, so that colour is not the only cue.

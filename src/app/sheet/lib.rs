@@ -16,8 +16,9 @@ mod text;
 
 use std::fmt::Display;
 
-pub use figure::DIGITS;
+use records::PoseQuaternionRecord;
 
+pub use figure::DIGITS;
 pub use html::{badge, shown};
 pub use markdown::escaped as markdown_escaped;
 
@@ -81,7 +82,7 @@ impl Sheet {
     /// The same with its numbers rounded to so many significant digits.
     fn rounded(&self, digits: usize) -> Self {
         let text = |text: &str| figure::rounded_in(text, digits).into_owned();
-        let cell = |cell: &Cell| Cell { text: text(&cell.text), tone: cell.tone };
+        let cell = |cell: &Cell| Cell { text: text(&cell.text), ..cell.clone() };
         let block = |block: &Block| match block {
             Block::Line(line) => Block::Line(text(line)),
             Block::Space => Block::Space,
@@ -150,7 +151,7 @@ impl Table {
 
     /// The cells of a row with their columns.
     fn cells<'a>(&'a self, row: &'a [Cell]) -> impl Iterator<Item = (&'a Column, &'a Cell)> {
-        static EMPTY: Cell = Cell { text: String::new(), tone: Tone::Plain };
+        static EMPTY: Cell = Cell { text: String::new(), tone: Tone::Plain, pose: None };
         self.columns.iter().enumerate().map(|(k, column)| (column, row.get(k).unwrap_or(&EMPTY)))
     }
 }
@@ -162,16 +163,17 @@ pub struct Column {
     width: usize,
     right: bool,
     gap: usize,
+    minor: bool,
 }
 
 /// A column of words with this least width.
 pub fn left(title: impl Into<String>, width: usize) -> Column {
-    Column { title: title.into(), width, right: false, gap: 1 }
+    Column { title: title.into(), width, right: false, gap: 1, minor: false }
 }
 
 /// A column of numbers with this least width.
 pub fn right(title: impl Into<String>, width: usize) -> Column {
-    Column { title: title.into(), width, right: true, gap: 1 }
+    Column { title: title.into(), width, right: true, gap: 1, minor: false }
 }
 
 impl Column {
@@ -180,6 +182,12 @@ impl Column {
     pub fn gap(self, gap: usize) -> Self {
         Self { gap, ..self }
     }
+
+    /// Marks a column that a narrow page leaves out.
+    #[must_use]
+    pub fn minor(self) -> Self {
+        Self { minor: true, ..self }
+    }
 }
 
 /// A text with its judgement of a requirement.
@@ -187,6 +195,8 @@ impl Column {
 pub struct Cell {
     text: String,
     tone: Tone,
+    /// The pose that the text is about, in JSON; only a page uses it.
+    pose: Option<String>,
 }
 
 /// The judgement of a cell.
@@ -219,7 +229,13 @@ impl Tone {
 impl Cell {
     /// A text with a judgement.
     pub fn toned(text: impl Into<String>, tone: Tone) -> Self {
-        Self { text: text.into(), tone }
+        Self { text: text.into(), tone, pose: None }
+    }
+
+    /// The cell with the pose that it is about, which a page can show.
+    #[must_use]
+    pub fn at(self, pose: Option<&PoseQuaternionRecord>) -> Self {
+        Self { pose: pose.and_then(|pose| serde_json::to_string(pose).ok()), ..self }
     }
 }
 
@@ -234,8 +250,12 @@ mod tests {
     use super::*;
 
     fn sheet() -> Sheet {
-        let mut table =
-            Table::new([left("name", 6), left("status", 8), right("margin", 8).gap(2), left("of", 0)]);
+        let mut table = Table::new([
+            left("name", 6),
+            left("status", 8),
+            right("margin", 8).gap(2),
+            left("of", 0).minor(),
+        ]);
         table.row([Cell::from("a"), Cell::toned("violated", Tone::No), "-1.5".into(), "leg 1".into()]);
         table.row([Cell::from("b_c"), Cell::toned("met", Tone::Yes), Cell::toned("0", Tone::AtLimit)]);
         let mut sheet = Sheet::new();
@@ -258,7 +278,7 @@ mod tests {
         let html = sheet().html().into_string();
         for part in [
             "<p>A &lt;b&gt; is</p><ul><li>so</li><li>and so</li></ul>",
-            "<th scope=\"col\" class=\"right\">margin</th>",
+            "<th scope=\"col\" class=\"right\">margin</th><th scope=\"col\" class=\"minor\">of</th>",
             "<th scope=\"row\">a</th><td class=\"no\"><span aria-hidden=\"true\">\u{2717}</span> violated</td>",
             "<table class=\"facts\"><tbody><tr><th scope=\"row\">x</th><td>1</td></tr></tbody></table>",
         ] {

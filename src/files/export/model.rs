@@ -9,7 +9,7 @@ use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::design::{CalibratedNumber, DesignModel};
 use machine::coupled::CoupledLegs;
-use machine::requirements::{Hardware, KeepOutShape, MovingBodies, plate_normal};
+use machine::requirements::{Hardware, KeepOutShape, MovingBodies, TermKind, plate_normal};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{Pose, any_across};
 use platform::manipulator::{Body, Manipulator};
@@ -362,7 +362,7 @@ impl Export {
             payload: design.payload.is_some(),
             payload_shape: design.payload.as_ref().and_then(|p| p.shape),
             gravity: design.gravity(),
-            greatest_force: hardware.max_leg_force.map(|f| f * newtons),
+            greatest_force: hardware.drive_limit(TermKind::LegForce).map(|f| f * newtons),
             gravity_compensation: options.gravity_compensation,
             hole_places: options.hole_places,
             choices,

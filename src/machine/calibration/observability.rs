@@ -69,12 +69,6 @@ impl Observability {
         if self.greatest() > 0.0 { self.least() / self.greatest() } else { 0.0 }
     }
 
-    /// `s_m`, the least singular value (Nahvi, Hollerbach, Hayward 1994).
-    #[must_use]
-    pub fn least_value(&self) -> f64 {
-        self.least()
-    }
-
     /// `s_m^2 / s_1`, the noise amplification index (Nahvi, Hollerbach 1996).
     #[must_use]
     pub fn noise_amplification(&self) -> f64 {

@@ -393,6 +393,43 @@ impl Hardware {
         (0..6).filter_map(|leg| self.angle_limit_deg(kind, leg)).reduce(f64::min)
     }
 
+    /// The greatest force or speed of the drive of a leg; `None` without this limit, and for other kinds.
+    #[must_use]
+    pub fn drive_limit(&self, kind: TermKind) -> Option<f64> {
+        match kind {
+            TermKind::LegForce => self.max_leg_force,
+            TermKind::LegSpeed => self.max_leg_speed,
+            _ => None,
+        }
+    }
+
+    /// The same with another drive in each leg; unknown properties stay.
+    #[must_use]
+    pub fn with_drive(&self, lengths: LengthLimits, [force, speed, stiffness]: [Option<f64>; 3]) -> Self {
+        Self {
+            leg_length: Some(lengths),
+            max_leg_force: force.or(self.max_leg_force),
+            max_leg_speed: speed.or(self.max_leg_speed),
+            leg_stiffness: stiffness.or(self.leg_stiffness),
+            ..*self
+        }
+    }
+
+    /// The properties of the drives (lengths, force, speed, stiffness, masses), and all limits without the drives.
+    pub(super) fn of_drives_and_rest(&self) -> [Self; 2] {
+        let rest =
+            Self { leg_length: None, max_leg_force: None, max_leg_speed: None, leg_stiffness: None, ..*self };
+        let drives = Self {
+            leg_length: self.leg_length,
+            max_leg_force: self.max_leg_force,
+            max_leg_speed: self.max_leg_speed,
+            leg_stiffness: self.leg_stiffness,
+            leg_masses: self.leg_masses,
+            ..Self::default()
+        };
+        [drives, rest]
+    }
+
     /// `true` if drive lengths differ from the distances of the joints: universal joints with offset axes, or screws
     /// that couple rotation and length.
     #[must_use]

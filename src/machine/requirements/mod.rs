@@ -125,16 +125,9 @@ impl Requirements {
     /// one of the two.
     #[must_use]
     pub fn of_drives_and_rest(&self) -> [Self; 2] {
-        let h = &self.hardware;
+        let [of_drives, of_rest] = self.hardware.of_drives_and_rest();
         let drives = Self {
-            hardware: Hardware {
-                leg_length: h.leg_length,
-                max_leg_force: h.max_leg_force,
-                max_leg_speed: h.max_leg_speed,
-                leg_stiffness: h.leg_stiffness,
-                leg_masses: h.leg_masses,
-                ..Hardware::default()
-            },
+            hardware: of_drives,
             loads: self.loads.clone(),
             platform_speed: self.platform_speed,
             platform_stiffness: self.platform_stiffness,
@@ -143,15 +136,8 @@ impl Requirements {
             cranks: self.cranks.clone(),
             ..Self::default()
         };
-        let hardware = Hardware {
-            leg_length: None,
-            max_leg_force: None,
-            max_leg_speed: None,
-            leg_stiffness: None,
-            ..*h
-        };
         let rest = Self {
-            hardware,
+            hardware: of_rest,
             keep_outs: self.keep_outs.clone(),
             min_joint_distance: self.min_joint_distance,
             envelopes: self.envelopes,
@@ -185,8 +171,7 @@ impl Requirements {
         match kind.quantity() {
             Quantity::Length => size,
             Quantity::Angle => 90.0,
-            Quantity::Force => self.hardware.max_leg_force.unwrap_or(1.0),
-            Quantity::Speed => self.hardware.max_leg_speed.unwrap_or(1.0),
+            Quantity::Force | Quantity::Speed => self.hardware.drive_limit(kind).unwrap_or(1.0),
             Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
                 self.least_stiffness_of(kind).unwrap_or(1.0)
             }

@@ -84,8 +84,7 @@ impl Requirements {
             | TermKind::KeepOut
             | TermKind::PlateClearance
             | TermKind::PayloadClearance => h.leg_body.map_or(0.0, |b| b.diameter),
-            TermKind::LegForce => h.max_leg_force.unwrap_or(0.0),
-            TermKind::LegSpeed => h.max_leg_speed.unwrap_or(0.0),
+            TermKind::LegForce | TermKind::LegSpeed => h.drive_limit(kind).unwrap_or(0.0),
             TermKind::BaseSpacing => spacing(Body::Base),
             TermKind::PlatformSpacing => spacing(Body::Platform),
             TermKind::BaseEnvelope => envelope(self.envelopes.base),

@@ -125,12 +125,12 @@ impl Terms<'_> {
         let most = |of: fn(&super::Cranks) -> Option<f64>| {
             self.required.cranks.as_ref().and_then(|cranks| of(cranks)).unwrap_or(0.0)
         };
-        let hardware = &self.required.hardware;
+        let greatest = || self.required.hardware.drive_limit(kind).unwrap_or(0.0);
         match kind.quantity() {
             Quantity::Length => SHARE * self.plate_reach(kind, reach),
             Quantity::Angle => (turn() * self.amplification(kind, pose)).min(MOST).to_degrees(),
-            Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
-            Quantity::Force => (SHARE / conditioning()).min(MOST) * hardware.max_leg_force.unwrap_or(0.0),
+            Quantity::Speed => turn() * greatest(),
+            Quantity::Force => (SHARE / conditioning()).min(MOST) * greatest(),
             Quantity::Torque => ((SHARE + turn()) / conditioning()).min(MOST) * most(|c| c.max_torque),
             Quantity::AngularSpeed => turn() * most(|c| c.max_speed_deg),
             Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {

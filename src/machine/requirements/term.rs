@@ -701,7 +701,7 @@ impl<'a> Terms<'a> {
 
     fn drives(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let (hardware, m) = (&self.required.hardware, self.manipulator);
-        if let Some(greatest) = hardware.max_leg_force {
+        if let Some(greatest) = hardware.drive_limit(TermKind::LegForce) {
             let rows = self.drive_rows(pose, m.size());
             let lines = rows.map(|rows| HeldLines::new(&rows, m.size()));
             for (k, load) in self.required.loads.iter().enumerate() {
@@ -712,7 +712,9 @@ impl<'a> Terms<'a> {
                 }
             }
         }
-        if let (Some(greatest), Some(speed)) = (hardware.max_leg_speed, self.required.platform_speed) {
+        if let (Some(greatest), Some(speed)) =
+            (hardware.drive_limit(TermKind::LegSpeed), self.required.platform_speed)
+        {
             // u.v + (R b x u).w over all |v| <= linear, |w| <= angular
             let rows = if self.are_coupled() { None } else { Some(jacobian(m, pose, 1.0)) };
             let rows = rows.or_else(|| legs.states.as_ref().map(|states| CoupledLegs::jacobian(states, 1.0)));

@@ -78,23 +78,25 @@ impl Effort {
     }
 }
 
-/// One step of a run.
+/// A step of the run that found the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "SearchStepRecord", transform = num::nullable))]
 pub struct HistoryStep {
-    /// After the step: the weighted gain; for offsets the worst inverse condition number.
+    /// Value after the step: the weighted gain of the objectives; for offsets the worst inverse condition number.
+    #[cfg_attr(feature = "serde", serde(rename = "objective"))]
     pub gain: f64,
-    /// Largest violation after the step, in the scale of its constraint.
+    /// Greatest violation in the scale of its constraint; lengths relative to the size.
     pub violation: f64,
-    /// Trust radius.
+    /// Radius of the trust region.
     pub radius: f64,
-    /// Number of held poses of the requirements.
+    /// Number of poses held.
     pub poses: usize,
-    /// Merit gain predicted by the model.
-    pub predicted: f64,
-    /// True merit gain; for a refused step at the poses that refused it.
-    pub actual: f64,
-    /// `true` if the step was taken.
+    /// Whether the step was accepted.
     pub accepted: bool,
+    /// Gain of the merit function predicted by the model.
+    pub predicted: f64,
+    /// Actual gain of the merit function; for a rejected step, at the poses that rejected it.
+    pub actual: f64,
 }
 
 /// The result of a run.

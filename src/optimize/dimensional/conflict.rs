@@ -337,8 +337,7 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
                     Some(((_, HingeAngle::Second), limit)) => lean(90.0 + limit - reserve(kind)),
                     None => 0.0,
                 },
-                TermKind::LegForce => -item.value * h.max_leg_force.unwrap_or(1.0),
-                TermKind::LegSpeed => -item.value * h.max_leg_speed.unwrap_or(1.0),
+                TermKind::LegForce | TermKind::LegSpeed => -item.value * h.drive_limit(kind).unwrap_or(1.0),
                 TermKind::LinearStiffness | TermKind::AngularStiffness => -item.value * least(kind),
                 TermKind::NaturalFrequency => {
                     let wanted = least(kind) + reserve(kind);

@@ -406,7 +406,7 @@ impl<'a> RequirementTerms<'a> {
     }
 
     fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
-        let Some(greatest) = self.required.hardware.max_leg_force else { return };
+        let Some(greatest) = self.required.hardware.drive_limit(TermKind::LegForce) else { return };
         let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
         let lines = HeldLegs::new::<P>(l, self.size);
         for (k, load) in self.required.loads.iter().enumerate() {
@@ -433,7 +433,7 @@ impl<'a> RequirementTerms<'a> {
 
     fn speeds<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let (Some(greatest), Some(speed)) =
-            (self.required.hardware.max_leg_speed, self.required.platform_speed)
+            (self.required.hardware.drive_limit(TermKind::LegSpeed), self.required.platform_speed)
         else {
             return;
         };

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::conditioning::PoseLegs;
 use num::conic::ConicTally;
 use platform::geom::Pose;
-use platform::manipulator::{Body, Octahedral};
+use platform::manipulator::Octahedral;
 use synthesis::{HexagonSide, sides};
 
 /// Default of [`OffsetProblem::min_joint_distance`] as a share of the smaller body's radius.
@@ -109,12 +109,6 @@ impl OffsetProblem {
     #[must_use]
     pub fn edge_lengths(&self) -> [f64; 6] {
         sides(&self.octahedral, 1.0).map(|s| s.edge_length())
-    }
-
-    /// The bodies of the sliding joints of the sides.
-    #[must_use]
-    pub fn sliding_bodies(&self) -> [Body; 6] {
-        sides(&self.octahedral, 1.0).map(|s| s.sliding)
     }
 
     /// Checks that the problem is complete and its numbers are valid.

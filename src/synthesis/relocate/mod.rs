@@ -183,7 +183,7 @@ pub fn relocate(
             return Err(RelocateError::NotCarried { leg: only.leg, family: only.family });
         }
     }
-    let assembled = assemble(m, &legs);
+    let assembled = Assembled::of(m, &legs);
     let map = leg_map_to_legs(m, &assembled.legs, tolerances)?;
     let old = m.legs();
     let mut moved = Vec::new();
@@ -262,18 +262,22 @@ struct BodyJoints {
     of_leg: [usize; 6],
 }
 
-/// Replaces the old legs by the given ones. An end that is within rounding of a joint shares it.
-fn assemble(m: &Manipulator, new: &[Option<Leg>; 6]) -> Assembled {
-    let limit = SNAP * m.size();
-    let pairs = m.pairs();
-    let base = side(m.base_joints(), pairs.map(|p| p.0), new.map(|l| l.map(|l| l.base)), limit);
-    let platform = side(m.platform_joints(), pairs.map(|p| p.1), new.map(|l| l.map(|l| l.platform)), limit);
-    let pairs: [(usize, usize); 6] = std::array::from_fn(|k| (base.of_leg[k], platform.of_leg[k]));
-    Assembled {
-        legs: pairs.map(|(a, b)| Leg { base: base.points[a], platform: platform.points[b] }),
-        platform: Manipulator::try_new(base.points, platform.points, pairs),
-        base: base.origins,
-        platform_joints: platform.origins,
+impl Assembled {
+    /// Replaces the old legs by the given ones. An end that is within rounding of a joint shares it.
+    #[must_use]
+    pub fn of(m: &Manipulator, new: &[Option<Leg>; 6]) -> Self {
+        let limit = SNAP * m.size();
+        let pairs = m.pairs();
+        let base = side(m.base_joints(), pairs.map(|p| p.0), new.map(|l| l.map(|l| l.base)), limit);
+        let platform =
+            side(m.platform_joints(), pairs.map(|p| p.1), new.map(|l| l.map(|l| l.platform)), limit);
+        let pairs: [(usize, usize); 6] = std::array::from_fn(|k| (base.of_leg[k], platform.of_leg[k]));
+        Self {
+            legs: pairs.map(|(a, b)| Leg { base: base.points[a], platform: platform.points[b] }),
+            platform: Manipulator::try_new(base.points, platform.points, pairs),
+            base: base.origins,
+            platform_joints: platform.origins,
+        }
     }
 }
 

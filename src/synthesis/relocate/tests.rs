@@ -414,14 +414,14 @@ fn families_are_named_by_the_joints_that_span_them() {
 fn a_leg_that_leaves_a_shared_joint_splits_it_and_the_last_one_displaces_it() {
     let m = octahedral();
     let there = Leg { base: Point3::new(0.1, 0.2, 0.0), platform: corner(1.0, 0) };
-    let one = assemble(&m, &[Some(there), None, None, None, None, None]);
+    let one = Assembled::of(&m, &[Some(there), None, None, None, None, None]);
     assert_eq!(one.base[3], JointOrigin::Split(0));
     assert_eq!(one.platform_joints, [0, 1, 2].map(JointOrigin::Kept));
     assert_eq!(one.legs[0], there);
     // leg 6 was the other one at that base joint
     let mut legs = [Some(there), None, None, None, None, None];
     legs[5] = Some(Leg { base: Point3::new(-0.1, 0.2, 0.0), platform: corner(1.0, 2) });
-    let both = assemble(&m, &legs);
+    let both = Assembled::of(&m, &legs);
     assert_eq!(
         both.base,
         [JointOrigin::Displaced(0), JointOrigin::Kept(1), JointOrigin::Kept(2), JointOrigin::Split(0)]
@@ -429,12 +429,12 @@ fn a_leg_that_leaves_a_shared_joint_splits_it_and_the_last_one_displaces_it() {
     assert_eq!(both.legs[5], legs[5].unwrap());
     // onto another joint, up to rounding: shared
     let shared = Leg { base: corner(2.0, 2) + Vector3::new(1e-14, 0.0, 0.0), platform: corner(1.0, 0) };
-    let third = assemble(&m, &[Some(shared), None, None, None, None, None]);
+    let third = Assembled::of(&m, &[Some(shared), None, None, None, None, None]);
     assert_eq!(third.base.len(), 3);
     assert_eq!(third.legs[0].base, corner(2.0, 2));
     assert!(third.platform.is_ok());
     // onto another leg: two coincident legs
     let same = Leg { base: corner(2.0, 1), platform: corner(1.0, 0) };
-    let twice = assemble(&m, &[Some(same), None, None, None, None, None]).platform.unwrap();
+    let twice = Assembled::of(&m, &[Some(same), None, None, None, None, None]).platform.unwrap();
     assert!((1..6).any(|leg| twice.pairs()[leg] == twice.pairs()[0]));
 }

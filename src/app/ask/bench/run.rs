@@ -181,10 +181,13 @@ fn one(
         }
         verdict = validate(&problem, &claims, &others);
     }
-    verdict.missed = verdict.missed.max(expected.saturating_sub(verdict.counted));
     let proved = found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. }));
     let proved_bounded =
         found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::ProvedBounded { .. }));
+    // poses beyond the bound of a proof may be left out
+    if !proved_bounded {
+        verdict.missed = verdict.missed.max(expected.saturating_sub(verdict.counted));
+    }
     // a proof of completeness is a certificate too
     let claimed_complete = found.as_ref().is_some_and(|f| {
         matches!(

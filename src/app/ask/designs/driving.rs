@@ -89,12 +89,8 @@ impl Design {
         let mut out = self.clone();
         // the drive is chosen
         out.drive_table = None;
-        let h = &mut out.hardware;
-        h.leg_length = Some(drive.lengths);
-        h.max_leg_force = drive.force.or(h.max_leg_force);
-        h.max_leg_speed = drive.speed.or(h.max_leg_speed);
-        h.leg_stiffness = drive.stiffness.or(h.leg_stiffness);
-        if let (Some(mass), Some(masses)) = (drive.mass, &mut h.leg_masses) {
+        out.hardware = self.hardware.with_drive(drive.lengths, [drive.force, drive.speed, drive.stiffness]);
+        if let (Some(mass), Some(masses)) = (drive.mass, &mut out.hardware.leg_masses) {
             let known = masses.cylinder.mass + masses.rod.mass;
             if known > 0.0 {
                 let reflected = masses.reflected;

@@ -265,11 +265,13 @@ impl Design {
     /// Margins of the drives: greatest speed minus speed, and greatest force minus force, or torque for cranks. A pose
     /// beyond the reach of a rod has none.
     fn drive_margins(&self, at: &MotionInstant) -> Vec<(Term, f64)> {
-        let (hardware, cranks) = (&self.hardware, self.crank_limits());
+        let cranks = self.crank_limits();
         let (force, speed) = if self.has_cranks() {
             ((TermKind::CrankTorque, cranks.max_torque), (TermKind::CrankSpeed, cranks.max_speed_deg))
         } else {
-            ((TermKind::LegForce, hardware.max_leg_force), (TermKind::LegSpeed, hardware.max_leg_speed))
+            [TermKind::LegForce, TermKind::LegSpeed]
+                .map(|kind| (kind, self.hardware.drive_limit(kind)))
+                .into()
         };
         let mut out = Vec::new();
         for i in 0..6 {

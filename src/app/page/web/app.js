@@ -236,7 +236,8 @@ class App {
 
   /** Everything that changes with the pose or an offset. */
   show() {
-    const state = this.core.ask({ op: "state", pose: this.pose, chosen: this.chosen });
+    const limits = this.limits?.error ? null : this.limits;
+    const state = this.core.ask({ op: "state", pose: this.pose, chosen: this.chosen, limits });
     if (state.error) {
       $("motion-words").textContent = state.error.message;
       return;

@@ -4,9 +4,6 @@
 const ROUGH = { points: 500, searches: 1, cells: 0 };
 const THOROUGH = { points: 5000, searches: 3, cells: 6000 };
 
-/** What is known of a margin over the workspace, in a word. */
-const VERDICTS = { met: "proved", at_limit: "at the limit", violated: "violated", searched: "not proved" };
-
 const Limits = {
   /** The badge of the page: class and words for the design shown. */
   verdict({ app, state }) {
@@ -50,30 +47,5 @@ const Limits = {
     const over = limits.judged.stated ? `over ${limits.poses} poses of the workspace` : "at home";
     if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof are on their way" : "a browser with workers looks at more of them"}.`;
     return `Least margins of ${whose}, which ${limits.explanation}; below zero a requirement is violated.`;
-  },
-
-  /** The cell of a requirement over the workspace. */
-  cell(m, go) {
-    if (!m) return ["–"];
-    const number = m.at_limit ? "0" : show(m.margin, 4);
-    const tone = m.met ? "good" : m.met === false ? "bad" : null;
-    const word = VERDICTS[m.status] || m.status;
-    const where = m.pose ? [Limits.button(m.pose, go)] : [];
-    return [el("span", { class: tone }, `${number} ${word}`), el("small", {}, m.between.join(", ")), ...where];
-  },
-
-  /** The row of the singular poses. */
-  regular({ regular: found, regular_explanation: text }, go) {
-    const tone = { proved: "good", changes_sign: "bad" }[found.status] || null;
-    return [el("span", { class: tone }, text), ...(found.pose ? [Limits.button(found.pose, go)] : [])];
-  },
-
-  /** The cell of the worst conditioning found; nothing limits it. */
-  conditioning(found, go) {
-    return [el("span", {}, `${show(found.inverse_condition, 3)} least found`), Limits.button(found.pose, go)];
-  },
-
-  button(pose, go) {
-    return el("button", { type: "button", class: "plain", click: () => go(pose) }, "show pose");
   },
 };

@@ -146,17 +146,16 @@ class Plane {
     if (!feasible) return "Checking requirements ..";
     if (feasible.error) return feasible.error.code === "nothing_required" ? "" : feasible.error.message;
     const { points: n, low, high, poses, violated } = feasible;
-    const name = (kind) => REQUIREMENTS[kind] || (kind === "no_platform" ? "joints coincide" : kind.replaceAll("_", " "));
     const looked = `at one of ${poses} poses of the workspace`;
     const free = violated.some((kind) => kind === null);
-    const kinds = [...new Set(violated)].filter(Boolean).map(name).join(", ");
+    const kinds = [...new Set(violated)].filter(Boolean).join("; ");
     const all = !kinds ? `No requirement is violated ${looked}.` : free
       ? `Hatched: a requirement (${kinds}) is violated ${looked}; inside the green line none is.`
       : `Hatched: everywhere in this square a requirement (${kinds}) is violated ${looked}.`;
     const [column, row] = at.map((t) => Math.round(((t - low) / (high - low)) * (n - 1)));
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];
-    const next = here ? `violates: ${name(here)}` : "violates none at these poses; the judgement at the top of the page has the proof for the mark";
+    const next = here ? `violates: ${here}` : "violates none at these poses; the judgement at the top of the page has the proof for the mark";
     return `${all} The platform next to the mark ${next}.`;
   }
 

@@ -1,18 +1,5 @@
 // Numbers in tables: the text alternative of every picture.
 
-/** What a margin is the room of, in words. */
-const REQUIREMENTS = {
-  leg_too_short: "legs, above the least length", leg_too_long: "legs, below the greatest length",
-  base_swing: "swing of the base joints", platform_swing: "swing of the platform joints",
-  base_first_angle: "angle about the first axes, base joints", base_second_angle: "angle about the second axes, base joints",
-  platform_first_angle: "angle about the first axes, platform joints",
-  platform_second_angle: "angle about the second axes, platform joints",
-  rod_too_short: "rods, long enough to reach", rod_too_long: "rods, short enough to close", crank_transmission: "trans\u00admission angle of the cranks",
-  crank_angle: "angle of the cranks", tip_swing: "lean of the rods at the tips", crank_torque: "torque of the cranks", crank_speed: "speed of the cranks",
-  leg_clearance: "gap between legs", keep_out: "gap to the keep-outs", leg_force: "leg force", leg_speed: "leg speed",
-  base_spacing: "gap between base joints", platform_spacing: "gap between platform joints",
-};
-
 const Tables = {
   /** Leg lengths of both platforms, with what the leg map makes of the first ones. */
   lengths(state, units) {
@@ -38,39 +25,18 @@ const Tables = {
     $("map").replaceChildren(heading(["", ...map.A.map((_, j) => `s${j + 1}`), "c"]), el("tbody", {}, ...rows));
   },
 
-  /** The requirements over the workspace, for the design shown, and at the pose shown. */
+  /** The requirements over the workspace and at the pose shown; a margin with a pose gets a button that shows it. */
   margins(app, state) {
-    const [first, second] = state.platforms;
-    const { limits } = app;
-    const go = (pose) => app.stopAt(pose);
-    const whole = limits && !limits.error ? limits : null;
-    const find = (list, name) => list?.find((m) => m.name === name);
-    const names = [...new Set([...(whole ? whole.requirements : []), ...first.margins, ...(second ? second.margins : [])].map((m) => m.name))];
     $("margins-words").textContent = Limits.words({ app, state });
     // the table is made anew only when something in it has changed, so that its buttons keep the focus
-    const key = JSON.stringify([whole, first.margins, second?.margins, first.inverse_condition, second?.inverse_condition]);
-    if (key === Tables.margin) return;
-    Tables.margin = key;
-    // what rounding does not tell from zero is not written as a number
-    const words = (m) => (m.at_limit ? "0, at the limit" : `${show(m.margin, 4)}${m.met ? "" : " violated"}`);
-    const here = (m) => (m ? [el("span", { class: m.met ? null : "bad" }, words(m)), el("small", {}, m.between.join(", "))] : "–");
-    const units = (r) => (r.unit === "force" ? " [force units]" : inUnits(r.unit));
-    const own = first.margins.length > 0 || !second;
-    const rows = names.map((name) => {
-      const [w, a, b] = [find(whole?.requirements, name), find(first.margins, name), find(second?.margins, name)];
-      const cells = [`${REQUIREMENTS[name] || name.replaceAll("_", " ")}${units(w || a || b)}`];
-      if (whole) cells.push(Limits.cell(w, go));
-      if (own) cells.push(here(a));
-      if (second) cells.push(here(b));
-      return row(cells);
-    });
-    const blank = [...(own ? ["–"] : []), ...(second ? ["–"] : [])];
-    if (whole) {
-      rows.push(row(["singular poses", Limits.regular(whole, go), ...blank]));
-      rows.push(row(["conditioning σ₆/σ₁", Limits.conditioning(whole.conditioning, go), ...(own ? [show(first.inverse_condition, 3)] : []), ...(second ? [show(second.inverse_condition, 3)] : [])]));
+    if (state.requirements === Tables.shown) return;
+    Tables.shown = state.requirements;
+    // the core has escaped every text in it
+    $("margins").innerHTML = state.requirements;
+    for (const cell of $("margins").querySelectorAll("[data-pose]")) {
+      const go = () => app.stopAt(JSON.parse(cell.dataset.pose));
+      cell.append(" ", el("button", { type: "button", class: "plain", click: go }, "show pose"));
     }
-    const heads = ["requirement", ...(whole ? [second ? "workspace, equivalent" : "workspace"] : []), ...(own ? [second ? "here, original" : "here"] : []), ...(second ? ["here, equivalent"] : [])];
-    $("margins").replaceChildren(...(names.length ? [heading(heads), el("tbody", {}, ...rows)] : []));
   },
 
   /** One row a mode: which is shown, which is the ghost. */

@@ -724,7 +724,7 @@ class ClosurePolynomialRecord(Record):
 
 
 class ClosureRecord(Record):
-    """The exact closure polynomial beside the poses."""
+    """The closure polynomial beside the poses."""
 
     #: The joints of the virtual leg; null: none is needed.
     virtual_leg: Union[tuple[str, ...], None]
@@ -766,6 +766,8 @@ class ClosureRecord(Record):
     real_poses_at_roots: Union[tuple[int, ...], None]
     #: Total number of real poses, proved; null: not determined by the polynomial.
     poses_real_proved: Union[int, None]
+    #: The reason why trilaterations give no polynomial.
+    no_sequence: Union[str, None]
     #: The reason.
     error: Union[str, None]
 
@@ -1426,6 +1428,41 @@ class DiscsRecord2(Record):
     radius: tuple[Union[float, None], ...]
 
 
+class DistancePolynomialRecord(Record):
+    """The polynomial in the squared distance of two joints whose roots are its values at all poses. Mirror images of a planar design have one root."""
+
+    #: The two joints with the unknown squared distance.
+    unknown: tuple[str, ...]
+    #: The unknowns by their names.
+    unknowns: tuple[str, ...]
+    #: The degree before spurious factors are removed.
+    degree_before: int
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: The spurious factors removed.
+    removed: tuple[RemovedFactorRecord, ...]
+    #: Number of distinct complex roots; null: several unknowns, or not proved.
+    distinct_roots: Union[int, None]
+    #: The representation of the coefficients.
+    coefficients_known: CoefficientsWord
+    #: The exponents of the unknowns in each term.
+    exponents: tuple[tuple[int, ...], ...]
+    #: The exact coefficient of each term, integers as decimal text; for one unknown the constant comes
+    #: first.
+    coefficients: tuple[str, ...]
+    #: Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients
+    #: that are not exact.
+    real_roots_by_sturm: Union[int, None]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: The multiplicity of each real root.
+    real_root_multiplicities: tuple[int, ...]
+    #: The reason why trilaterations give no polynomial.
+    no_sequence: str
+    #: Bounds [low, high] of the coefficients; null: they are exact.
+    coefficient_bounds: Union[tuple[tuple[Union[float, None], ...], ...], None]
+
+
 class DriveRecord(Record):
     """A drive of the table, in the units of the design."""
 
@@ -1654,14 +1691,15 @@ class ExploreAnswer(Record):
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
     #: The assessment applies to this platform.
     holes: Union[OnHolesRecord, None]
-    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
-    #: search could not break it or did not check it.
-    symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table with the search result for each; null: no table was given.
-    drive_search: Union[DriveSearchRecord, None]
     #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
     #: the requirements, or no freedom was tried.
     freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
+    #: search could not break it or did not check it.
+    symmetry: Union[SymmetryRecord, None]
+    #: The drives of a table with the search result for each; null: no table was given. The rest of the
+    #: answer is about the chosen drive, or else about the drive with the best result.
+    drive_search: Union[DriveSearchRecord, None]
     #: The poses of the design.
     fk: Union[PoseTotalsRecord, None]
     #: The stages of the run, in order.
@@ -1737,14 +1775,15 @@ class ExploreOctahedralAnswer(Record):
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
     #: The assessment applies to this platform.
     holes: Union[OnHolesRecord, None]
-    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
-    #: search could not break it or did not check it.
-    symmetry: Union[SymmetryRecord, None]
-    #: The drives of a table with the search result for each; null: no table was given.
-    drive_search: Union[DriveSearchRecord, None]
     #: Further freedoms that might allow a platform, each with its search result. Null: a platform meets
     #: the requirements, or no freedom was tried.
     freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: The result for the three-fold symmetry of the design. Null: the design has none or names one, or the
+    #: search could not break it or did not check it.
+    symmetry: Union[SymmetryRecord, None]
+    #: The drives of a table with the search result for each; null: no table was given. The rest of the
+    #: answer is about the chosen drive, or else about the drive with the best result.
+    drive_search: Union[DriveSearchRecord, None]
     #: The poses of the design.
     fk: PoseTotalsRecord
 
@@ -1997,7 +2036,7 @@ class FkAnswer(Record):
     #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
     #: gets a certificate.
     drives: Union[DriveSolutionRecord, None]
-    #: The exact closure polynomial, with `--method trilateration`.
+    #: The closure polynomial, with `--method trilateration` or `--between`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
@@ -2072,7 +2111,7 @@ class FkOneAnswer(Record):
     #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
     #: gets a certificate.
     drives: Union[DriveSolutionRecord, None]
-    #: The exact closure polynomial, with `--method trilateration`.
+    #: The closure polynomial, with `--method trilateration` or `--between`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
@@ -2152,7 +2191,7 @@ class FkRowRecord(Record):
     #: The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root
     #: gets a certificate.
     drives: Union[DriveSolutionRecord, None]
-    #: The exact closure polynomial, with `--method trilateration`.
+    #: The closure polynomial, with `--method trilateration` or `--between`.
     closure: Union[ClosureRecord, None]
     #: The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
     polynomial: Union[RotationPolynomialRecord, None]
@@ -3166,7 +3205,7 @@ class NearestAllowedRecord(Record):
 
 
 class NearestErrorRecord(Record):
-    """A summary of the nearest octahedral platform."""
+    """The errors of the nearest octahedral platform."""
 
     #: The largest displacement of a leg end, design units.
     largest_displacement: Union[float, None]

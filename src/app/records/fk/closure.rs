@@ -3,18 +3,21 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::PolynomialRecord;
+use crate::{PolynomialRecord, squared_distance};
 use ask::Design;
 use fk::distance::SingularFactor;
-use fk::{Closure, NoClosure};
+use fk::{Closure, FkSolutions, NoClosure, closure, closure_between, distance_polynomial};
+use platform::manipulator::SquaredLegLengths;
 use platform::topology::{JointIndex, Step};
 
-/// The exact closure polynomial beside the poses.
+/// The closure polynomial beside the poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ClosureRecord {
-    /// The polynomial exists.
+    /// The polynomial is computed by trilaterations in exact arithmetic.
     Polynomial(Box<ClosurePolynomialRecord>),
+    /// The polynomial is computed from all poses, with enclosed coefficients.
+    OfPoses(Box<DistancePolynomialRecord>),
     /// There is no polynomial.
     None {
         /// The reason.
@@ -44,6 +47,19 @@ pub struct ClosurePolynomialRecord {
     pub poses_real_proved: Option<usize>,
 }
 
+/// The polynomial in the squared distance of two joints whose roots are its values at all poses. Mirror images of a
+/// planar design have one root.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct DistancePolynomialRecord {
+    /// The two joints with the unknown squared distance.
+    pub unknown: [String; 2],
+    /// The polynomial and its real roots.
+    #[serde(flatten)]
+    pub polynomial: PolynomialRecord,
+    /// The reason why trilaterations give no polynomial.
+    pub no_sequence: String,
+}
+
 /// One trilateration: a joint placed by its distances from three others.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
@@ -62,13 +78,42 @@ impl TrilaterationStepRecord {
 }
 
 impl ClosureRecord {
-    /// The record of a closure polynomial, with the names of the design's joints.
+    /// The polynomial of a sequence of trilaterations, for the squared lengths that `found` was computed from.
     #[must_use]
-    pub fn new(design: &Design, closure: &Result<Closure, NoClosure>) -> Self {
-        let c = match closure {
-            Ok(c) => c,
-            Err(why) => return Self::None { error: why.to_string() },
+    pub fn of_sequence(design: &Design, squares: &SquaredLegLengths, found: &FkSolutions) -> Self {
+        match closure(design.manipulator(), squares, found) {
+            Ok(c) => Self::exact(design, &c),
+            Err(why) => Self::None { error: why.to_string() },
+        }
+    }
+
+    /// The polynomial in the squared distance of a base joint and a platform joint, by their numbers: by trilaterations
+    /// if a sequence uses this distance, or else from all poses.
+    #[must_use]
+    pub fn between(
+        design: &Design,
+        squares: &SquaredLegLengths,
+        found: &FkSolutions,
+        pair: (usize, usize),
+    ) -> Self {
+        let m = design.manipulator();
+        let why = match closure_between(m, squares, found, pair) {
+            Ok(c) => return Self::exact(design, &c),
+            Err(why @ NoClosure::Leg) => return Self::None { error: why.to_string() },
+            Err(why) => why.to_string(),
         };
+        match distance_polynomial(m, found, pair) {
+            Ok(p) => {
+                let unknown = [design.base_names()[pair.0].clone(), design.platform_names()[pair.1].clone()];
+                let name = squared_distance(&unknown);
+                let polynomial = PolynomialRecord::of_poses(name, &p);
+                Self::OfPoses(Box::new(DistancePolynomialRecord { unknown, polynomial, no_sequence: why }))
+            }
+            Err(other) => Self::None { error: format!("{why}; from the poses: {other}") },
+        }
+    }
+
+    fn exact(design: &Design, c: &Closure) -> Self {
         let p = &c.polynomial;
         let name = |j: JointIndex| match j {
             JointIndex::Base(k) => design.base_names()[k].clone(),

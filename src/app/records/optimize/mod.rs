@@ -19,8 +19,8 @@ pub use self::drive::{DriveSearchRecord, DriveSearchWord, SearchedDriveRecord};
 pub use self::freedom::FreedomRecord;
 pub use self::platform::{
     FoundPlatformRecord, FrontMemberRecord, HeldPosesRecord, JointAxesRecord, LocalOptimalityRecord,
-    NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, SearchStepRecord,
-    VerifiedRecord, WorstPoseRecord,
+    NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, VerifiedRecord,
+    WorstPoseRecord,
 };
 pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::SymmetryRecord;
@@ -58,15 +58,9 @@ pub struct OptimizeAnswer {
     pub conflict: Option<ConflictRecord>,
     /// The reason why the search did not decide, one sentence; null: it decided, or nothing failed.
     pub failure: Option<String>,
-    /// Further freedoms that might allow a platform, each with its search result. Null: a platform meets the
-    /// requirements, or no freedom was tried.
-    pub freedoms: Option<Vec<FreedomRecord>>,
-    /// The result for the three-fold symmetry of the design. Null: the design has none or names one, or the search
-    /// could not break it or did not check it.
-    pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table with the search result for each; null: no table was given. The rest of the answer is about
-    /// the chosen drive, or else about the drive with the best result.
-    pub drive_search: Option<DriveSearchRecord>,
+    /// The searches with other freedoms, symmetry and drives.
+    #[serde(flatten)]
+    pub beside: SearchesBesideRecord,
     /// Other local optima that meet the requirements at the poses held, best first; null: not requested.
     pub candidates: Option<Vec<OptimumRecord>>,
     /// The Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling
@@ -91,6 +85,20 @@ pub struct OptimizeAnswer {
     pub runners_up: Option<Vec<BranchRecord>>,
     /// All branches, with one zone for each offset.
     pub branches: Option<Vec<BranchRecord>>,
+}
+
+/// The results of the searches beside the one for the platform.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SearchesBesideRecord {
+    /// Further freedoms that might allow a platform, each with its search result. Null: a platform meets the
+    /// requirements, or no freedom was tried.
+    pub freedoms: Option<Vec<FreedomRecord>>,
+    /// The result for the three-fold symmetry of the design. Null: the design has none or names one, or the search
+    /// could not break it or did not check it.
+    pub symmetry: Option<SymmetryRecord>,
+    /// The drives of a table with the search result for each; null: no table was given. The rest of the answer is about
+    /// the chosen drive, or else about the drive with the best result.
+    pub drive_search: Option<DriveSearchRecord>,
 }
 
 /// The evidence about platforms better than the one found.
@@ -232,9 +240,11 @@ impl OptimizeAnswer {
         };
         Self {
             output: written.platform.clone(),
-            freedoms: r.freedoms.as_ref().map(|list| list.iter().map(opened).collect()),
-            symmetry: r.symmetry().map(SymmetryRecord::from),
-            drive_search: r.drives.as_ref().map(DriveSearchRecord::new),
+            beside: SearchesBesideRecord {
+                freedoms: r.freedoms.as_ref().map(|list| list.iter().map(opened).collect()),
+                symmetry: r.symmetry().map(SymmetryRecord::from),
+                drive_search: r.drives.as_ref().map(DriveSearchRecord::new),
+            },
             candidates: r.candidates.as_ref().map(|list| candidates(r, list, &written.candidates)),
             choice: r.chooses_sizes.then(|| SIZES.to_owned()),
             ..found
@@ -257,9 +267,7 @@ impl OptimizeAnswer {
             nearest: None,
             conflict: None,
             failure: None,
-            freedoms: None,
-            symmetry: None,
-            drive_search: None,
+            beside: SearchesBesideRecord::default(),
             candidates: None,
             front: None,
             choice: None,

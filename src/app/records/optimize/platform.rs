@@ -72,7 +72,7 @@ pub struct FoundPlatformRecord {
     /// Evidence of local optimality.
     pub local_optimality: Option<LocalOptimalityRecord>,
     /// Steps of the run that found it; null: a member of a front.
-    pub history: Option<Vec<SearchStepRecord>>,
+    pub history: Option<Vec<HistoryStep>>,
     /// Numbers of poses held and checked.
     pub poses: Option<HeldPosesRecord>,
 }
@@ -122,7 +122,7 @@ impl FoundPlatformRecord {
                 pattern_gain: None,
                 pattern_trials: None,
             }),
-            history: Some(s.history.iter().map(SearchStepRecord::from).collect()),
+            history: Some(s.history.clone()),
             ..base
         }
     }
@@ -164,7 +164,7 @@ impl FoundPlatformRecord {
                 pattern_gain: Some(Number(s.evidence.pattern_gain)),
                 pattern_trials: Some(s.evidence.pattern_trials),
             }),
-            history: Some(s.history.iter().map(SearchStepRecord::from).collect()),
+            history: Some(s.history.clone()),
             ..base
         }
     }
@@ -355,39 +355,6 @@ pub struct LocalOptimalityRecord {
     pub pattern_gain: Option<Number>,
     /// Number of points tried by the pattern search.
     pub pattern_trials: Option<usize>,
-}
-
-/// A step of the run that found the platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SearchStepRecord {
-    /// Value after the step: the weighted gain of the objectives; for offsets the worst inverse condition number.
-    pub objective: Number,
-    /// Greatest violation in the scale of its constraint; lengths relative to the size.
-    pub violation: Number,
-    /// Radius of the trust region.
-    pub radius: Number,
-    /// Number of poses held.
-    pub poses: usize,
-    /// Whether the step was accepted.
-    pub accepted: bool,
-    /// Gain of the merit function predicted by the model.
-    pub predicted: Number,
-    /// Actual gain of the merit function; for a rejected step, at the poses that rejected it.
-    pub actual: Number,
-}
-
-impl From<&HistoryStep> for SearchStepRecord {
-    fn from(h: &HistoryStep) -> Self {
-        Self {
-            objective: Number(h.gain),
-            violation: Number(h.violation),
-            radius: Number(h.radius),
-            poses: h.poses,
-            accepted: h.accepted,
-            predicted: Number(h.predicted),
-            actual: Number(h.actual),
-        }
-    }
 }
 
 /// Numbers of poses.

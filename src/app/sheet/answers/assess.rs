@@ -14,7 +14,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.line(sentence(found));
     key_numbers(&mut sheet, found);
     sheet.space();
-    sheet.table(table(found));
+    sheet.table(requirements_table(Some(found), &[]));
     sheet.space();
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
     sheet.line("The proved margin is a lower bound over the poses judged; the least margin was found at the worst pose.");
@@ -93,7 +93,7 @@ pub fn requirements_without_assumptions(found: &AssessAnswer) -> Sheet {
     let mut sheet = Sheet::new();
     sheet.line(sentence(found));
     sheet.space();
-    sheet.table(table(found));
+    sheet.table(requirements_table(Some(found), &[]));
     sheet
 }
 
@@ -121,66 +121,122 @@ pub fn sentence(found: &AssessAnswer) -> String {
     format!("{} {}", found.name, found.explanation)
 }
 
-/// The table: a row for each kind of requirement with the critical pose and legs, then singularity and conditioning.
+/// A platform at one pose: its margins are a column of the table.
+#[derive(Debug, Clone)]
+pub struct MarginsAtPose<'a> {
+    /// The title of the column.
+    pub title: &'a str,
+    /// The least margin of each kind of requirement at the pose.
+    pub margins: Vec<MarginRecord>,
+    /// The conditioning at the pose.
+    pub inverse_condition: f64,
+}
+
+/// The table of an answer: a row for each kind of requirement with the critical pose and legs, then singularity and
+/// conditioning. Each platform of `here` adds a column; without an answer these columns are all.
 #[must_use]
-pub fn table(found: &AssessAnswer) -> Table {
+pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_>]) -> Table {
     // a column for the safety margin, if the design requires one on any limit
-    let reserved = found.requirements.iter().any(|m| m.reserve.0 > 0.0);
-    let mut table = Table::new(
-        [left("requirement", 17), left("status", 9).gap(2), right("least margin", 0).gap(2)]
-            .into_iter()
-            .chain(reserved.then(|| right("after safety margin", 0).gap(2)))
-            .chain([
-                right("proved margin", 0).gap(2),
-                left("unit", 0),
-                left("binds at", 0).gap(2),
-                left(format!("worst pose {POSE} [deg]"), 0).gap(2),
-            ]),
-    );
-    // `left`: the margin minus the safety margin
-    let mut row =
-        |name: &str, status: Cell, [margin, proved]: [&str; 2], left: Cell, [unit, of, pose]: [&str; 3]| {
-            let left = reserved.then_some(left);
-            table.row(
-                [name.into(), status, margin.into()]
-                    .into_iter()
-                    .chain(left)
-                    .chain([proved, unit, of, pose].map(Cell::from)),
+    let reserved = found.is_some_and(|f| f.requirements.iter().any(|m| m.reserve.0 > 0.0));
+    let mut columns = vec![left("requirement", 17)];
+    if found.is_some() {
+        columns.extend([left("status", 9).gap(2), right("least margin", 0).gap(2)]);
+        columns.extend(reserved.then(|| right("after safety margin", 0).gap(2).minor()));
+        columns.push(right("proved margin", 0).gap(2).minor());
+    }
+    columns.push(left("unit", 0));
+    if found.is_some() {
+        columns.extend([
+            left("binds at", 0).gap(2).minor(),
+            left(format!("worst pose {POSE} [deg]"), 0).gap(2).minor(),
+        ]);
+    }
+    columns.extend(here.iter().map(|at| left(at.title, 0).gap(2)));
+    let mut table = Table::new(columns);
+
+    // `over`: status, least margin, margin minus the safety margin, proved margin, legs or joints, pose
+    let mut row = |name: &str, over: [Cell; 6], unit: &str, here: Vec<Cell>| {
+        let [status, margin, after_reserve, proved, of, pose] = over;
+        let mut cells = vec![name.into()];
+        if found.is_some() {
+            cells.extend(
+                [status, margin].into_iter().chain(reserved.then_some(after_reserve)).chain([proved]),
             );
-        };
-    for m in &found.requirements {
-        let (tone, margin) = match () {
-            () if m.at_limit => (Tone::AtLimit, 0.0),
-            () if m.violates() => (Tone::No, m.margin.0),
-            () => (Tone::of(m.met), m.margin.0),
-        };
-        let proved = match m.proved_margin.0 {
-            x if m.status == MarginVerdict::AtLimit || x == 0.0 => figure(0.0),
-            x if x.is_finite() => figure(x),
-            _ => "none".into(),
-        };
-        let short = if m.reserve_kept == Some(false) { Tone::No } else { Tone::Plain };
+        }
+        cells.push(unit.into());
+        if found.is_some() {
+            cells.extend([of, pose]);
+        }
+        table.row(cells.into_iter().chain(here));
+    };
+    let over = found.map_or(&[][..], |f| &f.requirements);
+    let mut kinds: Vec<TermKind> = Vec::new();
+    for m in over.iter().chain(here.iter().flat_map(|at| &at.margins)) {
+        if !kinds.contains(&m.name) {
+            kinds.push(m.name);
+        }
+    }
+    let none = || Cell::from("-");
+    for kind in kinds {
+        let of = |margins: &'_ [MarginRecord]| margins.iter().find(|m| m.name == kind).cloned();
+        let whole = of(over);
+        let single: Vec<_> = here.iter().map(|at| of(&at.margins)).collect();
+        let unit =
+            whole.iter().chain(single.iter().flatten()).map(|m| m.unit.clone()).next().unwrap_or_default();
+        let at_poses = single.iter().map(|m| m.as_ref().map_or_else(none, margin_at_pose)).collect();
         row(
-            m.name.label(),
-            Cell::toned(m.status.name().replace('_', " "), tone),
-            [&figure(margin), &proved],
-            Cell::toned(figure(m.margin_with_reserve.0), short),
-            [&m.unit, &m.between.join(", "), &place(m.pose.as_ref())],
+            kind.label(),
+            whole.as_ref().map_or_else(|| std::array::from_fn(|_| none()), over_poses),
+            &unit,
+            at_poses,
         );
     }
+    let Some(found) = found else { return table };
     // rows without a margin: the sign of det J, and the conditioning, which has no limit
     let (tone, status) = match found.regular.status {
         RegularityWord::Proved => (Tone::Yes, "met"),
         RegularityWord::ChangesSign => (Tone::No, "violated"),
         RegularityWord::Undecided => (Tone::Open, "undecided"),
     };
-    let at = place(found.regular.pose.as_ref());
-    row("no singular pose", Cell::toned(status, tone), ["-", "-"], "-".into(), ["", "sign of det J", &at]);
+    let at = found.regular.pose.as_ref();
+    let over =
+        [Cell::toned(status, tone), none().at(at), none(), none(), "sign of det J".into(), place(at).into()];
+    row("no singular pose", over, "", here.iter().map(|_| none()).collect());
     let c = &found.conditioning;
-    let value = figure(c.inverse_condition.0);
     let of = "1 at best, 0 at a singular pose";
-    row("conditioning", "no limit".into(), [&value, "-"], "-".into(), ["", of, &pose(&c.pose)]);
+    let value = Cell::from(figure(c.inverse_condition.0)).at(Some(&c.pose));
+    let over = ["no limit".into(), value, none(), none(), of.into(), pose(&c.pose).into()];
+    row("conditioning", over, "", here.iter().map(|at| figure(at.inverse_condition).into()).collect());
     table
+}
+
+/// The cells of a requirement over all poses judged.
+fn over_poses(m: &MarginRecord) -> [Cell; 6] {
+    let (tone, margin) = match () {
+        () if m.at_limit => (Tone::AtLimit, 0.0),
+        () if m.violates() => (Tone::No, m.margin.0),
+        () => (Tone::of(m.met), m.margin.0),
+    };
+    let proved = match m.proved_margin.0 {
+        x if m.status == MarginVerdict::AtLimit || x == 0.0 => figure(0.0),
+        x if x.is_finite() => figure(x),
+        _ => "none".into(),
+    };
+    let short = if m.reserve_kept == Some(false) { Tone::No } else { Tone::Plain };
+    [
+        Cell::toned(m.status.name().replace('_', " "), tone),
+        Cell::from(figure(margin)).at(m.pose.as_ref()),
+        Cell::toned(figure(m.margin_with_reserve.0), short),
+        proved.into(),
+        m.between.join(", ").into(),
+        place(m.pose.as_ref()).into(),
+    ]
+}
+
+/// The margin at a single pose with its legs or joints.
+fn margin_at_pose(m: &MarginRecord) -> Cell {
+    let number = if m.at_limit { "0, at the limit".to_owned() } else { figure(m.margin.0) };
+    judged(m, format!("{number} ({})", m.between.join(", ")))
 }
 
 /// Whether a margin is kept, in a cell.

@@ -8,7 +8,8 @@ use machine::coupled::DriveSolutionWord;
 use platform::geom::ComplexPose;
 use records::{
     ClosureRecord, DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, Number,
-    PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord, SolvedRecord,
+    PolynomialRecord, PoseConventionRecord, RotationPolynomialRecord, SolutionRecord, SolutionSetRecord,
+    SolvedRecord,
 };
 
 /// The answer of `fk` for a design of this name, in its units.
@@ -365,16 +366,25 @@ fn rotations(out: &mut Sheet, found: &RotationPolynomialRecord) {
         RotationPolynomialRecord::Polynomial(p) => p,
         RotationPolynomialRecord::None { error } => return say!(out, "no polynomial in c3: {error}"),
     };
+    of_poses(out, "polynomial in c3 = z / w of the quaternion", p);
+}
+
+/// A polynomial whose roots are the values of a number at all poses.
+fn of_poses(out: &mut Sheet, what: &str, p: &PolynomialRecord) {
     let bounds = p.coefficient_bounds.as_deref().unwrap_or_default();
     let most = |of: fn(&[Number; 2]) -> f64| bounds.iter().map(of).fold(0.0, f64::max);
     let widest = most(|[low, high]| high.0 - low.0) / most(|[low, high]| low.0.abs().max(high.0.abs()));
     say!(
         out,
-        "polynomial in c3 = z / w of the quaternion: degree {}, {} real roots; coefficients enclosed to {} of the largest, see --json",
+        "{what}: degree {}, {} real roots; coefficients enclosed to {} of the largest, see --json",
         p.degree.unwrap_or(0),
         p.real_roots.len(),
         figure(widest)
     );
+    real_roots(out, p);
+}
+
+fn real_roots(out: &mut Sheet, p: &PolynomialRecord) {
     let middle = |[low, high]: &[Number; 2]| figure(0.5 * (low.0 + high.0));
     let roots: Vec<String> = p.real_roots.iter().map(middle).collect();
     if !roots.is_empty() {
@@ -386,6 +396,12 @@ fn rotations(out: &mut Sheet, found: &RotationPolynomialRecord) {
 fn closure(out: &mut Sheet, closure: &ClosureRecord) {
     let p = match closure {
         ClosureRecord::Polynomial(p) => p,
+        ClosureRecord::OfPoses(p) => {
+            let [x, y] = &p.unknown;
+            let what = format!("polynomial in the squared distance of {x} and {y}, computed from all poses");
+            of_poses(out, &what, &p.polynomial);
+            return say!(out, "by trilaterations there is none: {}", p.no_sequence);
+        }
         ClosureRecord::None { error } => return say!(out, "no closure polynomial: {error}"),
     };
     let [x, y] = &p.unknown;
@@ -397,11 +413,7 @@ fn closure(out: &mut Sheet, closure: &ClosureRecord) {
         p.polynomial.distinct_roots.unwrap_or(0),
         p.polynomial.real_roots.len()
     );
-    let middle = |[low, high]: &[Number; 2]| figure(0.5 * (low.0 + high.0));
-    let roots: Vec<String> = p.polynomial.real_roots.iter().map(middle).collect();
-    if !roots.is_empty() {
-        say!(out, "its real roots: {}", roots.join(", "));
-    }
+    real_roots(out, &p.polynomial);
     match p.poses_real_proved {
         Some(n) => say!(out, "real poses: {n}, proved by its real roots"),
         None => out.line("real poses: not decided by its real roots alone"),

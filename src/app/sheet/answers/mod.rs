@@ -35,8 +35,8 @@ mod topologies;
 mod verify;
 
 pub use assess::{
-    assess, assumptions, requirements, requirements_without_assumptions, sentence,
-    table as requirements_table, verdict,
+    MarginsAtPose, assess, assumptions, requirements, requirements_table, requirements_without_assumptions,
+    sentence, verdict,
 };
 pub use at_pose::at_pose;
 #[cfg(feature = "lab")]
@@ -59,7 +59,7 @@ pub use motion::motion;
 pub use moves::{move_search, moves};
 pub use nearest::nearest;
 pub use new_design::new_design;
-pub use optimize::{optimize, search, tried_drives};
+pub use optimize::{optimize, search, symmetry_and_drives};
 pub use pentapod::pentapod;
 pub use round::round;
 pub use self_motion::self_motion;

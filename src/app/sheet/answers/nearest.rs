@@ -26,11 +26,11 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
         out,
         "\nlargest displacement {}, root mean square {}; det A = {}\n\
          leg {} differs most in length: by {} at {POSE} = {} ({} poses of the {} workspace)",
-        length(n.largest_displacement.0, units),
+        length(n.error.largest_displacement.0, units),
         length(n.rms_displacement.0, units),
-        figure(n.det.0),
+        figure(n.error.det.0),
         n.deviating_leg,
-        length(n.largest_length_deviation.0, units),
+        length(n.error.largest_length_deviation.0, units),
         pose(&n.deviating_pose),
         n.poses,
         if n.workspace_from == SourceWord::Design { "design's" } else { "default" }

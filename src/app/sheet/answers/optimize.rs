@@ -10,7 +10,7 @@ use optimize::offsets::Zone;
 use records::{
     ConflictReasonRecord, ConflictRecord, DesignRecord, DriveSearchRecord, FoundPlatformRecord,
     FrontMemberRecord, MarginRecord, NearestPlatformRecord, Number, OptimalityWord, OptimizeAnswer,
-    OptimumRecord,
+    OptimumRecord, SearchesBesideRecord,
 };
 use synthesis::sliding_body;
 
@@ -36,13 +36,7 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     if let Some(list) = &a.front {
         front_in_words(&mut out, a, list.len());
     }
-    if let Some(s) = &a.symmetry {
-        say!(out, "{}", s.message);
-    }
-    if let Some(d) = &a.drive_search {
-        out.space();
-        out.add(tried_drives(d));
-    }
+    out.add(symmetry_and_drives(&a.beside));
     if a.platform.objective.is_some() {
         let found = a.design.as_ref().map_or(name, DesignRecord::name);
         if with_requirements {
@@ -62,7 +56,7 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     if let Some(c) = &a.conflict {
         conflict(&mut out, c);
     }
-    for f in a.freedoms.iter().flatten() {
+    for f in a.beside.freedoms.iter().flatten() {
         let written = f.output.as_ref().map_or_else(String::new, |path| format!(" ({path})"));
         say!(out, "{}{written}", f.message);
     }
@@ -201,9 +195,21 @@ fn front(out: &mut Sheet, list: &[FrontMemberRecord]) {
     }
 }
 
-/// The drives of the table, one line each.
+/// The result for the symmetry of the design, and the drives of the table, one line each.
 #[must_use]
-pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
+pub fn symmetry_and_drives(beside: &SearchesBesideRecord) -> Sheet {
+    let mut out = Sheet::new();
+    if let Some(s) = &beside.symmetry {
+        say!(out, "{}", s.message);
+    }
+    if let Some(d) = &beside.drive_search {
+        out.space();
+        tried_drives(&mut out, d);
+    }
+    out
+}
+
+fn tried_drives(out: &mut Sheet, d: &DriveSearchRecord) {
     let price = d.currency.as_ref().map_or("price".to_owned(), |c| format!("price {c}"));
     let columns = [left("drive", 5).gap(3), left("outcome", 11), right(price, 12), right("objective", 14)];
     let mut table = Table::new(columns.into_iter().chain([left("", 0).gap(2)]));
@@ -219,10 +225,8 @@ pub fn tried_drives(d: &DriveSearchRecord) -> Sheet {
             drive.reason.clone().unwrap_or_else(margins),
         ]);
     }
-    let mut out = Sheet::new();
     say!(out, "{}:", d.message);
     out.table(table);
-    out
 }
 
 /// The platform with the least violation, with the table of its requirements.

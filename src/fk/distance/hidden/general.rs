@@ -11,6 +11,7 @@ use super::HiddenPoses;
 use super::chebyshev::{Chebyshev, around, nodes};
 use super::legs::{HiddenLeg, LegRoles, complex};
 use super::roots::closure_zeros;
+use crate::newton::solve;
 use platform::geom::ComplexPose;
 
 /// Poses of a 6-6.
@@ -164,7 +165,7 @@ pub(super) fn refined(legs: &[HiddenLeg; 6], pose: ComplexPose, grows: usize) ->
             right[(i, 0)] = d.dot(&d) - leg.s;
         }
         right[(grows, 1)] = Complex64::ONE;
-        let x = solved(jacobian, right)?;
+        let x = solve(jacobian, right).filter(|x| x.iter().all(|z| z.is_finite()))?;
         let column = |c: usize| [0, 3].map(|r| Vector3::new(x[(r, c)], x[(r + 1, c)], x[(r + 2, c)]));
         let step = column(0);
         let norm = |v: &Vector3<Complex64>| v.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
@@ -182,36 +183,6 @@ pub(super) fn refined(legs: &[HiddenLeg; 6], pose: ComplexPose, grows: usize) ->
 fn arm_and_leg(pose: &ComplexPose, leg: &HiddenLeg) -> (Vector3<Complex64>, Vector3<Complex64>) {
     let arm = pose.rotation * complex(&leg.platform);
     (arm, arm + pose.position - complex(&leg.base))
-}
-
-/// Elimination with partial pivoting; `None` for a singular matrix.
-fn solved(mut a: Jacobian, mut b: Columns) -> Option<Columns> {
-    for k in 0..6 {
-        let best = (k..6).max_by(|i, j| a[(*i, k)].norm_sqr().total_cmp(&a[(*j, k)].norm_sqr()))?;
-        a.swap_rows(k, best);
-        b.swap_rows(k, best);
-        let inverse = a[(k, k)].inv();
-        if !inverse.is_finite() {
-            return None;
-        }
-        for i in (0..6).filter(|i| *i != k) {
-            let factor = a[(i, k)] * inverse;
-            for j in k + 1..6 {
-                let top = a[(k, j)];
-                a[(i, j)] -= factor * top;
-            }
-            for j in 0..2 {
-                let top = b[(k, j)];
-                b[(i, j)] -= factor * top;
-            }
-        }
-    }
-    for k in 0..6 {
-        for j in 0..2 {
-            b[(k, j)] /= a[(k, k)];
-        }
-    }
-    b.iter().all(|z| z.is_finite()).then_some(b)
 }
 
 /// Sum of the half axes of the first ellipse about the values of real poses.

@@ -185,7 +185,7 @@ impl CellJudge<'_> {
                 if of_cranks.is_some() && self.cranks.is_none() {
                     return nothing;
                 }
-                let greatest = of_cranks.unwrap_or(self.required.hardware.max_leg_force);
+                let greatest = of_cranks.unwrap_or(self.required.hardware.drive_limit(TermKind::LegForce));
                 let drives = (self.m, self.cranks, greatest.unwrap_or(f64::INFINITY));
                 let (bounded, upper) = force::force(chart, cell, z, frames, drives, &self.required.loads[k]);
                 AtPoint { bounded, upper, ..nothing }

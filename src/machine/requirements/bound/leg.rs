@@ -152,8 +152,8 @@ impl CellJudge<'_> {
             }
         });
         let swing = |s: Option<Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limits_deg[leg]));
+        let greatest = Interval::from(hardware.drive_limit(TermKind::LegSpeed).unwrap_or(f64::INFINITY));
         if self.joints.is_some_and(JointOffsets::have_lead) {
-            let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
             match kind {
                 TermKind::LegTooShort => return value - limits.0,
                 TermKind::LegTooLong => return limits.1 + value,
@@ -168,7 +168,6 @@ impl CellJudge<'_> {
             TermKind::PlatformSwing => swing(hardware.platform_swing) - degrees(arc_cosine(value)),
             TermKind::LegSpeed => {
                 let speed = self.required.platform_speed.unwrap_or_default();
-                let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
                 greatest - speed.fastest(Interval::from(1.0), root(-value))
             }
             _ => Interval::WHOLE,

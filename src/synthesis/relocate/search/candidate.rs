@@ -8,7 +8,7 @@ use super::pool::{JointPattern, LegPool, shared};
 use super::wishes::{Wish, WishMargin, Wishes};
 use crate::components::Components;
 use crate::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
-use crate::relocate::{Assembled, assemble};
+use crate::relocate::Assembled;
 use num::Rng;
 use num::linalg::LinalgError;
 use platform::geom::{Pose, segment_distance};
@@ -242,7 +242,7 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
         at += n;
     }
     placements.sort_by_key(|p| p.leg);
-    let assembled = assemble(scorer.m, &new);
+    let assembled = Assembled::of(scorer.m, &new);
     let map = leg_map_to_legs(scorer.m, &assembled.legs, LegMapTolerances::default())?;
     if !map.is_regular_within_rounding() {
         return Ok(None);

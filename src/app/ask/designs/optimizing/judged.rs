@@ -7,7 +7,7 @@ use super::super::equivalence::sample_plan;
 use super::OptimizeStatus;
 use super::problem::as_dimensional;
 use crate::Design;
-use files::design::{DesignModel, Origin};
+use files::design::{DesignModel, Origin, Share};
 use fk::FkOptions;
 use machine::requirements::{AssessOptions, Assessment, JointAxes, Objective, Requirements, assess};
 use optimize::dimensional::{
@@ -17,6 +17,7 @@ use optimize::dimensional::{
 use optimize::offsets::{OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, Octahedral, inverse_condition, jacobian};
+use synthesis::relocate::Assembled;
 use synthesis::{joint_free, sliding_body};
 use verify::{Verification, VerifyError, verify};
 
@@ -224,20 +225,24 @@ fn worst_conditioned(m: &Manipulator, poses: &[Pose], length: f64) -> Option<(us
 /// The platform with the tables of the design, its axes and its home.
 fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolution, seed: u64) -> Design {
     let octahedral = Octahedral::recognise(design.manipulator()).ok().zip(s.offsets);
-    let mut out = if let Some((o, t)) = octahedral {
+    let mut out: Design = if let Some((o, t)) = &octahedral {
         // triangles that are not variables equal those of the design, to the last digit
         let fixed = problem.variables.triangles == Triangles::Fixed;
-        let own = if fixed { joint_free(&o, t).ok() } else { None };
-        joint_free_design(design, &o, own.as_ref().map_or(&s.manipulator, |(m, _)| m), t)
+        let own = if fixed { joint_free(o, *t).ok() } else { None };
+        joint_free_design(design, o, own.as_ref().map_or(&s.manipulator, |(m, _)| m), *t).into()
+    } else if let Some(moved) = problem.variables.components.then(|| with_moved_legs(design, s)).flatten() {
+        moved
     } else {
-        let name = format!("{}, optimised", design.name);
-        let plain = DesignModel::new(name, design.units.clone(), s.manipulator.clone());
+        let plain = DesignModel::new(design.name.clone(), design.units.clone(), s.manipulator.clone());
         let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
         let kept = [base.len(), platform.len()].map(|n| (0..n).map(Origin::Kept).collect::<Vec<_>>());
         let named = plain.clone().with_joint_names(base, platform);
         // joints that have stayed in place
-        named.map_or(plain, |named| named.constructed_from(design, [&kept[0], &kept[1]]))
+        named.map_or(plain, |named| named.constructed_from(design, [&kept[0], &kept[1]])).into()
     };
+    if octahedral.is_none() {
+        out.name = format!("{}, optimised", design.name);
+    }
     out.source.clone_from(&design.source);
     let best: Vec<String> = s.objectives.iter().map(|(o, v)| format!("{} {v}", o.code())).collect();
     out.description = Some(format!(
@@ -250,14 +255,20 @@ fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolut
     if design.home.is_some() || problem.variables.home_height {
         out.home = Some(s.home);
     }
-    for (swing, axes) in
-        [(&mut out.hardware.base_swing, s.axes[0]), (&mut out.hardware.platform_swing, s.axes[1])]
-    {
+    let hardware = &mut out.hardware;
+    for (swing, axes) in [(&mut hardware.base_swing, s.axes[0]), (&mut hardware.platform_swing, s.axes[1])] {
         if let (Some(swing), Some(axes)) = (swing, axes) {
             swing.axes = JointAxes::Given(axes);
         }
     }
-    out.into()
+    out
+}
+
+/// The platform with joints constructed at the parameters of its legs, so that equivalence is proved about exact
+/// joints; `None` if the legs make no platform.
+fn with_moved_legs(design: &Design, s: &DimensionalSolution) -> Option<Design> {
+    let parameters: Vec<Share> = s.variables.iter().filter_map(|v| Share::shortest(v.value)).collect();
+    design.with_legs_of(&Assembled::of(design.manipulator(), &s.manipulator.legs().map(Some)), &parameters)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The best platform for a design; all callers ask the same question here.
 
-pub mod drive_search;
+pub mod drives;
 pub mod freedoms;
 mod judged;
 mod platform_search;
@@ -9,8 +9,8 @@ mod problem;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use self::drive_search::search_drives;
-pub use self::drive_search::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
+use self::drives::search_drives;
+pub use self::drives::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
 use self::freedoms::FreedomSearch;
 pub use self::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, FreedomWord, OpenedFreedom};
 pub use self::judged::Checked;

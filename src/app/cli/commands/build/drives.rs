@@ -10,6 +10,7 @@ use crate::app::cli::output::Answer;
 use ::files::design::{Drive, DriveTable, JudgedForces};
 use ask::Design;
 use ask::PlatformMotion;
+use machine::requirements::TermKind;
 use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 
 /// Arguments of `build drives`.
@@ -145,8 +146,8 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
         };
         out.push(format!("{subject} a {what}: {whose}."));
     };
-    silent("force", |d| d.force, h.max_leg_force.is_some());
-    silent("speed", |d| d.speed, h.max_leg_speed.is_some());
+    silent("force", |d| d.force, h.drive_limit(TermKind::LegForce).is_some());
+    silent("speed", |d| d.speed, h.drive_limit(TermKind::LegSpeed).is_some());
     if h.leg_masses.is_none() && drives.iter().any(|d| d.mass.is_some()) {
         out.push(
             "The legs have no masses in [hardware]: the mass of a drive decides between equal prices alone."
@@ -156,7 +157,7 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
     if design.requirements().loads.is_empty() {
         out.push("The design has neither loads nor masses: no force is asked of the drives at rest.".into());
     }
-    let at_rest = h.max_leg_force.is_some() || drives.iter().any(|d| d.force.is_some());
+    let at_rest = h.drive_limit(TermKind::LegForce).is_some() || drives.iter().any(|d| d.force.is_some());
     let at_rest = at_rest && !design.requirements().loads.is_empty();
     out.extend(design.assumptions_of(JudgedForces { at_rest, in_motion: with_forces }));
     out

@@ -155,7 +155,7 @@ fn moves_found(found: &ExploredDesign, moves: &MoveSearchAnswer) -> MovesFoundRe
 fn nearest_platform(run: &mut ExploreRun<'_>) -> Result<Option<NearestErrorRecord>, Failure> {
     let near = run.found.near.as_ref();
     let answer = NearestAnswer::new(run.design, &run.found.limits, near);
-    let error = answer.nearest.as_ref().map(NearestErrorRecord::from);
+    let error = answer.nearest.as_ref().map(|n| n.error);
     run.done(StageWord::Nearest, answer.explanation.clone());
     run.folder.keep(folder::NEAREST, document(answer, run.provenance.clone(), &[])?);
     if let Some(near) = near {

@@ -106,7 +106,7 @@ impl Results {
 
     /// The freedoms with which the requirements were met, as the end of a sentence; empty if there are none.
     fn what_resolves_it(&self) -> String {
-        let opened = self.answer.freedoms.iter().flatten();
+        let opened = self.answer.beside.freedoms.iter().flatten();
         let resolved =
             opened.filter(|f| f.outcome == FreedomWord::Resolved).map(|f| format!("; {}", f.message));
         resolved.collect()
@@ -394,15 +394,8 @@ fn headline(a: &ExploreOctahedralAnswer) -> Vec<String> {
 
 /// Further notes of the answer: symmetry, drives, freedoms.
 fn notes(a: &ExploreOctahedralAnswer) -> Sheet {
-    let mut out = Sheet::new();
-    if let Some(s) = &a.symmetry {
-        out.line(&s.message);
-    }
-    if let Some(d) = &a.drive_search {
-        out.space();
-        out.add(sheet::answers::tried_drives(d));
-    }
-    for f in a.freedoms.iter().flatten() {
+    let mut out = sheet::answers::symmetry_and_drives(&a.beside);
+    for f in a.beside.freedoms.iter().flatten() {
         out.line(&f.message);
     }
     out
@@ -468,9 +461,7 @@ fn record(r: &Results) -> ExploreOctahedralAnswer {
         reserve: found.keeps_reserve.map(|kept| DefaultReserveRecord::new(RESERVE_PERCENT, kept)),
         verify: found.compared.as_ref().map(|c| ComparedRecord::from(&c.found)),
         holes: found.holes.as_ref().map(OnHolesRecord::from),
-        symmetry: r.answer.symmetry.clone(),
-        drive_search: r.answer.drive_search.clone(),
-        freedoms: r.answer.freedoms.clone(),
+        beside: r.answer.beside.clone(),
         fk: PoseTotalsRecord::new(&found.poses),
     }
 }

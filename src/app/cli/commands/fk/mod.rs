@@ -147,14 +147,13 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             }
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &frames));
             let squares = l.distances.squared();
-            let closure = match between {
-                Some(pair) => Some(fk::closure_between(m, &squares, &solutions, pair)),
-                None if args.method == MethodArg::Trilateration => Some(fk::closure(m, &squares, &solutions)),
+            answer.closure = match between {
+                Some(pair) => Some(ClosureRecord::between(&design, &squares, &solutions, pair)),
+                None if args.method == MethodArg::Trilateration => {
+                    Some(ClosureRecord::of_sequence(&design, &squares, &solutions))
+                }
                 None => None,
             };
-            if let Some(closure) = closure {
-                answer.closure = Some(ClosureRecord::new(&design, &closure));
-            }
             answer.polynomial = args.polynomial.then(|| fk::rotation_polynomial(&solutions).into());
             Ok(answered(exit, FkAnswer::One(Box::new(answer)), &design, &table))
         }

@@ -114,16 +114,13 @@ impl DriveRange {
         let driven = design.with_drive(drive);
         let (required, hardware) = (driven.requirements(), &driven.hardware);
         let (least, greatest) = drive.lengths.range();
-        let limit = |x: Option<f64>, kind: TermKind| x.map_or(f64::INFINITY, |x| x - required.reserve(kind));
+        let limit = |kind| hardware.drive_limit(kind).map_or(f64::INFINITY, |x| x - required.reserve(kind));
         Self {
             legs: [
                 least + required.reserve(TermKind::LegTooShort),
                 greatest - required.reserve(TermKind::LegTooLong),
             ],
-            most: [
-                limit(hardware.max_leg_force, TermKind::LegForce),
-                limit(hardware.max_leg_speed, TermKind::LegSpeed),
-            ],
+            most: [TermKind::LegForce, TermKind::LegSpeed].map(limit),
             stiffness: hardware.leg_stiffness,
             mass: hardware.leg_masses.and(drive.mass),
         }
