@@ -17,7 +17,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.table(requirements_table(Some(found), &[]));
     sheet.space();
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
-    sheet.line("The proved margin is a lower bound over the poses judged; the least margin was found at the worst pose.");
+    sheet.line("The proved margin is a lower bound over the poses assessed; the least margin was found at the worst pose.");
     if found.met.is_none() {
         sheet.line(
             "Poses between the sampled ones may violate what is not proved; more --cells may prove it.",
@@ -34,8 +34,8 @@ fn key_numbers(sheet: &mut Sheet, found: &AssessAnswer) {
         let margin = margin.map_or_else(String::new, |m| format!("{} {}, ", figure(m.margin.0), m.unit));
         let share = figure(100.0 * t.share.0);
         let whole = match t.name {
-            TermKind::LegTooShort | TermKind::LegTooLong => "the travel",
-            TermKind::RodTooShort | TermKind::RodTooLong => "the rod's length",
+            TermKind::MinLegLength | TermKind::MaxLegLength => "the travel",
+            TermKind::MinRodLength | TermKind::MaxRodLength => "the rod's length",
             TermKind::CrankAngle => "half the range",
             _ => "its limit",
         };
@@ -137,7 +137,7 @@ pub struct MarginsAtPose<'a> {
 #[must_use]
 pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_>]) -> Table {
     // a column for the safety margin, if the design requires one on any limit
-    let reserved = found.is_some_and(|f| f.requirements.iter().any(|m| m.reserve.0 > 0.0));
+    let reserved = found.is_some_and(|f| f.requirements.iter().any(|m| m.safety_margin.0 > 0.0));
     let mut columns = vec![left("requirement", 17)];
     if found.is_some() {
         columns.extend([left("status", 9).gap(2), right("least margin", 0).gap(2)]);
@@ -156,11 +156,11 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
 
     // `over`: status, least margin, margin minus the safety margin, proved margin, legs or joints, pose
     let mut row = |name: &str, over: [Cell; 6], unit: &str, here: Vec<Cell>| {
-        let [status, margin, after_reserve, proved, of, pose] = over;
+        let [status, margin, after_safety_margin, proved, of, pose] = over;
         let mut cells = vec![name.into()];
         if found.is_some() {
             cells.extend(
-                [status, margin].into_iter().chain(reserved.then_some(after_reserve)).chain([proved]),
+                [status, margin].into_iter().chain(reserved.then_some(after_safety_margin)).chain([proved]),
             );
         }
         cells.push(unit.into());
@@ -222,11 +222,11 @@ fn over_poses(m: &MarginRecord) -> [Cell; 6] {
         x if x.is_finite() => figure(x),
         _ => "none".into(),
     };
-    let short = if m.reserve_kept == Some(false) { Tone::No } else { Tone::Plain };
+    let short = if m.safety_margin_kept == Some(false) { Tone::No } else { Tone::Plain };
     [
         Cell::toned(m.status.name().replace('_', " "), tone),
         Cell::from(figure(margin)).at(m.pose.as_ref()),
-        Cell::toned(figure(m.margin_with_reserve.0), short),
+        Cell::toned(figure(m.net_margin.0), short),
         proved.into(),
         m.between.join(", ").into(),
         place(m.pose.as_ref()).into(),

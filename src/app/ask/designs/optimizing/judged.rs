@@ -60,7 +60,7 @@ fn missed(met: Option<bool>) -> OptimizeStatus {
 
 /// Whether the requirements are met with their safety margins; `Some(true)` without requirements.
 pub fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> {
-    assessed.map_or(Some(true), AssessReport::met_with_reserve)
+    assessed.map_or(Some(true), AssessReport::met_with_safety_margin)
 }
 
 /// The optimised platform as a design, with the tables of its original.
@@ -256,9 +256,11 @@ fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolut
         out.home = Some(s.home);
     }
     let hardware = &mut out.hardware;
-    for (swing, axes) in [(&mut hardware.base_swing, s.axes[0]), (&mut hardware.platform_swing, s.axes[1])] {
-        if let (Some(swing), Some(axes)) = (swing, axes) {
-            swing.axes = JointAxes::Given(axes);
+    for (cone_angle, axes) in
+        [(&mut hardware.base_cone_angle, s.axes[0]), (&mut hardware.platform_cone_angle, s.axes[1])]
+    {
+        if let (Some(cone_angle), Some(axes)) = (cone_angle, axes) {
+            cone_angle.axes = JointAxes::Given(axes);
         }
     }
     out
