@@ -207,7 +207,7 @@ fn poses_of_exact_designs_are_certified_and_counted_and_rounded_joints_are_anoth
     std::fs::write(folder.path().join("rounded.toml"), text).unwrap();
     let (code, answer) = solved(folder.path(), "rounded.toml", LENGTHS);
     // the other 24 of 40 are far out, where the joints have moved by rounding
-    let (completeness, far) = (answer["completeness"].as_str(), answer["bounded"]["far"].as_u64());
+    let (completeness, far) = (answer["completeness"].as_str(), answer["bound"]["far"].as_u64());
     assert_eq!((code, answer["finite_count"].as_u64()), (Some(0), Some(16)));
     assert_eq!((completeness, far), (Some("proved_bounded"), Some(24)));
 }

@@ -77,7 +77,7 @@ pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
 /// The refusal of cranks for questions about legs that change their lengths, with the question to ask instead.
 pub(super) fn refused_for_cranks(py: Python<'_>, instead: &str) -> PyErr {
     let message = format!(
-        "the legs are rods on cranks, and what is asked for is about legs that change their lengths: {instead}"
+        "the design has rods on cranks, but this question needs legs that change their lengths: {instead}"
     );
     refused(py, Code::Rotary.name(), &message)
 }

@@ -41,7 +41,7 @@ fn safety_margins_of_cranks_are_taken_off_their_margins() {
     ] {
         let row = row(name);
         let of = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
-        assert!((of("safety_margin") - safety_margin).abs() < 1e-12, "{row}");
+        assert!((of("reserve") - safety_margin).abs() < 1e-12, "{row}");
         assert!((of("net_margin") - (of("margin") - safety_margin)).abs() < 1e-9, "{row}");
         // kept where that is proved, not kept where the margin found is less; the limits themselves are met
         assert_eq!(row["safety_margin_kept"] == false, of("margin") < safety_margin, "{row}");

@@ -318,7 +318,7 @@ pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware:
         return;
     }
     let Some(entry) = find(top, "hardware") else { return };
-    let message = "the joints are not ideal (`offset` of universal joints or `screw_lead`), and what is asked for takes the length of a drive for the distance of its joints";
+    let message = "the joints are not ideal (`offset` of universal joints or `screw_lead`), but this question needs drive lengths equal to joint distances";
     let help = "`equipod ik`, `fk --near`, `assess`, `export --to c` and `design convert` take such joints; without `offset` and `screw_lead` the file has the machine with ideal joints";
     report.refuse(Code::NotIdeal, &entry.key_span, message, help);
 }
