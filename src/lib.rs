@@ -4,7 +4,7 @@
 //! poses of either platform for given leg lengths, with certificates.
 //!
 //! The best known of these platforms are the octahedral ones, whose six legs meet in three joints of the base and three
-//! of the platform. A joint that two legs share is hard to build: it has play, and little room to swing. Every
+//! of the platform. A joint that two legs share is hard to build: it has play and a small cone angle. Every
 //! octahedral platform is *kinematically equivalent* to platforms without shared joints: they have the same poses, the
 //! same singularities and the same forward kinematics.
 //!
@@ -182,9 +182,9 @@ pub mod prelude {
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
     pub use ::ask::{
-        Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
-        FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence,
-        OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
+        Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, FoundFront,
+        FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence, OptimizeOptions,
+        OptimizeProgress, OptimizeReport, OptimizeStatus, RelaxedRequirement, SearchedDrive,
     };
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]

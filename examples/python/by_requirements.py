@@ -1,4 +1,4 @@
-"""A platform by its requirements: the best one, judged over its whole workspace, rounded to a grid of holes, and exported for MuJoCo.
+"""A platform by its requirements: the best one, assessed over its whole workspace, rounded to a grid of holes, and exported for MuJoCo.
 
     python examples/python/by_requirements.py [FOLDER]
 """

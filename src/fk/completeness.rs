@@ -110,6 +110,7 @@ pub struct BoundedProof {
     pub far: Option<usize>,
     /// Bound on rotation entries: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries
     /// of real rotations are at most 1. Null: the proof is about real poses alone.
+    #[cfg_attr(feature = "serde", serde(rename = "R"))]
     pub rotation: Option<f64>,
     /// Largest change of the two ends of a leg (both together) in a neighbouring design that has no more poses, design
     /// units. The proof is then about real poses. Null: it is about far poses.

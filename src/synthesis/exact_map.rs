@@ -117,7 +117,7 @@ impl ExactMap {
     /// `det A` as a polynomial in all shares `t1` to `t6` of the rows with only `1 - t` and `t`; other rows are
     /// constant. It is a sum of products of `(1 - t)` and `t`, since the determinant is affine in each row. Its zeros
     /// are the singular platforms with the leg ends on the same edges. `None` without such a row.
-    pub(crate) fn determinant_of_shares(&self) -> Option<String> {
+    pub(crate) fn determinant_of_offsets(&self) -> Option<String> {
         let free: Vec<(usize, (usize, usize))> =
             (0..6).filter_map(|i| Some((i, self.share_columns(i)?))).collect();
         if free.is_empty() {
@@ -260,7 +260,7 @@ mod tests {
         let of = |t: [i64; 6]| {
             let relation = relation(&octahedral, &slid(&t.map(|n| surd(n, 5))));
             let map = relation.map().unwrap();
-            (map.determinant_of_shares(), map.determinant.clone())
+            (map.determinant_of_offsets(), map.determinant.clone())
         };
         let all = "(1 - t1) (1 - t2) (1 - t3) (1 - t4) (1 - t5) (1 - t6) - t1 t2 t3 t4 t5 t6";
         assert_eq!(of([1, 2, 3, 1, 2, 4]).0.as_deref(), Some(all));

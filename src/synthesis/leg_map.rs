@@ -236,10 +236,10 @@ pub struct ExactNumbers {
     pub determinant: String,
     /// For each leg of TO with only `1 - t` and `t` in its row of `A`, the `t` at which `det A` vanishes. `None` for
     /// other rows, and if no such number exists. A leg end at the share `t` of an edge has such a row.
-    pub singular_shares: [Option<String>; 6],
+    pub singular_offsets: [Option<String>; 6],
     /// `det A` as a polynomial in the shares `t1` to `t6` of all such rows, with the other rows constant. Its zeros are
     /// the singular shares. `None` without such rows.
-    pub determinant_of_shares: Option<String>,
+    pub determinant_of_offsets: Option<String>,
 }
 
 impl LegMapOutcome {
@@ -388,8 +388,8 @@ impl ExactNumbers {
             a: from_fn(|i| from_fn(|j| map.a[i][j].to_string())),
             c: from_fn(|i| map.c[i].to_string()),
             determinant: map.determinant.to_string(),
-            singular_shares: from_fn(|i| map.singular_share(i).map(|share| share.to_string())),
-            determinant_of_shares: map.determinant_of_shares(),
+            singular_offsets: from_fn(|i| map.singular_share(i).map(|share| share.to_string())),
+            determinant_of_offsets: map.determinant_of_offsets(),
         }
     }
 }

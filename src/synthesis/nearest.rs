@@ -174,14 +174,14 @@ struct TriangleFit {
 
 /// Target points of a triangle: three for the corners, and one for the line of each side from corner `s` to `s + 1`.
 #[derive(Debug, Clone, Copy)]
-struct TriangleWish {
+struct TriangleTarget {
     corners: [Vector3<f64>; 3],
     sides: [Vector3<f64>; 3],
     extension: f64,
     size: f64,
 }
 
-impl TriangleWish {
+impl TriangleTarget {
     /// The nearest place on side `s`, and whether it is at the end of the allowed range.
     fn place(&self, c: &[Vector3<f64>; 3], s: usize) -> (f64, bool) {
         let (from, to) = (c[s], c[(s + 1) % 3]);
@@ -314,7 +314,7 @@ impl HexagonWay {
                 let stays = |k: &usize| sliding_body(*k) != body && corner(body, *k) == label;
                 (0..6).find(stays).unwrap_or_else(|| unreachable!("every corner has a side that ends there"))
             });
-            TriangleWish { corners: ends.map(end), sides: slides.map(end), extension, size }.best()
+            TriangleTarget { corners: ends.map(end), sides: slides.map(end), extension, size }.best()
         });
         Self { order, fits }
     }

@@ -104,7 +104,7 @@ CALLS = """
 1 optimize {turning-conflict}
 0 optimize {lifted} --drives {struts}
 1 explore {conflict} --drives {weak-struts} --samples 1 -o {driven}
-0 optimize {swinging}
+0 optimize {cone_limited}
 0 optimize {front} -o {front.toml}
 1 optimize {no-front}
 0 plot modes {rbt-octahedral}
@@ -200,7 +200,7 @@ def coupled(design):
 
 
 def flexures(design):
-    design["hardware"].update(base_swing_deg=20.0, base_joint={"model": "flexure", "bending_stiffness": 4e4})
+    design["hardware"].update(base_cone_angle_deg=20.0, base_joint={"model": "flexure", "bending_stiffness": 4e4})
 
 
 def ringed(design):
@@ -232,7 +232,7 @@ def front(variable):
 HOME = {"variables": ["home_height"]}
 ROOMY, TIGHT = {"leg_length": [9.0, 18.0]}, {"leg_length": [14.0, 14.1]}
 ABOVE = 3.0 * math.sqrt(3.0)  # the triangles are one above the other
-SWINGING = ROOMY | {"base_swing_deg": 60.0, "base_axes": "optimize"}
+CONE_LIMITED = ROOMY | {"base_cone_angle_deg": 60.0, "base_axes": "optimize"}
 DESIGNS = {
     "turned": ("designs/general-6-6.toml", turn),
     "off": ("designs/general-6-6.toml", off),
@@ -249,7 +249,7 @@ DESIGNS = {
     "conflict": (OCTAHEDRAL, searched(HOME, TIGHT)),
     "turning": (OCTAHEDRAL, searched({"variables": ["offsets"]}, ROOMY, ABOVE)),
     "turning-conflict": (OCTAHEDRAL, searched({"variables": ["offsets"], "offset_bounds": [0.1, 0.3]}, TIGHT, ABOVE)),
-    "swinging": (OCTAHEDRAL, searched({"variables": ["symmetric_offsets", "joint_axes"]}, SWINGING)),
+    "cone_limited": (OCTAHEDRAL, searched({"variables": ["symmetric_offsets", "joint_axes"]}, CONE_LIMITED)),
     "front": (OCTAHEDRAL, searched(front("symmetric_offsets"))),
     "no-front": (OCTAHEDRAL, searched(front("home_height"), TIGHT)),
     "crowded": ("outer", searched({}, {"joint_diameter": 30.0})),

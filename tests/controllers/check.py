@@ -22,7 +22,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-# shared joints and separate ones, limits of lengths and swing, a design equivalent to an octahedral platform, a unit that has to be named
+# shared joints and separate ones, limits of lengths and cone angles, a design equivalent to an octahedral platform, a unit that has to be named
 DESIGNS = [
     ("rbt-octahedral", []),
     ("worked/bench-joint-free", []),

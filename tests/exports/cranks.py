@@ -108,7 +108,7 @@ def swing_complaint(path):
 def check_swing_of_rods(program, folder, design):
     folder.mkdir(parents=True, exist_ok=True)
     limited = folder / "limited.toml"
-    limits = f"tip_swing_deg = {LIMITS['tip']}\nplatform_swing_deg = {LIMITS['platform']}\n"
+    limits = f"tip_angle_deg = {LIMITS['tip']}\nplatform_cone_angle_deg = {LIMITS['platform']}\n"
     limited.write_text(design.read_text().replace("[cranks]\n", f"[cranks]\n{limits}", 1))
     run(program, "export", limited, "--to", "mjcf", "-o", folder)
 

@@ -14,7 +14,7 @@ def check_swing(program, folder, design):
         return
     text = design.read_text()
     table = tomllib.loads(text)
-    limit = math.radians(table["hardware"]["platform_swing_deg"])
+    limit = math.radians(table["hardware"]["platform_cone_angle_deg"])
     folder.mkdir(parents=True, exist_ok=True)
     # the payload as a box, of which the design says nothing
     shape = "box = { center = [0.0, 0.0, 500.0], size = [600.0, 500.0, 700.0] }"

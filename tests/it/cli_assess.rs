@@ -24,7 +24,7 @@ fn assess(path: &str) -> (Option<i32>, Value) {
 #[test]
 fn margins_come_with_their_worst_poses_and_a_violation_is_a_no() {
     let folder = tempfile::tempdir().unwrap();
-    let limits = "[hardware]\nleg_length = [10.0, 25.0]\nplatform_swing_deg = 40.0\n";
+    let limits = "[hardware]\nleg_length = [10.0, 25.0]\nplatform_cone_angle_deg = 40.0\n";
     let (code, doc) = assess(&design(folder.path(), limits));
     assert_eq!((code, doc["met"].as_bool()), (Some(0), Some(true)), "{doc}");
     let margins = doc["requirements"].as_array().unwrap();
@@ -32,7 +32,7 @@ fn margins_come_with_their_worst_poses_and_a_violation_is_a_no() {
     let codes: Vec<&str> = margins.iter().map(|m| m["name"].as_str().unwrap()).collect();
     assert_eq!(
         codes,
-        ["leg_too_short", "leg_too_long", "platform_swing", "base_spacing", "platform_spacing"]
+        ["min_leg_length", "max_leg_length", "platform_cone_angle", "base_spacing", "platform_spacing"]
     );
     assert_eq!((&margins[3]["pose"], margins[2]["unit"].as_str()), (&Value::Null, Some("deg")));
     let spacing = margins[4]["margin"].as_f64().unwrap();
@@ -112,9 +112,9 @@ fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let doc = document(&out);
     assert_eq!((out.status.code(), doc["met"].as_bool()), (Some(1), Some(false)), "{doc}");
     let margins = doc["requirements"].as_array().unwrap();
-    let swing = margins.iter().find(|m| m["name"] == "platform_swing").unwrap();
-    assert_eq!((swing["status"].as_str(), swing["met"].as_bool()), (Some("violated"), Some(false)));
-    assert!(swing["margin"].as_f64().unwrap() < -0.15, "{swing}");
+    let cone_angle = margins.iter().find(|m| m["name"] == "platform_cone_angle").unwrap();
+    assert_eq!((cone_angle["status"].as_str(), cone_angle["met"].as_bool()), (Some("violated"), Some(false)));
+    assert!(cone_angle["margin"].as_f64().unwrap() < -0.15, "{cone_angle}");
     if size(true, false) {
         return;
     }
@@ -122,15 +122,18 @@ fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(path).unwrap();
     let wider = folder.path().join("wider.toml");
-    std::fs::write(&wider, text.replace("platform_swing_deg = 16.926437", "platform_swing_deg = 22.926437"))
-        .unwrap();
+    std::fs::write(
+        &wider,
+        text.replace("platform_cone_angle_deg = 16.926437", "platform_cone_angle_deg = 22.926437"),
+    )
+    .unwrap();
     let out = equipod(&["assess", wider.to_str().unwrap(), "--points", "50", "--json"]);
     let doc = document(&out);
     let margins = doc["requirements"].as_array().unwrap();
-    let swing = margins.iter().find(|m| m["name"] == "platform_swing").unwrap();
-    assert_eq!(swing["status"], "met", "{swing}");
-    let bound = swing["proved_margin"].as_f64().unwrap();
-    assert!(bound >= 0.0 && bound <= swing["margin"].as_f64().unwrap());
+    let cone_angle = margins.iter().find(|m| m["name"] == "platform_cone_angle").unwrap();
+    assert_eq!(cone_angle["status"], "met", "{cone_angle}");
+    let bound = cone_angle["proved_margin"].as_f64().unwrap();
+    assert!(bound >= 0.0 && bound <= cone_angle["margin"].as_f64().unwrap());
 }
 
 /// A requirement without a proof is neither met nor violated.
@@ -284,7 +287,10 @@ fn limits_without_a_workspace_are_judged_at_home_by_every_command() {
             assert!(words[0] != "compare" || text.contains("met at home only"), "{text}");
         }
         let (_, doc) = assess(&path);
-        assert_eq!((&doc["judged"]["stated"], &doc["judged"]["region"]), (&false.into(), &false.into()));
+        assert_eq!(
+            (&doc["assessed_poses"]["stated"], &doc["assessed_poses"]["region"]),
+            (&false.into(), &false.into())
+        );
         assert!(doc["regular_explanation"].as_str().unwrap().starts_with("Home is not a singular pose"));
     }
     // with a workspace the same design says so, and one that is too wide is refused
@@ -332,12 +338,12 @@ fn a_list_of_poses_is_judged_at_these_poses_and_not_between_them() {
         )
     );
     assert!(!text.contains("every pose") && !text.contains("in the workspace"), "{text}");
-    assert_eq!((&doc["met"], &doc["judged"]["listed"]), (&true.into(), &2.into()));
-    assert_eq!(doc["judged"]["met_in_words"], "met at 2 poses");
+    assert_eq!((&doc["met"], &doc["assessed_poses"]["listed"]), (&true.into(), &2.into()));
+    assert_eq!(doc["assessed_poses"]["met_in_words"], "met at 2 poses");
     // beside a region both are named
     let (text, doc) = listed(poses, "translation = [1, 1, 1]");
     assert!(text.contains("for every pose of its workspace, with the 2 poses listed"), "{text}");
-    assert_eq!(doc["judged"]["met_in_words"], "met");
+    assert_eq!(doc["assessed_poses"]["met_in_words"], "met");
 }
 
 /// The nearest octahedral platform of two triangles had another characteristic length than the design it was made from,

@@ -45,7 +45,7 @@ fn measurements_give_joints_offsets_and_a_design_with_their_uncertainty() {
         (Some(true), Some("given"))
     );
     assert!(number(&found["before"]["rms"]) > 20.0 * number(&found["after"]["rms"]));
-    assert!(number(&found["left_out"]["rms"]) > number(&found["after"]["rms"]));
+    assert!(number(&found["leave_one_out"]["rms"]) > number(&found["after"]["rms"]));
     assert!(number(&found["chi_square"]["probability"]) > 1e-3);
     let computed = &found["computed_poses"];
     let off = number(&computed["position_greatest"]);

@@ -64,7 +64,7 @@ fn the_cheapest_drive_that_fits_comes_first_and_its_design_is_accepted_by_assess
         doc["drives"].as_array().unwrap().iter().map(|d| d["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["cheap", "cheap heavy", "dear", "short", "slow", "weak"]);
     assert_eq!((doc["chosen"].as_str(), doc["currency"].as_str()), (Some("cheap"), Some("EUR")));
-    for (name, fault) in [("short", "leg_too_long"), ("slow", "leg_speed"), ("weak", "leg_force")] {
+    for (name, fault) in [("short", "max_leg_length"), ("slow", "leg_speed"), ("weak", "leg_force")] {
         let drive = of(&doc, name);
         assert_eq!(drive["fits"], false);
         assert!(margin(drive, fault) < 0.0, "{name}");

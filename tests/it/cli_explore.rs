@@ -228,7 +228,7 @@ fn a_singular_design_is_said_to_be_so() {
 }
 
 #[test]
-fn limits_that_leave_no_room_are_infeasible_with_a_report() {
+fn limits_that_leave_no_space_are_infeasible_with_a_report() {
     let temp = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(shipped("rbt-octahedral")).unwrap();
     let tight = text.replace("min_joint_distance = 1.2", "min_joint_distance = 5.0");
@@ -535,7 +535,7 @@ fn holes_of_a_design_that_is_not_octahedral_are_refused() {
 /// 3.5e-8 mm left between platform joints.
 #[test]
 #[ignore = "evidence"]
-fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {
+fn the_first_result_stays_near_its_triangles_and_keeps_a_safety_margin() {
     let temp = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
     let out = command
@@ -556,13 +556,13 @@ fn the_first_result_stays_near_its_triangles_and_keeps_a_reserve() {
         assert!(number(&price[format!("{body}_spacing")][1]) >= 1.26 - 1e-6, "{price}");
     }
     // variables at the ends of their ranges are named
-    let riding = d["optimize"]["riding"]["message"].as_str().unwrap();
-    assert!(riding.contains("(end of") && riding.contains("[envelope]"), "{riding}");
+    let active_bounds = d["optimize"]["active_bounds"]["message"].as_str().unwrap();
+    assert!(active_bounds.contains("(end of") && active_bounds.contains("[envelope]"), "{active_bounds}");
 }
 
 #[test]
 #[ignore = "evidence"]
-fn a_run_says_what_separate_joints_cost_and_keeps_a_reserve_by_default() {
+fn a_run_says_what_separate_joints_cost_and_keeps_a_safety_margin_by_default() {
     let temp = tempfile::tempdir().unwrap();
     let run = |design: &str, to: &str| {
         let folder = temp.path().join(to);
@@ -574,21 +574,28 @@ fn a_run_says_what_separate_joints_cost_and_keeps_a_reserve_by_default() {
     // of the body whose joints are nearer to each other
     let spacing = |d: &Value, k: usize| d["price"]["platform_spacing"][k].as_f64().unwrap();
     let (d, design, report) = run(&shipped("rbt-octahedral"), "default");
-    assert_eq!((&d["reserve"]["kept"], &d["reserve"]["percent"]), (&true.into(), &5.0.into()), "{d}");
+    assert_eq!(
+        (&d["safety_margin"]["kept"], &d["safety_margin"]["percent"]),
+        (&true.into(), &5.0.into()),
+        "{d}"
+    );
     assert!(spacing(&d, 0) == 0.0 && (spacing(&d, 1) - 1.26).abs() < 1e-6, "{}", d["price"]);
-    assert!(design.contains("reserve = \"5%\"") && design.contains("characteristic_length"), "{design}");
+    assert!(
+        design.contains("safety_margin = \"5%\"") && design.contains("characteristic_length"),
+        "{design}"
+    );
     let [before, after] = [0, 1].map(|k| d["price"]["conditioning"][k].as_f64().unwrap());
     // half as wide again, the bodies are conditioned better
     assert!(before > 0.0 && after > before, "{}", d["price"]);
     for words in ["Price of separate joints: worst conditioning", "5 % of every limit", "Active limits"] {
         assert!(report.contains(words), "{words}: {report}");
     }
-    // a reserve that is stated stays the one that is kept
+    // a safety margin that is stated stays the one that is kept
     let text = std::fs::read_to_string(shipped("rbt-octahedral")).unwrap();
     let stated = temp.path().join("stated.toml");
-    std::fs::write(&stated, format!("{text}\n[limits]\nreserve = \"1%\"\n")).unwrap();
+    std::fs::write(&stated, format!("{text}\n[limits]\nsafety_margin = \"1%\"\n")).unwrap();
     let (d, design, _) = run(stated.to_str().unwrap(), "stated");
-    assert!(d["reserve"].is_null() && design.contains("reserve = \"1%\""), "{d}");
+    assert!(d["safety_margin"].is_null() && design.contains("safety_margin = \"1%\""), "{d}");
     assert!((spacing(&d, 1) - 1.212).abs() < 1e-6, "{}", d["price"]);
 }
 

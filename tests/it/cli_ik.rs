@@ -54,20 +54,20 @@ fn angles_of_joints_jacobian_and_margins_stand_beside_the_lengths() {
     let numbers = |value: &serde_json::Value| -> Vec<f64> {
         value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
     };
-    let swing = numbers(&joints["base_swing_deg"]);
+    let cone_angle = numbers(&joints["base_cone_angle_deg"]);
     let margin = |name: &str| {
         let rows = one["margins"].as_array().unwrap();
         rows.iter().find(|m| m["name"] == name).unwrap_or_else(|| panic!("{name}: {one}")).clone()
     };
     // the preset allows 35 degrees
-    let most = swing.iter().copied().fold(0.0, f64::max);
-    assert!((margin("base_swing")["margin"].as_f64().unwrap() - (35.0 - most)).abs() < 1e-9);
-    let leg = margin("base_swing")["legs"][0].as_u64().unwrap() as usize;
-    assert!((swing[leg - 1] - most).abs() < 1e-12);
+    let most = cone_angle.iter().copied().fold(0.0, f64::max);
+    assert!((margin("base_cone_angle")["margin"].as_f64().unwrap() - (35.0 - most)).abs() < 1e-9);
+    let leg = margin("base_cone_angle")["legs"][0].as_u64().unwrap() as usize;
+    assert!((cone_angle[leg - 1] - most).abs() < 1e-12);
     for leg in 0..6 {
         let pair = numbers(&joints["base_universal_deg"][leg]);
         let cosine = pair[0].to_radians().cos() * pair[1].to_radians().cos();
-        assert!((swing[leg].to_radians().cos() - cosine).abs() < 1e-12);
+        assert!((cone_angle[leg].to_radians().cos() - cosine).abs() < 1e-12);
     }
     // a row of the Jacobian is the derivative of a length
     let moved = document(&equipod(&["ik", LIMITED, "--pose", "5.0001,0,212,0,4,0", "--json"]));
@@ -77,9 +77,9 @@ fn angles_of_joints_jacobian_and_margins_stand_beside_the_lengths() {
     }
     assert!(one["inverse_condition"].as_f64().unwrap() > 0.0);
     let home = document(&equipod(&["ik", LIMITED, "--json"]));
-    assert!(numbers(&home["joints"]["platform_swing_deg"]).iter().all(|x| x.abs() < 1e-6));
+    assert!(numbers(&home["joints"]["platform_cone_angle_deg"]).iter().all(|x| x.abs() < 1e-6));
     let rows = table(&["ik", LIMITED, "--pose", "home", "--pose", "5,0,212,0,4,0", "--details"]);
-    let column = column(&rows, "margin_base_swing_deg");
+    let column = column(&rows, "margin_base_cone_angle_deg");
     assert!((column[1].parse::<f64>().unwrap() - (35.0 - most)).abs() < 1e-9);
 }
 

@@ -50,17 +50,17 @@ fn assess_proves_both_angles_of_universal_joints() {
     }
 }
 
-/// Three universal joints at the base, two balls and a flexure; universal joints are not held by the swing.
+/// Three universal joints at the base, two balls and a flexure; universal joints have no limit of the cone angle.
 fn per_leg(second: f64, ball: f64, flexure: f64) -> String {
     let first = ["[0, 1, 0]", "[-0.866, -0.5, 0]", "[0.866, -0.5, 0]"];
     let universal = |k: usize| {
         format!(
-            "{{ model = \"universal\", first_axis = {}, angle_deg = [60, {second}], swing_deg = 180 }}",
+            "{{ model = \"universal\", first_axis = {}, angle_deg = [60, {second}], cone_angle_deg = 180 }}",
             first[k]
         )
     };
-    let ball = format!("{{ model = \"ball\", swing_deg = {ball} }}");
-    let flexure = format!("{{ model = \"flexure\", bending_stiffness = 4e4, swing_deg = {flexure} }}");
+    let ball = format!("{{ model = \"ball\", cone_angle_deg = {ball} }}");
+    let flexure = format!("{{ model = \"flexure\", bending_stiffness = 4e4, cone_angle_deg = {flexure} }}");
     let list = [universal(0), ball.clone(), universal(1), ball, universal(2), flexure];
     format!("base_joint = [{}]\n", list.join(", "))
 }
@@ -115,14 +115,14 @@ fn joints_per_leg_are_judged_leg_by_leg() {
     let legs = |row: &Value| numbers(&row["legs"]);
     let margin = |row: &Value| row["margin"].as_f64().unwrap();
     // the same joint for all legs: where each leg stands at the worst
-    let all = row("base_swing", "base_swing_deg = 90\n");
+    let all = row("base_cone_angle", "base_cone_angle_deg = 90\n");
     let worst = 90.0 - margin(&all);
     assert!(worst > 10.0, "{all}");
-    let wide = row("base_swing", &per_leg(60.0, 60.0, 60.0));
+    let wide = row("base_cone_angle", &per_leg(60.0, 60.0, 60.0));
     assert!(legs(&wide).iter().all(|leg| [2.0, 4.0, 6.0].contains(leg)), "{wide}");
     assert!((margin(&wide) - (60.0 - worst)).abs() < 5.0 && wide["status"] == "met", "{wide}");
     // the flexure alone is too stiff for the workspace, and leg 6 has it
-    let stiff = row("base_swing", &per_leg(60.0, 60.0, 4.0));
+    let stiff = row("base_cone_angle", &per_leg(60.0, 60.0, 4.0));
     assert_eq!((legs(&stiff), &stiff["status"]), (vec![6.0], &"violated".into()), "{stiff}");
     // the second angles are those of legs 1, 3 and 5
     let free = row("base_second_angle", &per_leg(60.0, 60.0, 60.0));
@@ -134,8 +134,8 @@ fn joints_per_leg_are_judged_leg_by_leg() {
     assert_eq!((&free["status"], &tight["status"]), (&"met".into(), &"violated".into()));
     // all legs alike in a list are all legs alike in one table
     let six = |model: &str| format!("base_joint = [{}]\n", format!("{model}, ").repeat(6));
-    let list = row("base_swing", &six("{ model = \"ball\", swing_deg = 40 }"));
-    assert_eq!(list, row("base_swing", "base_swing_deg = 40\n"));
+    let list = row("base_cone_angle", &six("{ model = \"ball\", cone_angle_deg = 40 }"));
+    assert_eq!(list, row("base_cone_angle", "base_cone_angle_deg = 40\n"));
 }
 
 /// Poses, limits, the search and exported files take joints per leg, or say why they do not.
@@ -196,7 +196,7 @@ fn commands_take_joints_per_leg_or_refuse_them() {
     let five = with(
         &folder,
         "five.toml",
-        &per_leg(60.0, 60.0, 40.0).replacen("{ model = \"ball\", swing_deg = 60 }, ", "", 1),
+        &per_leg(60.0, 60.0, 40.0).replacen("{ model = \"ball\", cone_angle_deg = 60 }, ", "", 1),
     );
     let (code, answer) = run(&["assess", &five, "--json"]);
     assert_eq!(code, Some(2));
@@ -227,11 +227,11 @@ fn assess_judges_drives_whose_joints_are_not_ideal() {
     };
     let (exit, wide) = assessed("wide.toml", "[200, 600]", &joints);
     assert_eq!((exit, &wide["regular"]["status"]), (Some(0), &"proved".into()), "{wide}");
-    for name in ["leg_too_long", "leg_too_short", "base_second_angle", "leg_clearance"] {
+    for name in ["max_leg_length", "min_leg_length", "base_second_angle", "leg_clearance"] {
         assert_eq!(row(&wide, name)["status"], "met", "{wide}");
     }
     // a limit between the longest drive and the longest distance of joints
-    let longest = |answer: &Value| 600.0 - row(answer, "leg_too_long")["margin"].as_f64().unwrap();
+    let longest = |answer: &Value| 600.0 - row(answer, "max_leg_length")["margin"].as_f64().unwrap();
     let (_, ideal) = assessed("ideal.toml", "[200, 600]", &universal(", angle_deg = [60, 60]"));
     let between = 0.5 * (longest(&wide) + longest(&ideal));
     assert!(longest(&ideal) - longest(&wide) > 5.0, "{} {}", longest(&ideal), longest(&wide));
@@ -323,7 +323,7 @@ fn what_takes_drives_for_distances_refuses_joints_that_are_not_ideal() {
 fn flexures_pull_the_platform_back_to_home() {
     let folder = tempfile::tempdir().unwrap();
     let joint =
-        "platform_swing_deg = 20\nplatform_joint = { model = \"flexure\", bending_stiffness = 5e4 }\n";
+        "platform_cone_angle_deg = 20\nplatform_joint = { model = \"flexure\", bending_stiffness = 5e4 }\n";
     let path = with(&folder, "flexures.toml", joint);
     let at = |pose: &str| document(&equipod(&["ik", &path, "--pose", pose, "--json"]))["flexures"].clone();
     let home = numbers(&at("home")["torque"]);

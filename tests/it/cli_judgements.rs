@@ -176,7 +176,7 @@ fn no_command_calls_a_design_good_that_assess_refuses() {
             for found in judged {
                 assert_eq!(found["met"], !refused, "{line}: {found}");
                 let rows = found["requirements"].as_array().unwrap();
-                let row = rows.iter().find(|r| r["name"] == "leg_too_short").unwrap();
+                let row = rows.iter().find(|r| r["name"] == "min_leg_length").unwrap();
                 assert_eq!(row["status"] == "violated", refused, "{line}: {row}");
             }
         }

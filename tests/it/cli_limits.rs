@@ -55,7 +55,7 @@ fn every_axis_has_its_range_and_what_ends_it() {
 fn a_pose_that_is_not_allowed_has_a_nearest_one_that_is() {
     let (code, doc) = asked(&[BENCH, "--at", "0,0,900,0,0,0"]);
     assert_eq!((code, &doc["allowed"]), (Some(1), &Value::from(false)));
-    assert_eq!(doc["violated"][0]["name"], "leg_too_long");
+    assert_eq!(doc["violated"][0]["name"], "max_leg_length");
     assert!(doc["axes"].as_array().unwrap().is_empty());
     let near = &doc["nearest_allowed"];
     assert_eq!(near["stationary"], true, "{near}");
@@ -67,7 +67,7 @@ fn a_pose_that_is_not_allowed_has_a_nearest_one_that_is() {
     let least =
         again["violated"].as_array().unwrap().iter().map(|v| number(&v["margin"])).fold(0.0, f64::min);
     assert!(code == Some(0) || least > -1e-9, "{again}");
-    // straight up the height of the design ends the way
+    // straight up the height of the design ends the path
     let (_, home) = asked(&[BENCH]);
     let highest = number(&home["axes"][2]["forth"]["value"]);
     assert!(number(&near["distance"]) <= 900.0 - highest + 1e-6);
@@ -78,14 +78,14 @@ fn a_pose_that_is_not_allowed_has_a_nearest_one_that_is() {
 #[test]
 fn the_straight_way_to_another_pose_ends_where_something_binds() {
     let (code, doc) = asked(&[BENCH, "--at", "0,0,215,3,0,0", "--to", "10,0,212,0,0,0"]);
-    assert_eq!((code, number(&doc["way"]["free"])), (Some(0), 1.0), "{doc}");
-    assert!(doc["way"]["binds"].is_null() && doc["nearest_allowed"].is_null());
+    assert_eq!((code, number(&doc["straight_path"]["free"])), (Some(0), 1.0), "{doc}");
+    assert!(doc["straight_path"]["binds"].is_null() && doc["nearest_allowed"].is_null());
     let (code, doc) = asked(&[BENCH, "--to", "0,0,400,0,0,0"]);
     assert_eq!((code, &doc["allowed"]), (Some(1), &Value::from(true)));
     let (_, home) = asked(&[BENCH]);
     let up = number(&home["axes"][2]["forth"]["free"]);
-    assert!((number(&doc["way"]["free"]) - up / 190.0).abs() < 1e-8);
-    assert_eq!(doc["way"]["binds"]["name"], home["axes"][2]["forth"]["binds"]["name"]);
+    assert!((number(&doc["straight_path"]["free"]) - up / 190.0).abs() < 1e-8);
+    assert_eq!(doc["straight_path"]["binds"]["name"], home["axes"][2]["forth"]["binds"]["name"]);
     let (code, doc) = asked(&[BENCH, "--at", "1,2"]);
     assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("limits::bad_pose")));
     let (code, doc) = asked(&[BENCH, "--starts", "3"]);
@@ -108,7 +108,7 @@ fn a_home_out_of_reach_is_led_back_to_an_allowed_pose() {
 #[test]
 #[ignore = "evidence"]
 fn the_workspace_has_its_sizes() {
-    // with lengths and swing alone, which few cells decide
+    // with lengths and cone angles alone, which few cells decide
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(BENCH).unwrap();
     let text = text.split("[speed]").next().unwrap();
@@ -130,7 +130,7 @@ fn the_workspace_has_its_sizes() {
     assert!(of("turn_deg").0 <= of("tilt_deg").1);
     let ball = of("ball_radius").0;
     let sphere = 4.0 / 3.0 * std::f64::consts::PI * ball.powi(3);
-    assert!(number(&found["volume"]) > sphere && number(&found["volume_doubt"]) < 0.1, "{found}");
+    assert!(number(&found["volume"]) > sphere && number(&found["volume_uncertainty"]) < 0.1, "{found}");
     let half: Vec<f64> = found["box_proved"].as_array().unwrap().iter().map(number).collect();
     assert!(half.iter().all(|h| *h > 0.0) && 8.0 * half.iter().product::<f64>() < number(&found["volume"]));
     let shares: f64 = found["ends"].as_array().unwrap().iter().map(|e| number(&e["share"])).sum();

@@ -38,7 +38,7 @@ fn a_manoeuvre_has_forces_and_limits_for_every_leg() {
         .iter()
         .map(|r| r["margin"]["name"].as_str().unwrap())
         .collect();
-    for name in ["leg_too_long", "leg_clearance", "leg_force", "leg_speed"] {
+    for name in ["max_leg_length", "leg_clearance", "leg_force", "leg_speed"] {
         assert!(names.contains(&name), "{names:?}");
     }
     assert_eq!(doc["assumptions"].as_array().unwrap().len(), 2, "{doc}");

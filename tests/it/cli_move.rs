@@ -115,11 +115,11 @@ fn what_is_refused() {
     assert_eq!(code(&["--leg", "1", "--along", "4", "--to", "0.2,0.3"]), "move::parameter_count");
     assert_eq!(code(&["--move", "1:4"]), "move::bad_move");
     assert_eq!(code(&["--move", "1:4:0.2", "--move", "1:1:0.2", "--together"]), "move::leg_twice");
-    assert_eq!(code(&["--no-shared-joints"]), "move::wish_without_search");
-    assert_eq!(code(&["--search"]), "move::no_wish");
+    assert_eq!(code(&["--no-shared-joints"]), "move::target_without_search");
+    assert_eq!(code(&["--search"]), "move::no_target");
     assert_eq!(code(&["--search", "--hole", "P1:1,2,3"]), "move::bad_hole");
     assert_eq!(code(&["--search", "--joint", "P9=1,2,3"]), "move::no_such_joint");
-    assert_eq!(code(&["--search", "--spacing=-1"]), "move::bad_wish");
+    assert_eq!(code(&["--search", "--spacing=-1"]), "move::bad_target");
     // nothing can be moved
     let doc = of("general-6-6", &["--leg", "1", "--along", "1", "--to", "0.2"], 2);
     assert!(doc["error"]["help"].as_str().unwrap().contains("no leg of this platform"));
@@ -175,7 +175,7 @@ fn a_search_for_more_room_than_there_is_is_left_open() {
     );
 }
 
-/// Wishes are not all: a platform that fulfils them and is too long for the file is not called fulfilled.
+/// Targets are not all: a platform that meets them and is too long for the file is not called fulfilled.
 #[test]
 fn a_platform_that_misses_a_requirement_is_not_called_fulfilled() {
     let folder = tempfile::tempdir().unwrap();
@@ -203,9 +203,9 @@ fn a_platform_that_misses_a_requirement_is_not_called_fulfilled() {
     let (code, doc) = search(10.0);
     assert_eq!((code, doc["outcome"].as_str()), (Some(1), Some("violated")), "{doc}");
     for found in doc["designs"].as_array().unwrap() {
-        assert_eq!((&found["fulfilled"], &found["wishes_fulfilled"]), (&false.into(), &true.into()));
+        assert_eq!((&found["fulfilled"], &found["targets_met"]), (&false.into(), &true.into()));
         let rows = found["assessment"]["requirements"].as_array().unwrap();
-        let long = rows.iter().find(|m| m["name"] == "leg_too_long").unwrap();
+        let long = rows.iter().find(|m| m["name"] == "max_leg_length").unwrap();
         assert_eq!((&long["met"], long["legs"].as_array().unwrap().len()), (&false.into(), 1));
         assert!(found["design"]["description"].as_str().unwrap().contains("requirements violated"));
     }

@@ -90,7 +90,7 @@ fn offsets_of_a_design_that_is_not_octahedral_are_refused() {
 fn requirements_are_met_by_the_optimised_design_and_assess_agrees() {
     let more = "[hardware]
 leg_length = [9.0, 18.0]
-base_swing_deg = 60.0
+base_cone_angle_deg = 60.0
 [optimize]
 variables = [\"symmetric_offsets\", \"home_height\"]
 ";
@@ -101,7 +101,7 @@ variables = [\"symmetric_offsets\", \"home_height\"]
     assert_eq!(d["verify"]["verdict"], "equivalent");
     assert!(d["objective"].as_f64().unwrap() > 0.0);
     let margins = d["constraint_margins"].as_array().unwrap();
-    assert!(margins.iter().any(|m| m["name"] == "leg_too_long"));
+    assert!(margins.iter().any(|m| m["name"] == "max_leg_length"));
     assert!(margins.iter().all(|m| m["margin"].as_f64().unwrap() >= 0.0));
     let checked = Command::new(env!("CARGO_BIN_EXE_equipod"))
         .current_dir(folder.path())
@@ -152,7 +152,7 @@ variables = [\"home_height\"]
         .iter()
         .map(|r| r["name"].as_str().unwrap())
         .collect();
-    assert_eq!(codes, ["leg_too_short", "leg_too_long"]);
+    assert_eq!(codes, ["min_leg_length", "max_leg_length"]);
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
 }
 
@@ -167,7 +167,7 @@ fn a_conflict_is_about_what_was_asked_for() {
     let d = document(&out);
     let requirements = d["conflict"]["requirements"].as_array().unwrap();
     let names: Vec<&str> = requirements.iter().map(|r| r["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["leg_too_short", "leg_too_long"]);
+    assert_eq!(names, ["min_leg_length", "max_leg_length"]);
     let alone = requirements[1]["alone"].as_f64().unwrap();
     assert!((alone - 28.194).abs() < 0.01, "{alone}");
 }
@@ -179,7 +179,7 @@ fn a_conflict_is_about_what_was_asked_for() {
 fn other_local_optima_are_judged_and_written_when_they_are_asked_for() {
     let more = "[hardware]
 leg_length = [9.0, 18.0]
-base_swing_deg = 60.0
+base_cone_angle_deg = 60.0
 [optimize]
 variables = [\"offsets\"]
 ";
@@ -861,12 +861,12 @@ fn holes_keep_their_distance_from_the_outline_where_the_best_platform_would_not(
 /// A platform at the ends of its ranges and at its limits says so, and one with room does not.
 #[test]
 fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
-    let riding = |tables: &str, more: &[&str]| {
+    let active_bounds = |tables: &str, more: &[&str]| {
         let (out, folder) = optimize(&format!("{DESIGN}{tables}"), more);
         assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
-        (document(&out)["riding"].clone(), folder)
+        (document(&out)["active_bounds"].clone(), folder)
     };
-    let (r, folder) = riding("", &["--extension", "0"]);
+    let (r, folder) = active_bounds("", &["--extension", "0"]);
     let text = Command::new(env!("CARGO_BIN_EXE_equipod"))
         .current_dir(folder.path())
         .args(["optimize", "in.toml", "--quiet", "--extension", "0"])
@@ -875,7 +875,7 @@ fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
     let text = String::from_utf8(text.stdout).unwrap();
     let message = r["message"].as_str().unwrap();
     assert!(text.contains(message), "{text}");
-    for word in ["spacing of base joints", "no safety margin", "`reserve` in [limits]", "[envelope]"] {
+    for word in ["spacing of base joints", "no safety margin", "`safety_margin` in [limits]", "[envelope]"] {
         assert!(message.contains(word), "{message}");
     }
     let limit = |r: &Value| {
@@ -884,8 +884,8 @@ fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
     };
     assert_eq!(limit(&r)["kind"], "limit");
     assert!(limit(&r)["value"].as_f64().unwrap().abs() < 1e-6, "{r}");
-    // with a reserve it rides on neither limit
-    let (r, _) = riding("\n[limits]\nreserve = \"10%\"\n", &["--extension", "0"]);
+    // with a safety margin neither limit is active
+    let (r, _) = active_bounds("\n[limits]\nsafety_margin = \"10%\"\n", &["--extension", "0"]);
     let named = r["bounds"].as_array().into_iter().flatten().any(|b| b["kind"] == "limit");
     assert!(!named, "{r}");
 }

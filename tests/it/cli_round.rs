@@ -50,7 +50,7 @@ fn both_roundings_are_reported_and_the_chosen_one_is_written_and_verified() {
     assert_eq!(doc["nearest"]["verdict"], "not_equivalent");
     for variant in ["exact", "nearest"] {
         assert_eq!(doc[variant]["joints"].as_array().unwrap().len(), 12);
-        assert!(doc[variant]["judgement"]["objective"].as_f64().unwrap() > 0.0);
+        assert!(doc[variant]["evaluation"]["objective"].as_f64().unwrap() > 0.0);
     }
     assert!(doc["nearest"]["pose_error"]["first_order"]["position"].as_f64().unwrap() > 0.0);
     let chosen = doc["chosen"].as_str().unwrap();

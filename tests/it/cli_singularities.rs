@@ -183,7 +183,7 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
         between["groups"].as_array().unwrap().iter().map(|g| g.as_array().unwrap().len()).collect();
     assert_eq!(groups, [20, 20]);
     // 19 ways reach the others of a group from its first
-    assert_eq!(between["ways"].as_array().unwrap().len(), 38);
+    assert_eq!(between["paths"].as_array().unwrap().len(), 38);
     let crossing = between["pairs"].as_array().unwrap().iter().filter(|p| p["straight"] == "crosses").count();
     assert!(crossing > 600 && crossing < 780, "{crossing}");
 }

@@ -210,7 +210,7 @@ fn a_part_with_other_numbers_and_a_digest_that_fits_is_found_by_computing_again(
 
 #[test]
 #[cfg(unix)]
-fn where_there_is_no_room_the_shard_at_work_is_lost_and_nothing_else() {
+fn where_there_is_no_space_the_shard_at_work_is_lost_and_nothing_else() {
     let place = Place::new();
     let plan = place.plan("plan.toml", OFFSETS);
     let folder = place.path("sweep");

@@ -101,12 +101,12 @@ fn lengths_of_one_design_are_taken_to_those_of_the_other() {
     }
     let none = map("designs/rbt-midline.toml", "19.8,18,18,17,14.9,17.8");
     assert_eq!(
-        (&none["lengths"]["to"], none["lengths"]["why_not"].as_str()),
+        (&none["lengths"]["to"], none["lengths"]["reason"].as_str()),
         (&serde_json::Value::Null, Some("the designs have no regular map"))
     );
     // too short for the offsets: a squared length would be negative
     let none = map("designs/rbt-griffis-duffy.toml", "1,1,1,1,1,1");
-    assert!(none["lengths"]["to"].is_null() && none["lengths"]["why_not"].is_string());
+    assert!(none["lengths"]["to"].is_null() && none["lengths"]["reason"].is_string());
     assert_eq!(map("designs/rbt-griffis-duffy.toml", "1,2")["error"]["code"], "map::bad_lengths");
 }
 
@@ -176,7 +176,7 @@ fn the_derivation_is_exact_and_ends_with_forward_kinematics() {
     assert_eq!((code, &d["exact"], &d["sequence"]), (Some(0), &true.into(), &serde_json::Value::Null));
     let of = |step: &serde_json::Value, key: &str| step[key]["exact"].as_str().unwrap().to_owned();
     let first = &d["moves"][0];
-    let numbers = ["share", "rest", "square", "constant"].map(|key| of(first, key));
+    let numbers = ["offset", "rest", "square", "constant"].map(|key| of(first, key));
     assert_eq!(numbers, ["1/5", "4/5", "144", "-576/25"]);
     assert_eq!(of(&d["products"], "rest"), "4096/15625");
     assert_eq!(of(&d["factors"][0], "value"), "819/3125");
@@ -232,7 +232,7 @@ fn the_nearest_octahedral_platform_is_written_with_its_error() {
     let (code, doc) = json(&["equivalents", "nearest", design, "-o", &octahedral, "--beside", &beside]);
     let near = &doc["nearest"];
     let number = |key: &str| near[key].as_f64().unwrap();
-    assert_eq!((code, near["settled"].as_bool()), (Some(0), Some(true)));
+    assert_eq!((code, near["converged"].as_bool()), (Some(0), Some(true)));
     // joining the joints of each pair half-way moves them by half of their distance, 62.4 and 41.6 mm
     let joined = (0.5 * (62.374_f64.powi(2) + 41.6_f64.powi(2))).sqrt();
     assert!(number("rms_displacement") < joined, "{}", number("rms_displacement"));

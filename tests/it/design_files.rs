@@ -3,7 +3,7 @@
 use equipod::methods::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
 use equipod::methods::geom::Pose;
 use equipod::methods::manipulator::{LegLengths, Manipulator};
-use equipod::methods::requirements::{Hardware, JointAxes, LegBody, ListedFrom, Region, Swing};
+use equipod::methods::requirements::{ConeLimits, Hardware, JointAxes, LegBody, ListedFrom, Region};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -133,7 +133,7 @@ prop_compose! {
         design.hardware = Hardware {
             joint_diameter: numbers[3],
             leg_body: numbers[4].map(|diameter| LegBody { diameter, rod: numbers[0].zip(numbers[1]) }),
-            base_swing: numbers[2].map(|x| Swing::of_all(x.min(180.0), JointAxes::Home)),
+            base_cone_angle: numbers[2].map(|x| ConeLimits::of_all(x.min(180.0), JointAxes::Home)),
             max_leg_force: numbers[1],
             ..Hardware::default()
         };

@@ -85,9 +85,9 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
         (&serde_json::json!(["4/5", "1/5", "0", "0", "0", "0"]), &"-576/25".into())
     );
     // (1 - x) 0.02304 = x 0.01536, the products over the other legs
-    assert_eq!(map["singular_shares"][0], "3/5");
+    assert_eq!(map["singular_offsets"][0], "3/5");
     let all = "(1 - t1) (1 - t2) (1 - t3) (1 - t4) (1 - t5) (1 - t6) - t1 t2 t3 t4 t5 t6";
-    assert_eq!(map["det_of_shares"], all);
+    assert_eq!(map["det_of_offsets"], all);
     let table = Command::new(env!("CARGO_BIN_EXE_equipod"))
         .args(["equivalents", "map", "octahedral.toml", "free.toml"])
         .current_dir(folder.path())
@@ -102,7 +102,7 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     let (code, verified) = run(folder.path(), &["verify", "octahedral.toml", "free.toml", "--samples", "2"]);
     assert_eq!((code, verified["proved"].as_bool()), (Some(0), Some(true)), "{verified}");
     assert_eq!(
-        (&verified["map"]["det_exact"], &verified["map"]["det_of_shares"]),
+        (&verified["map"]["det_exact"], &verified["map"]["det_of_offsets"]),
         (&"48/3125".into(), &all.into())
     );
     assert!(verified["deviation_bounds"].is_null(), "no difference");
@@ -120,7 +120,7 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     std::fs::write(folder.path().join("rounded.toml"), rounded).unwrap();
     let (_, map) = run(folder.path(), &["equivalents", "map", "rounded.toml", "free.toml"]);
     assert_eq!((map["det_exact"].as_str(), map["relation"].as_str()), (None, Some("unrelated")));
-    assert!(map["A_exact"].is_null() && map["singular_shares"].is_null() && map["det_of_shares"].is_null());
+    assert!(map["A_exact"].is_null() && map["singular_offsets"].is_null() && map["det_of_offsets"].is_null());
     let (code, verified) = run(folder.path(), &["verify", "rounded.toml", "free.toml", "--samples", "2"]);
     assert_eq!((code, verified["proved"].as_bool()), (Some(1), Some(true)), "proved not to be equivalent");
     // joints that differ by 5e-5 beside a platform of size 12
@@ -207,7 +207,7 @@ fn poses_of_exact_designs_are_certified_and_counted_and_rounded_joints_are_anoth
     std::fs::write(folder.path().join("rounded.toml"), text).unwrap();
     let (code, answer) = solved(folder.path(), "rounded.toml", LENGTHS);
     // the other 24 of 40 are far out, where the joints have moved by rounding
-    let (completeness, far) = (answer["completeness"].as_str(), answer["bounded"]["far"].as_u64());
+    let (completeness, far) = (answer["completeness"].as_str(), answer["bound"]["far"].as_u64());
     assert_eq!((code, answer["finite_count"].as_u64()), (Some(0), Some(16)));
     assert_eq!((completeness, far), (Some("proved_bounded"), Some(24)));
 }

@@ -55,7 +55,8 @@ fn all_say_the_same(text: &str, table: Option<&str>) -> Said {
 
 #[test]
 fn every_door_gives_the_best_offsets() {
-    let text = format!("{}[limits]\nreserve = \"1%\"\n[optimize]\nmin_joint_distance = 2.5\n", at_home());
+    let text =
+        format!("{}[limits]\nsafety_margin = \"1%\"\n[optimize]\nmin_joint_distance = 2.5\n", at_home());
     let (status, value, _) = all_say_the_same(&text, None);
     assert!(["optimal", "feasible"].contains(&status.as_str()) && value.is_some(), "{status}");
 }
@@ -63,10 +64,10 @@ fn every_door_gives_the_best_offsets() {
 #[test]
 #[ignore = "evidence"]
 fn every_door_gives_the_best_platform_under_requirements_and_the_conflict_where_there_is_none() {
-    let reserve = "[limits]\nreserve = \"1%\"\n";
-    assert_eq!(all_say_the_same(&format!("{}{reserve}", limited()), None).0, "best_found");
+    let safety_margin = "[limits]\nsafety_margin = \"1%\"\n";
+    assert_eq!(all_say_the_same(&format!("{}{safety_margin}", limited()), None).0, "best_found");
     let short = required("[hardware]\nleg_length = [9.0, 9.5]\n");
-    assert_eq!(all_say_the_same(&format!("{short}{reserve}"), None).0, "infeasible");
+    assert_eq!(all_say_the_same(&format!("{short}{safety_margin}"), None).0, "infeasible");
 }
 
 #[test]
@@ -74,7 +75,7 @@ fn every_door_gives_the_best_platform_under_requirements_and_the_conflict_where_
 fn every_door_chooses_the_drive_of_the_table_that_the_design_names() {
     let table = "name,stroke,retracted_length,price_EUR\nlong,12,8,40\ntiny,0.1,14,10\ngood,9,9,30\n";
     let text = required(
-        "[hardware]\ndrives = \"struts.csv\"\n[optimize]\nvariables = [\"symmetric_offsets\", \"home_height\"]\n[limits]\nreserve = \"1%\"\n",
+        "[hardware]\ndrives = \"struts.csv\"\n[optimize]\nvariables = [\"symmetric_offsets\", \"home_height\"]\n[limits]\nsafety_margin = \"1%\"\n",
     );
     let (status, _, chosen) = all_say_the_same(&text, Some(table));
     assert_eq!((status.as_str(), chosen.as_deref()), ("best_found", Some("good")));

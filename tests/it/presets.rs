@@ -134,7 +134,7 @@ fn a_preset_with_a_broken_value_is_refused_and_one_with_a_shorter_drive_fails() 
     let found = assess(design.manipulator(), &design.requirements(), &space, &quick());
     let failing: Vec<TermKind> =
         found.margins.iter().filter(|m| m.value < 0.0).map(|m| m.term.kind).collect();
-    assert_eq!(failing, [TermKind::LegTooLong]);
+    assert_eq!(failing, [TermKind::MaxLegLength]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! One question, one function: the commands give the answers of the library.
 
 use equipod::methods::questions::{
-    ExploreOptions, ExploreProgress, ExploreReport, LocusOptions, MoveOptions, MoveWishes, NoMoves,
+    ExploreOptions, ExploreProgress, ExploreReport, LocusOptions, MoveOptions, MoveTargets, NoMoves,
     ReplaceableOptions,
 };
 use equipod::methods::synthesis::components::ComponentOptions;
@@ -46,8 +46,8 @@ fn replaceable_legs_and_the_platforms_made_of_them_are_those_of_the_commands() {
     let said: Vec<usize> = listed.iter().map(|c| c["samples"].as_array().unwrap().len()).collect();
     assert_eq!((answer["count"].as_u64(), said), (Some(drawn.len() as u64), drawn));
 
-    let wishes = MoveWishes { no_shared_joints: true, ..MoveWishes::default() };
-    let found = design.search_moves(&legs.found, &wishes, &MoveSearchOptions::default()).unwrap();
+    let targets = MoveTargets { no_shared_joints: true, ..MoveTargets::default() };
+    let found = design.search_moves(&legs.found, &targets, &MoveSearchOptions::default()).unwrap();
     let (_, answer) = asked(&["equivalents", "move", GRIFFIS_DUFFY, "--search", "--no-shared-joints"]);
     assert_eq!(
         (&answer["outcome"], &answer["explanation"]),

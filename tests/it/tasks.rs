@@ -324,7 +324,7 @@ fn praise_that_assess_does_not_share_is_found_out() {
         assert_eq!(found(praise.clone(), &[("x.toml", false)]), 1, "{praise}");
         assert_eq!(found(praise.clone(), &[("x.toml", false), ("y.toml", true)]), 0, "{praise}");
     }
-    let two = json!({"candidates": [{"fulfilled": true}, {"wishes_fulfilled": true, "fulfilled": false, "assessment": {"met": false}}]});
+    let two = json!({"candidates": [{"fulfilled": true}, {"targets_met": true, "fulfilled": false, "assessment": {"met": false}}]});
     assert_eq!(found(two.clone(), &[("found/1.toml", true), ("found/2.toml", false)]), 0);
     assert_eq!(found(two, &[("found/1.toml", false), ("found/2.toml", true)]), 1);
     for none in [

@@ -93,18 +93,23 @@ fn results_meet_all_requirements_and_share_no_joint() {
 }
 
 #[test]
-fn every_limit_has_a_reserve_which_the_results_keep() {
+fn every_limit_has_a_safety_margin_which_the_results_keep() {
     for (start, result, ..) in PAIRS {
         for (name, design) in [(start, worked(start)), (result, worked(result))] {
             let required = design.requirements();
             let found = margins(&design, 400);
             for margin in &found {
-                let (kind, reserve) = (margin.term.kind, required.reserve(margin.term.kind));
-                assert!(reserve > 0.0, "{name}: {}", kind.code());
-                // rounding of the search, in units of the reserve
-                let kept = margin.value >= reserve * (1.0 - 1e-6);
+                let (kind, safety_margin) = (margin.term.kind, required.safety_margin(margin.term.kind));
+                assert!(safety_margin > 0.0, "{name}: {}", kind.code());
+                // rounding of the search, in units of the safety margin
+                let kept = margin.value >= safety_margin * (1.0 - 1e-6);
                 // starts may miss it: the search exists for this case
-                assert!(kept || name != result, "{name}: {} {} of {reserve}", kind.code(), margin.value);
+                assert!(
+                    kept || name != result,
+                    "{name}: {} {} of {safety_margin}",
+                    kind.code(),
+                    margin.value
+                );
             }
         }
     }
@@ -135,7 +140,7 @@ fn with_separate_joints(design: &Design) -> Design {
 }
 
 #[test]
-fn octahedral_starts_have_no_room_for_twelve_joints() {
+fn octahedral_starts_have_no_space_for_twelve_joints() {
     for (start, result, ..) in PAIRS {
         let design = worked(start);
         if design.base_names().len() == 6 {

@@ -23,7 +23,7 @@ from flint import arb, ctx
 from common import answer, exact, stream
 
 BITS = 200
-KINDS = ["leg_too_short", "leg_too_long", "base_swing", "platform_swing", "leg_speed"]
+KINDS = ["min_leg_length", "max_leg_length", "base_cone_angle", "platform_cone_angle", "leg_speed"]
 
 
 class Doubles:
@@ -117,13 +117,13 @@ def margins(n, design, x):
     found = {kind: [] for kind in KINDS}
     for i, (line, arm) in enumerate(all_legs):
         length = n.sqrt(dot(line, line))
-        found["leg_too_short"].append(length - n.number(limits["leg_length"][0]))
-        found["leg_too_long"].append(n.number(limits["leg_length"][1]) - length)
+        found["min_leg_length"].append(length - n.number(limits["leg_length"][0]))
+        found["max_leg_length"].append(n.number(limits["leg_length"][1]) - length)
         for body, vector in (("base", line), ("platform", back(r, line))):
             axis = [n.number(v) for v in limits[f"{body}_axes"][i]]
             off = cross(vector, axis)
             angle = n.angle(n.sqrt(dot(off, off)), dot(vector, axis)) * 180 / n.pi
-            found[f"{body}_swing"].append(n.number(limits[f"{body}_swing_deg"]) - angle)
+            found[f"{body}_cone_angle"].append(n.number(limits[f"{body}_cone_angle_deg"]) - angle)
         lever = cross(arm, line)
         lever = n.sqrt(dot(lever, lever)) / length
         linear, angular = limits["speed"]
@@ -189,8 +189,8 @@ def random_design(rng):
     design["limits"] = {
         **axes,
         "leg_length": [1.0, 50.0],
-        "base_swing_deg": 170.0,
-        "platform_swing_deg": 170.0,
+        "base_cone_angle_deg": 170.0,
+        "platform_cone_angle_deg": 170.0,
         "max_leg_speed": 100.0,
         "speed": [1.0, 40.0],
     }
@@ -198,9 +198,9 @@ def random_design(rng):
     worst = {kind: min(min(margins(DOUBLES, design, draw(rng, design))[kind]) for _ in range(60)) for kind in KINDS}
     off = lambda: 1 + rng.choice([-1, 1, 1]) * 10 ** rng.uniform(-3, -1)
     limits = design["limits"]
-    limits["leg_length"] = [(1.0 + worst["leg_too_short"]) / off(), (50.0 - worst["leg_too_long"]) * off()]
+    limits["leg_length"] = [(1.0 + worst["min_leg_length"]) / off(), (50.0 - worst["max_leg_length"]) * off()]
     for body in ("base", "platform"):
-        limits[f"{body}_swing_deg"] = min(170.0, (170.0 - worst[f"{body}_swing"]) * off() * 1.05)
+        limits[f"{body}_cone_angle_deg"] = min(170.0, (170.0 - worst[f"{body}_cone_angle"]) * off() * 1.05)
     limits["max_leg_speed"] = (100.0 - worst["leg_speed"]) * off()
     return design
 

@@ -75,7 +75,7 @@ def test_tables_are_read_and_replaced():
     low, high = design.hardware["leg_length"]
     wide = design.replace(hardware={**design.hardware, "leg_length": np.array([low - 1, high + 1])}, name="wide")
     assert wide.name == "wide" and wide.hardware["leg_length"] == [low - 1, high + 1]
-    narrow, wider = (d.margins(d.home).least["leg_too_short"] for d in (design, wide))
+    narrow, wider = (d.margins(d.home).least["min_leg_length"] for d in (design, wide))
     assert wider == pytest.approx(narrow + 1)
     assert wide.replace(hardware=design.hardware, name=design.name) == design
     plain = equipod.Design.load(DESIGNS / "rbt-octahedral.toml")

@@ -434,8 +434,8 @@ def test_margins_at_a_pose_are_signed_distances_to_limits():
     assert margins.values.shape == (len(margins.names),) and set(margins.units)
     assert set(margins.least) <= set(margins.names)
     lengths = design.ik(design.home)
-    short = [k for k, name in enumerate(margins.names) if name == "leg_too_short"]
-    long = [k for k, name in enumerate(margins.names) if name == "leg_too_long"]
+    short = [k for k, name in enumerate(margins.names) if name == "min_leg_length"]
+    long = [k for k, name in enumerate(margins.names) if name == "max_leg_length"]
     room = margins.values[short] + margins.values[long]
     assert np.allclose(room, room[0]) and len(lengths) == len(short)
     batch = design.margins(np.stack([design.home] * 3))
@@ -503,7 +503,7 @@ def test_cranks_have_angles_in_place_of_lengths(tmp_path):
             refused()
 
     margins = head.margins(poses)
-    names = {"rod_too_short", "rod_too_long", "crank_transmission", "crank_angle", "crank_torque"}
+    names = {"min_rod_length", "max_rod_length", "crank_transmission", "crank_angle", "crank_torque"}
     assert set(margins.least) == names and min(margins.least.values()) > 0
     left = margins.values[:, [k for k, name in enumerate(margins.names) if name == "crank_angle"]]
     assert np.allclose(left, np.degrees(found.limit_margin))

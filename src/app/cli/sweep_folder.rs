@@ -67,7 +67,7 @@ fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
         ErrorKind::FileTooLarge => {
             let message = format!("{} cannot be written: {error}", path.display());
             Failure::new(Exit::Internal, "file::disk_full", message)
-                .with_help("make room, or write elsewhere")
+                .with_help("free some space, or write elsewhere")
         }
         _ => files::not_written(&path.display().to_string(), &error),
     }

@@ -167,7 +167,7 @@ fn a_singular_platform_moves_and_a_regular_one_does_not() {
 /// one.
 #[test]
 fn the_first_offsets_meet_the_requirements_at_home() {
-    let required = "[hardware]\njoint_diameter = 1.4\nbase_swing_deg = 30.0\n";
+    let required = "[hardware]\njoint_diameter = 1.4\nbase_cone_angle_deg = 30.0\n";
     for text in [OCTAHEDRAL.to_string(), format!("{OCTAHEDRAL}\n{required}")] {
         let session = session(&text);
         let open = ask(&session, &json!({"op": "open"}));

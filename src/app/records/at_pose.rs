@@ -135,9 +135,9 @@ pub struct StuckLegRecord {
     pub screw: Option<ScrewRecord>,
     /// Poses of that motion with smaller lengths of the leg, up to its limit, a tenth of its length, or the first
     /// singular pose; none for cranks.
-    pub shorter: Vec<LegWayRecord>,
+    pub shorter: Vec<LegPathPoseRecord>,
     /// The same with greater lengths.
-    pub longer: Vec<LegWayRecord>,
+    pub longer: Vec<LegPathPoseRecord>,
 }
 
 /// A turn about an axis with a shift along it.
@@ -153,7 +153,7 @@ pub struct ScrewRecord {
 
 /// A pose with all lengths but one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct LegWayRecord {
+pub struct LegPathPoseRecord {
     /// The distance of the joints of the leg.
     pub length: f64,
     /// The pose in the convention of `frames`.
@@ -304,7 +304,7 @@ impl StuckLegRecord {
         // of an angle a unit is a degree or a radian
         let unit = frames.convention.angle_unit().of_radians(1.0);
         let of_drive = |x: f64| if turns { x.to_degrees() } else { x };
-        let way = |(length, pose): &(f64, Pose)| LegWayRecord {
+        let way = |(length, pose): &(f64, Pose)| LegPathPoseRecord {
             length: *length,
             in_frames: (&frames.write(pose)).into(),
         };

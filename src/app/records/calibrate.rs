@@ -102,7 +102,7 @@ pub struct CalibrationRecord {
     pub after: ResidualsRecord,
     /// Leave-one-out residuals to first order, without outliers: each pose against the machine fitted to the other
     /// poses.
-    pub left_out: ResidualsRecord,
+    pub leave_one_out: ResidualsRecord,
     /// Residuals of the measurements of `--check`; null: there are none.
     pub check: Option<ResidualsRecord>,
     /// Lines of the measurements that the unknowns depend on: without one of them, the unknowns are not determined.
@@ -445,7 +445,7 @@ impl CalibrationRecord {
             observability: ObservabilityRecord::new(design, &found.observability),
             before: residuals(&found.before),
             after: residuals(&found.after),
-            left_out: residuals(&found.left_out),
+            leave_one_out: residuals(&found.left_out),
             check: None,
             indispensable: found.indispensable.iter().map(|k| line(lines, *k)).collect(),
             chi_square: found.chi_square,

@@ -59,7 +59,7 @@ pub struct CheckAnswer {
     /// All linear dependencies of the leg vectors.
     pub dependencies: Vec<DependencyRecord>,
     /// The legs of the first known case, from 1.
-    pub guilty_legs: Option<Vec<usize>>,
+    pub dependent_legs: Option<Vec<usize>>,
     /// The known cases that apply, the most specific first.
     pub cases: Vec<CaseRecord>,
     /// The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
@@ -134,7 +134,7 @@ impl From<&CheckReport> for CheckAnswer {
             witness: (&a.jacobian.witness).into(),
             dependency: dependencies.first().cloned(),
             dependencies,
-            guilty_legs: a.findings.first().map(|f| leg_numbers(&f.legs)),
+            dependent_legs: a.findings.first().map(|f| leg_numbers(&f.legs)),
             cases: a.findings.iter().map(CaseRecord::from).collect(),
             griffis_duffy: a
                 .griffis_duffy

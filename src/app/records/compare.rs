@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::nearest::short;
-use super::{AssessAnswer, JudgedPosesRecord, LightestDriveRecord, Number};
+use super::{AssessAnswer, AssessedPosesRecord, LightestDriveRecord, Number};
 use ask::Design;
 use ask::DesignFigures;
-use files::design::JudgedForces;
+use files::design::AssessedForces;
 
 /// The answer of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,7 +50,7 @@ pub struct FiguresRecord {
     /// The lightest drive that meets the requirements, from the table that the design names; null: it names none.
     pub lightest_drive: Option<LightestDriveRecord>,
     /// The poses of all figures.
-    pub judged: JudgedPosesRecord,
+    pub assessed_poses: AssessedPosesRecord,
     /// Number of poses evaluated for the figures; the assessment and the conditioning use poses of their own.
     pub poses: usize,
     /// Least leg length; null: the legs are rods on cranks.
@@ -137,7 +137,7 @@ impl FiguresRecord {
             assessment: found.assessment.as_ref().map(|report| {
                 AssessAnswer::beside(design, report, characteristic_length).without_assumptions()
             }),
-            judged: design.judged_poses().into(),
+            assessed_poses: design.assessed_poses().into(),
             lightest_drive: None,
             poses: found.poses,
             shortest: Number(shortest),
@@ -168,7 +168,7 @@ impl FiguresRecord {
             platform_radius: Number(found.radius[1]),
             joint_tolerance: number(tolerance),
             no_tolerance,
-            assumptions: design.assumptions_of(JudgedForces {
+            assumptions: design.assumptions_of(AssessedForces {
                 at_rest: found.force.is_some() || found.cranks.is_some_and(|cranks| cranks.torque.is_some()),
                 in_motion: found.motion.speed.is_some() || found.frequency.is_some(),
             }),
@@ -212,7 +212,7 @@ impl CompareAnswer {
         let torque = format!("{force} {length}");
         let mut out = vec![self.words("requirements", |d| {
             d.assessment.as_ref().map(|a| match a.met {
-                Some(true) => a.judged.met_in_words.clone(),
+                Some(true) => a.assessed_poses.met_in_words.clone(),
                 Some(false) => "violated".to_owned(),
                 None => "undecided".to_owned(),
             })
@@ -270,7 +270,7 @@ impl CompareAnswer {
     pub fn verdicts(&self) -> Vec<String> {
         let sentence = |d: &FiguresRecord| match &d.assessment {
             Some(a) => format!("{} {}", d.name, a.explanation),
-            None if d.judged.stated => format!("{} requires nothing", d.name),
+            None if d.assessed_poses.stated => format!("{} requires nothing", d.name),
             None => format!("{} requires nothing; no workspace stated, figures are those at home", d.name),
         };
         self.designs.iter().map(sentence).collect()

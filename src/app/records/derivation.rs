@@ -46,7 +46,7 @@ pub struct LegSlideRecord {
     /// The name of F, the joint that the leg keeps.
     pub fixed: String,
     /// The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
-    pub share: ExactNumberRecord,
+    pub offset: ExactNumberRecord,
     /// The number 1 - t.
     pub rest: ExactNumberRecord,
     /// The squared edge d^2 = |XY|^2, design units squared.
@@ -116,7 +116,7 @@ impl DerivationRecord {
             ends: step.ends.map(|j| original.joint_name(j)),
             moved: original.joint_name(step.moved),
             fixed: original.joint_name(step.fixed),
-            share: number(&step.share),
+            offset: number(&step.share),
             rest: number(&step.rest()),
             square: number(&step.square),
             squares_to_ends: step.squares_to_ends().each_ref().map(number),

@@ -44,7 +44,7 @@ pub struct DriveRecord {
     /// Whether the drive fits: true and false are proved; null: undecided.
     pub fits: Option<bool>,
     /// Whether the safety margin on every limit is kept too: true and false are proved; null: undecided.
-    pub reserve_kept: Option<bool>,
+    pub safety_margin_kept: Option<bool>,
     /// The travel, design units.
     pub stroke: Number,
     /// Least and greatest length from joint centre to joint centre, design units.
@@ -78,7 +78,7 @@ impl DriveRecord {
             name: drive.name.clone(),
             line: drive.line,
             fits: fit.fits(),
-            reserve_kept: fit.keeps_reserve(),
+            safety_margin_kept: fit.keeps_safety_margin(),
             stroke: Number(drive.stroke),
             leg_length: [Number(least), Number(greatest)],
             force: drive.force.map(Number),

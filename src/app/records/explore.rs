@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::nearest::short;
 use super::{
-    AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError, NoRoundingRecord, Number,
-    OptimalityWord, OptimizeAnswer, RidingRecord, SolvedRecord, SymmetryRecord,
+    ActiveBoundsRecord, AssessAnswer, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError,
+    NoRoundingRecord, Number, OptimalityWord, OptimizeAnswer, SolvedRecord, SymmetryRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
 use ask::{ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation};
@@ -174,7 +174,7 @@ pub struct ExploreOctahedralAnswer {
     /// The cost of separate joints: figures of the design and of the platform to build; null: there is none.
     pub price: Option<PriceRecord>,
     /// The result for the default safety margin of 5 % on every limit; null: the design states its own.
-    pub reserve: Option<DefaultReserveRecord>,
+    pub safety_margin: Option<DefaultSafetyMarginRecord>,
     /// The comparison of the design with the optimised platform; null: there is none.
     pub verify: Option<ComparedRecord>,
     /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The
@@ -239,7 +239,7 @@ impl PriceRecord {
 
 /// The result for a default safety margin that the design does not state itself.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct DefaultReserveRecord {
+pub struct DefaultSafetyMarginRecord {
     /// The safety margin on every limit, percent.
     pub percent: f64,
     /// Whether the platform found keeps it. False: no platform with it was found, and the search continued without it.
@@ -248,13 +248,13 @@ pub struct DefaultReserveRecord {
     pub message: String,
 }
 
-impl DefaultReserveRecord {
+impl DefaultSafetyMarginRecord {
     /// The record of a safety margin that is kept or not.
     #[must_use]
     pub fn new(percent: f64, kept: bool) -> Self {
         let message = if kept {
             format!(
-                "a safety margin of {percent} % of every limit is kept by default; `reserve` in [limits] sets another share"
+                "a safety margin of {percent} % of every limit is kept by default; `safety_margin` in [limits] sets another share"
             )
         } else {
             format!(
@@ -344,7 +344,7 @@ pub struct OptimizedRecord {
     /// det A of the leg map; null: the variables leave the equivalence class of the design.
     pub det: Option<Number>,
     /// The active bounds of the platform; null: none.
-    pub riding: Option<RidingRecord>,
+    pub active_bounds: Option<ActiveBoundsRecord>,
 }
 
 impl OptimizedRecord {
@@ -360,7 +360,7 @@ impl OptimizedRecord {
             offsets: p.offsets,
             shifts: p.shifts,
             det: p.det,
-            riding: p.riding.clone(),
+            active_bounds: p.active_bounds.clone(),
         })
     }
 }

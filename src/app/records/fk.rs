@@ -189,7 +189,7 @@ pub struct SolvedRecord {
     pub completeness_reason: String,
     /// The numbers of the proof that the list holds all poses up to a distance; null: another proof, or none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub bounded: Option<BoundedProof>,
+    pub bound: Option<BoundedProof>,
     /// Whether every path is accounted for; false: roots may be missing.
     pub all_paths_accounted: bool,
     /// Number of `solutions`.
@@ -230,7 +230,7 @@ impl From<&FkSolutions> for SolvedRecord {
             method: s.method,
             completeness: s.completeness.word(),
             completeness_reason: s.completeness.to_string(),
-            bounded: match &s.completeness {
+            bound: match &s.completeness {
                 Completeness::ProvedBounded { proof } => Some(proof.clone()),
                 _ => None,
             },

@@ -104,9 +104,9 @@ pub struct IkRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointAnglesRecord {
     /// Joint angles (cone angles) at the base: between each leg and its joint axis, degrees.
-    pub base_swing_deg: [Number; 6],
+    pub base_cone_angle_deg: [Number; 6],
     /// Joint angles (cone angles) at the platform: between each leg and its joint axis, degrees.
-    pub platform_swing_deg: [Number; 6],
+    pub platform_cone_angle_deg: [Number; 6],
     /// Both angles of each universal joint at the base, degrees: `u = Rx(first) Ry(second) n` in the joint frame, with
     /// z along its axis n and x across it.
     pub base_universal_deg: [[Number; 2]; 6],
@@ -141,11 +141,11 @@ pub struct PoseMarginRecord {
 
 impl JointAnglesRecord {
     fn new([base, platform]: &[[JointAngles; 6]; 2]) -> Self {
-        let swing = |all: &[JointAngles; 6]| all.map(|j| Number(j.swing_deg));
+        let cone_angle = |all: &[JointAngles; 6]| all.map(|j| Number(j.cone_angle_deg));
         let universal = |all: &[JointAngles; 6]| all.map(|j| j.universal_deg.map(Number));
         Self {
-            base_swing_deg: swing(base),
-            platform_swing_deg: swing(platform),
+            base_cone_angle_deg: cone_angle(base),
+            platform_cone_angle_deg: cone_angle(platform),
             base_universal_deg: universal(base),
             platform_universal_deg: universal(platform),
         }

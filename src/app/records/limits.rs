@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 use ask::{Design, FreeSize, FreeTurn, PoseFrames, WorkspaceSize};
-use machine::reach::{NearestPose, Reach, StraightWay, Travel};
+use machine::reach::{NearestPose, Reach, StraightPath, Travel};
 use machine::requirements::{Limit, TermKind};
 use platform::geom::{Pose, RotationOrder};
 
@@ -26,7 +26,7 @@ pub struct LimitsAnswer {
     /// is not allowed.
     pub axes: Vec<FreeRangeRecord>,
     /// The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is not allowed.
-    pub way: Option<StraightWayRecord>,
+    pub straight_path: Option<StraightPathRecord>,
     /// The allowed pose nearest to the pose of `--to`, or nearest to the pose of `--at` if that is not allowed. Null:
     /// every requested pose is allowed, or no allowed pose was found.
     pub nearest_allowed: Option<NearestAllowedRecord>,
@@ -45,7 +45,7 @@ pub struct WorkspaceSizeRecord {
     /// from the paths that were followed.
     pub volume: f64,
     /// The relative difference between the volume estimates from every second path and from the others.
-    pub volume_doubt: f64,
+    pub volume_uncertainty: f64,
     /// Number of paths followed.
     pub rays: usize,
     /// The limits that end the paths, the most frequent first.
@@ -153,10 +153,10 @@ impl WorkspaceSizeRecord {
             end.share /= all;
         }
         ends.sort_by(|a, b| b.share.total_cmp(&a.share));
-        let (volume, volume_doubt) = found.volume;
+        let (volume, volume_uncertainty) = found.volume;
         Self {
             volume,
-            volume_doubt,
+            volume_uncertainty,
             rays: found.rays.len(),
             ends,
             ball_radius: size(&found.ball),
@@ -218,7 +218,7 @@ pub struct TravelRecord {
 
 /// The straight path to another pose: the platform origin moves on a line while the platform rotates about one axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StraightWayRecord {
+pub struct StraightPathRecord {
     /// The end of the path.
     pub to: PoseQuaternionRecord,
     /// The free share of the path from its beginning; 1: the whole path.
@@ -296,7 +296,7 @@ impl FreeRangeRecord {
         let written = frames.write(pose);
         let is_vector = convention.order() == RotationOrder::Vector;
         let words = convention.angle_words();
-        let range = |(k, way): (usize, StraightWay)| {
+        let range = |(k, way): (usize, StraightPath)| {
             let (axis, value, unit, of_way): (_, _, _, &dyn Fn(f64) -> f64) = match k.checked_sub(3) {
                 None => (["x", "y", "z"][k].to_owned(), written.position[k], design.units.clone(), &|x| x),
                 // a turn counts from the pose, whose rotation vector does not grow along it
@@ -321,11 +321,11 @@ impl FreeRangeRecord {
     }
 }
 
-impl StraightWayRecord {
+impl StraightPathRecord {
     /// The record of the straight path between two poses.
     #[must_use]
     pub fn new(design: &Design, reach: &Reach<'_>, frames: &PoseFrames, [from, to]: [&Pose; 2]) -> Self {
-        let found = reach.along(&StraightWay::between(from, to), 1.0);
+        let found = reach.along(&StraightPath::between(from, to), 1.0);
         Self {
             to: to.into(),
             free: found.amount,

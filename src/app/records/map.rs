@@ -33,7 +33,7 @@ pub struct MappedLengthsRecord {
     /// The lengths of TO; null: there are none.
     pub to: Option<[Number; 6]>,
     /// The reason why there are none: no regular map, or a squared length that is not positive.
-    pub why_not: Option<String>,
+    pub reason: Option<String>,
 }
 
 /// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
@@ -65,13 +65,13 @@ pub struct MapRecord {
     /// The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     #[serde(rename = "c_exact")]
     pub constants_exact: Option<[String; 6]>,
-    /// The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t. Its row of A
-    /// has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs stay
-    /// fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
-    pub singular_shares: Option<[Option<String>; 6]>,
-    /// det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other legs fixed. TO
+    /// The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t. Its row of
+    /// A has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs
+    /// stay fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
+    pub singular_offsets: Option<[Option<String>; 6]>,
+    /// det A as a polynomial with exact coefficients in the offsets t1 to t6 of all such legs, the other legs fixed. TO
     /// is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is null.
-    pub det_of_shares: Option<String>,
+    pub det_of_offsets: Option<String>,
     /// The largest of the residuals.
     pub residual: Number,
     /// Relative distance of each leg of TO from the span of the legs of FROM.
@@ -117,8 +117,8 @@ impl From<&LegMapOutcome> for MapRecord {
             det_exact: exact.map(|numbers| numbers.determinant.clone()),
             matrix_exact: exact.map(|numbers| numbers.a.clone()),
             constants_exact: exact.map(|numbers| numbers.c.clone()),
-            singular_shares: exact.map(|numbers| numbers.singular_shares.clone()),
-            det_of_shares: exact.and_then(|numbers| numbers.determinant_of_shares.clone()),
+            singular_offsets: exact.map(|numbers| numbers.singular_offsets.clone()),
+            det_of_offsets: exact.and_then(|numbers| numbers.determinant_of_offsets.clone()),
             residual: Number(o.residual),
             residuals: o.residuals.map(Number),
             leg_rank: o.leg_rank,

@@ -9,7 +9,7 @@ use ask::{Design, MoveSearchReport, MovedAtOnce, MovedPlatform, MovesReport, Sea
 use platform::manipulator::Body;
 use synthesis::Relation;
 use synthesis::relocate::search::{
-    self, Hole, HoleAnswer, HoleWord, Placement, SearchVerdict, WishMargin, Wishes,
+    self, Hole, HoleAnswer, HoleWord, Placement, SearchVerdict, TargetMargin, Targets,
 };
 use synthesis::relocate::{MovedLeg, SingularParameters};
 
@@ -194,7 +194,7 @@ pub struct MoveSearchAnswer {
     /// Whether all replaceable legs are known.
     pub complete: bool,
     /// The requested properties.
-    pub wishes: WishesRecord,
+    pub targets: TargetsRecord,
     /// The requested holes for ends of legs.
     pub holes: Vec<HoleRecord>,
     /// The platforms found, best first.
@@ -205,7 +205,7 @@ pub struct MoveSearchAnswer {
 
 /// The requested properties of an equivalent platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct WishesRecord {
+pub struct TargetsRecord {
     /// Whether the fewest shared joints are requested, at best none.
     pub no_shared_joints: bool,
     /// Least distance of two joints, design units.
@@ -222,8 +222,8 @@ pub struct WishesRecord {
     pub characteristic_length: Number,
 }
 
-impl From<&Wishes> for WishesRecord {
-    fn from(w: &Wishes) -> Self {
+impl From<&Targets> for TargetsRecord {
+    fn from(w: &Targets) -> Self {
         Self {
             no_shared_joints: w.no_shared_joints,
             spacing: Number(w.spacing),
@@ -283,7 +283,7 @@ pub struct CandidateRecord {
     /// Whether it has every requested property and is proved to meet the requirements of the design.
     pub fulfilled: bool,
     /// Whether it has every requested property.
-    pub wishes_fulfilled: bool,
+    pub targets_met: bool,
     /// The result of `assess`; null: the design has no requirements, or the legs make no platform.
     pub assessment: Option<AssessAnswer>,
     /// The least margin of a requested property.
@@ -291,7 +291,7 @@ pub struct CandidateRecord {
     /// Number of shared joints.
     pub shared_joints: usize,
     /// The margins of the requested properties.
-    pub margins: Vec<WishMargin>,
+    pub margins: Vec<TargetMargin>,
     /// The origin of each leg.
     pub moves: Vec<PlacementRecord>,
     /// The leg map to the platform.
@@ -337,7 +337,7 @@ impl MoveSearchAnswer {
             patterns_searched: o.searched,
             least_shared_joints: o.least_shared,
             complete: o.complete,
-            wishes: (&o.wishes).into(),
+            targets: (&o.targets).into(),
             holes: o.holes.iter().map(HoleRecord::from).collect(),
             designs: found.platforms.iter().map(|f| CandidateRecord::new(design, f)).collect(),
             paths: Vec::new(),
@@ -367,7 +367,7 @@ impl CandidateRecord {
         });
         Self {
             fulfilled: found.is_fulfilled(),
-            wishes_fulfilled: c.fulfilled,
+            targets_met: c.fulfilled,
             assessment,
             worst: Number(c.worst),
             shared_joints: c.shared_joints,

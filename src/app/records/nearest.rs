@@ -56,7 +56,7 @@ pub struct NearestRecord {
     /// The source of the workspace.
     pub workspace_from: SourceWord,
     /// Whether both fits have converged to a local minimum.
-    pub settled: bool,
+    pub converged: bool,
     /// Number of nearer fits set aside because they give no regular platform.
     pub set_aside: usize,
     /// The platform near the design and equivalent to the octahedral platform; its legs are near the legs of the
@@ -83,7 +83,7 @@ impl NearestRecord {
             deviating_pose: (&poses[worst.pose]).into(),
             poses: poses.len(),
             workspace_from: SourceWord::given(!design.workspace.is_empty()),
-            settled: n.settled,
+            converged: n.settled,
             set_aside: n.set_aside,
             beside: (&near.beside).into(),
             octahedral: (&near.octahedral).into(),

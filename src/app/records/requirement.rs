@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
 use ask::Design;
-use ask::{AssessReport, JudgedPoses};
-use files::design::JudgedForces;
+use ask::{AssessReport, AssessedPoses};
+use files::design::AssessedForces;
 use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use synthesis::singularity::{Regularity, RegularityWord};
 
@@ -17,13 +17,15 @@ pub struct MarginRecord {
     pub name: TermKind,
     /// The least margin over the sampled poses, negative for a violation.
     pub margin: Number,
-    /// The safety margin (reserve) that the design requires for this limit, in the unit of the margin; 0: none.
-    pub reserve: Number,
+    /// The safety margin that the design requires for this limit, in the unit of the margin; 0: none. Programs read this
+    /// field under its first name.
+    #[serde(rename = "reserve")]
+    pub safety_margin: Number,
     /// The margin minus the safety margin.
-    pub margin_with_reserve: Number,
+    pub net_margin: Number,
     /// Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at the sampled
     /// poses.
-    pub reserve_kept: Option<bool>,
+    pub safety_margin_kept: Option<bool>,
     /// Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other answers it
     /// holds at the sampled poses.
     pub met: Option<bool>,
@@ -49,16 +51,16 @@ impl MarginRecord {
         m: &Margin,
         met: Option<bool>,
         (status, below): (MarginVerdict, f64),
-        reserve_kept: Option<bool>,
+        safety_margin_kept: Option<bool>,
     ) -> Self {
-        let reserve = design.requirements().reserve(m.term.kind);
+        let safety_margin = design.requirements().safety_margin(m.term.kind);
         Self {
             name: m.term.kind,
             margin: Number(m.value),
             met,
-            reserve: Number(reserve),
-            margin_with_reserve: Number(m.value - reserve),
-            reserve_kept,
+            safety_margin: Number(safety_margin),
+            net_margin: Number(m.value - safety_margin),
+            safety_margin_kept,
             at_limit: m.standing == Standing::AtLimit,
             status,
             proved_margin: Number(below),
@@ -73,7 +75,7 @@ impl MarginRecord {
     #[must_use]
     pub fn proved(design: &Design, bound: &MarginBound) -> Self {
         let proved = (bound.verdict, bound.below);
-        Self::new(design, &bound.found, bound.verdict.is_met(), proved, bound.keeps_reserve())
+        Self::new(design, &bound.found, bound.verdict.is_met(), proved, bound.keeps_safety_margin())
     }
 
     /// The records of sampled margins without a proof; `met` then means that no violation was found.
@@ -87,7 +89,8 @@ impl MarginRecord {
     pub fn found(design: &Design, m: &Margin) -> Self {
         let met = m.standing.is_met();
         let status = if met { MarginVerdict::Searched } else { MarginVerdict::Violated };
-        let kept = m.value >= design.requirements().reserve(m.term.kind) || m.standing == Standing::AtLimit;
+        let kept =
+            m.value >= design.requirements().safety_margin(m.term.kind) || m.standing == Standing::AtLimit;
         Self::new(design, m, Some(met), (status, f64::NEG_INFINITY), Some(kept))
     }
 
@@ -105,16 +108,16 @@ pub struct AssessAnswer {
     pub name: String,
     /// The role of the design in this answer.
     pub role: DesignRoleWord,
-    /// The verdict for all poses that `judged` names. True: every margin and det J are proved. False: one pose proves a
-    /// violation or a change of sign of det J. Null: neither is proved.
+    /// The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved. False: one pose
+    /// proves a violation or a change of sign of det J. Null: neither is proved.
     pub met: Option<bool>,
     /// The verdict in one sentence.
     pub explanation: String,
     /// The poses assessed.
-    pub judged: JudgedPosesRecord,
+    pub assessed_poses: AssessedPosesRecord,
     /// The verdict for the safety margins. True: every margin is proved to keep its safety margin. False: the given
     /// pose proves the opposite. Null: neither is proved.
-    pub reserve_kept: Option<bool>,
+    pub safety_margin_kept: Option<bool>,
     /// The least margin of each kind.
     pub requirements: Vec<MarginRecord>,
     /// The requirement with the least margin as a share of its limit; null: no requirement has a limit to compare with.
@@ -165,8 +168,8 @@ impl AssessAnswer {
             role: DesignRoleWord::Design,
             met: found.met(),
             explanation: found.to_string(),
-            judged: found.judged.into(),
-            reserve_kept: proof.all_reserved(),
+            assessed_poses: found.assessed_poses.into(),
+            safety_margin_kept: proof.all_keep_safety_margin(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
             tightest: TightestRecord::of(design, found),
             regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
@@ -180,7 +183,7 @@ impl AssessAnswer {
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
             lightest_drive: None,
             assumptions: design
-                .assumptions_of(JudgedForces::of(proof.bounds.iter().map(|b| b.found.term.kind))),
+                .assumptions_of(AssessedForces::of(proof.bounds.iter().map(|b| b.found.term.kind))),
         }
     }
 
@@ -252,7 +255,7 @@ impl DesignRoleWord {
 
 /// The poses of an assessment, with home.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct JudgedPosesRecord {
+pub struct AssessedPosesRecord {
     /// Whether the design states a workspace; otherwise only home is assessed.
     pub stated: bool,
     /// Whether every pose of a region around home is assessed.
@@ -265,8 +268,8 @@ pub struct JudgedPosesRecord {
     pub met_in_words: String,
 }
 
-impl From<JudgedPoses> for JudgedPosesRecord {
-    fn from(judged: JudgedPoses) -> Self {
+impl From<AssessedPoses> for AssessedPosesRecord {
+    fn from(judged: AssessedPoses) -> Self {
         Self {
             stated: judged.are_stated(),
             region: judged.region,

@@ -8,7 +8,7 @@ use super::{AssessAnswer, DesignRecord, Number, PoseErrorRecord};
 use ask::Design;
 use ask::rounding::RoundingWay;
 use machine::manufacture::{
-    ErrorSpread, ExactRounding, Judgement, NearestRounding, NoRounding, NoRoundingWord, RoundedJoint,
+    ErrorSpread, Evaluation, ExactRounding, NearestRounding, NoRounding, NoRoundingWord, RoundedJoint,
 };
 use machine::requirements::{Grid, HoleCircle, HoleCircles, HolePattern};
 use platform::manipulator::Body;
@@ -26,7 +26,7 @@ pub struct RoundAnswer {
     /// Whether origins and angles of the grids are optimised too.
     pub free_grid: bool,
     /// The figures of the given design.
-    pub wanted: Judgement,
+    pub given: Evaluation,
     /// The best rounding that is exactly equivalent to an octahedral platform.
     pub exact: ExactRoundingOutcome,
     /// The rounding of every joint to a hole near its given position.
@@ -187,7 +187,7 @@ pub struct ExactRoundingRecord {
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
     /// The figures of the rounded design.
-    pub judgement: Judgement,
+    pub evaluation: Evaluation,
     /// Statistics of the search.
     pub search: RoundingSearchRecord,
 }
@@ -215,7 +215,7 @@ pub struct NearestRoundingRecord {
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
     /// The figures of the rounded design.
-    pub judgement: Judgement,
+    pub evaluation: Evaluation,
     /// The error of the pose when the formula of the given design is used.
     pub pose_error: RoundingErrorRecord,
     /// Number of joints that are not on the nearest hole.
@@ -282,7 +282,7 @@ impl ExactRoundingOutcome {
             three_fold: e.three_fold,
             fractions: e.fractions.map(|f| f.map(|(k, n)| [k, n])),
             joints: joints(design, &e.joints),
-            judgement: e.judgement.clone(),
+            evaluation: e.evaluation.clone(),
             search: RoundingSearchRecord {
                 triangles: e.pool,
                 complete_to: e.complete_to.map(Number),
@@ -305,7 +305,7 @@ impl NearestRoundingOutcome {
             verdict: (&n.verification).into(),
             map_residual: n.verification.as_ref().ok().map(|v| Number(v.map.residual)),
             joints: joints(design, &n.joints),
-            judgement: n.judgement.clone(),
+            evaluation: n.evaluation.clone(),
             pose_error: RoundingErrorRecord {
                 first_order: n.first_order.into(),
                 first_order_nearest_points: n.first_order_nearest.into(),

@@ -18,11 +18,11 @@ pub struct SingularitiesAnswer {
     /// about the pose; null: no region is given.
     pub regular: Option<RegularityRecord>,
     /// The given pose.
-    pub pose: JudgedPoseRecord,
+    pub pose: PoseFiguresRecord,
     /// The leg lengths, design units.
     pub lengths: [f64; 6],
     /// The real poses with these lengths.
-    pub assembly_modes: Vec<JudgedPoseRecord>,
+    pub assembly_modes: Vec<PoseFiguresRecord>,
     /// Whether every path is accounted for; false: poses may be missing.
     pub assembly_modes_accounted: bool,
     /// A box of regular poses around the pose.
@@ -38,7 +38,7 @@ pub struct SingularitiesAnswer {
 
 /// A pose with figures of its Jacobian.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct JudgedPoseRecord {
+pub struct PoseFiguresRecord {
     /// The pose.
     #[serde(flatten)]
     pub pose: PoseQuaternionRecord,
@@ -188,7 +188,7 @@ pub struct SignPairsRecord {
     /// Groups of assembly modes joined by such paths, numbers from 1.
     pub groups: Vec<Vec<usize>>,
     /// The paths found.
-    pub ways: Vec<WayRecord>,
+    pub paths: Vec<JoiningPathRecord>,
 }
 
 /// The straight path between two assembly modes.
@@ -206,14 +206,14 @@ pub struct SignPairRecord {
 
 /// A path without singular pose between two assembly modes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct WayRecord {
+pub struct JoiningPathRecord {
     /// The numbers of the two modes, from 1.
     pub modes: [usize; 2],
     /// The poses of the path, joined by straight segments.
     pub poses: Vec<PoseQuaternionRecord>,
 }
 
-impl From<&Way> for WayRecord {
+impl From<&Way> for JoiningPathRecord {
     fn from(w: &Way) -> Self {
         Self {
             modes: [w.from + 1, w.to + 1],

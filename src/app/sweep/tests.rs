@@ -80,14 +80,14 @@ fn a_candidate_with_a_drive_is_judged_by_its_limits() {
         let options =
             machine::requirements::AssessOptions::new().points(200).searches(1).seed(1).close(false);
         let found = alone.assess_with(&options, 300).unwrap();
-        let too_long = machine::requirements::TermKind::LegTooLong;
+        let too_long = machine::requirements::TermKind::MaxLegLength;
         let bound = found.proof.bounds.iter().find(|b| b.found.term.kind == too_long).unwrap();
         let said = cell(&sweep, &row, &format!("margin_{}", too_long.code())).as_number().unwrap();
         assert!((said - bound.found.value).abs() <= 1e-12 * said.abs(), "{said} {}", bound.found.value);
         let (written, _) = parse(&sweep.design_text(k as u64).unwrap(), Format::Toml).unwrap();
         assert_eq!(written.hardware.leg_length, Some(drive.lengths));
     }
-    let margin = |k| cell(&sweep, &sweep.row(k).unwrap(), "margin_leg_too_long").as_number().unwrap();
+    let margin = |k| cell(&sweep, &sweep.row(k).unwrap(), "margin_max_leg_length").as_number().unwrap();
     assert!(margin(0) > 0.0 && margin(1) < 0.0, "{} {}", margin(0), margin(1));
 }
 

@@ -13,14 +13,14 @@ use platform::manipulator::Body;
 
 /// The kinds of forces in an answer, which select its assumptions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct JudgedForces {
+pub struct AssessedForces {
     /// Leg forces or crank torques that hold loads.
     pub at_rest: bool,
     /// Forces along motions, or natural frequencies.
     pub in_motion: bool,
 }
 
-impl JudgedForces {
+impl AssessedForces {
     /// Forces in requirements of these kinds.
     pub fn of(kinds: impl IntoIterator<Item = TermKind>) -> Self {
         let mut out = Self { at_rest: false, in_motion: false };
@@ -144,7 +144,7 @@ impl DesignModel {
     }
 
     /// The assumptions of forces at rest and in motion, each sentence once.
-    pub fn assumptions_of(&self, forces: JudgedForces) -> Vec<String> {
+    pub fn assumptions_of(&self, forces: AssessedForces) -> Vec<String> {
         let mut out = if forces.in_motion { self.mass_assumptions() } else { Vec::new() };
         let at_rest = if forces.at_rest { self.weight_assumptions() } else { Vec::new() };
         let further = at_rest.into_iter().filter(|sentence| !out.contains(sentence)).collect::<Vec<_>>();

@@ -35,7 +35,7 @@ pub use edit::{JointError, Written};
 pub use five_legs::{FiveLegs, FiveLegsOrViolations, parse_five_legs};
 pub use keys::SCHEMA;
 pub use likeness::{likeness, nearest_word};
-pub use masses::JudgedForces;
+pub use masses::AssessedForces;
 pub use model::{
     CalibratedNumber, CalibrationTable, Combination, Correlations, DesignModel, NameCount, OptimizeTable,
     SearchTable,

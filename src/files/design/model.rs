@@ -8,7 +8,7 @@ use super::construction::{RealPoint, WrittenHome};
 use super::{Constructions, CrankLimits, DesignExactness, ExactJoint, Workspace, Written};
 use machine::requirements::{
     CrankedLeg, Cranks, Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, Payload, PlateSolid,
-    Plates, PlatformSpeed, PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind,
+    Plates, PlatformSpeed, PlatformStiffness, Quantity, Requirements, SafetyMargins, Term, TermKind,
 };
 use machine::requirements::{KeptSymmetry, Objective, VariableKind};
 use machine::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
@@ -60,8 +60,8 @@ pub struct DesignModel {
     pub plates: Plates,
     /// The file name of the table of drives to choose from, relative to the folder of the design.
     pub drive_table: Option<String>,
-    /// The required reserves of the limits.
-    pub reserves: Reserves,
+    /// The required safety margins of the limits.
+    pub safety_margins: SafetyMargins,
     /// Grids for the joints of base and platform; `None`: any position. If holes are stated, at least one plate has a
     /// grid.
     pub holes: Option<[Option<Grid>; 2]>,
@@ -274,7 +274,7 @@ impl DesignModel {
             envelopes: Envelopes::default(),
             plates: Plates::default(),
             drive_table: None,
-            reserves: Reserves::default(),
+            safety_margins: SafetyMargins::default(),
             holes: None,
             force_units: None,
             mass_units: None,
@@ -315,8 +315,8 @@ impl DesignModel {
         (self.optimize, self.hardware) = (other.optimize, other.hardware);
         (self.speed, self.stiffness) = (other.speed, other.stiffness);
         (self.loads, self.keep_outs) = (other.loads.clone(), other.keep_outs.clone());
-        (self.payload, self.envelopes, self.reserves) =
-            (other.payload, other.envelopes, other.reserves.clone());
+        (self.payload, self.envelopes, self.safety_margins) =
+            (other.payload, other.envelopes, other.safety_margins.clone());
         (self.force_units, self.mass_units) = (other.force_units, other.mass_units);
         self.holes = other.holes;
         self.plates = other.plates.clone();
@@ -564,7 +564,7 @@ impl DesignModel {
             envelopes: self.envelopes,
             plates: self.plates.clone(),
             payload_shape: self.payload.and_then(|p| p.shape),
-            reserves: self.reserves.clone(),
+            safety_margins: self.safety_margins.clone(),
             cranks: self.limits_of_cranks().map(Box::new),
         }
     }
@@ -590,9 +590,9 @@ impl DesignModel {
             legs: legs.try_into().ok()?,
             max_torque: drives.max_torque,
             max_speed_deg: drives.max_speed_deg,
-            least_transmission_deg: drives.least_transmission_deg.unwrap_or(0.0),
-            tip_swing_deg: drives.tip_swing_deg,
-            platform_swing_deg: drives.platform_swing_deg,
+            min_transmission_angle_deg: drives.min_transmission_angle_deg.unwrap_or(0.0),
+            tip_angle_deg: drives.tip_angle_deg,
+            platform_cone_angle_deg: drives.platform_cone_angle_deg,
         })
     }
 

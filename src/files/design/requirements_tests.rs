@@ -20,8 +20,8 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     assert_eq!(h.housing(Body::Platform, 5), Some(Housing::Sphere(0.5)));
     assert_eq!(h.leg_body.unwrap().rod, Some((5.0, 0.2)));
     assert_eq!(h.leg_length, Some(LengthLimits::Stroke { dead: 4.0, stroke: 3.0 }));
-    assert_eq!(h.platform_swing.unwrap().axes, JointAxes::Optimize);
-    let JointAxes::Given(axes) = h.base_swing.unwrap().axes else { panic!("six axes") };
+    assert_eq!(h.platform_cone_angle.unwrap().axes, JointAxes::Optimize);
+    let JointAxes::Given(axes) = h.base_cone_angle.unwrap().axes else { panic!("six axes") };
     assert!((axes[3].into_inner() - nalgebra::Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
     assert_eq!(design.workspace.region, Region::Ellipsoid);
     assert_eq!(design.workspace.trajectory.as_ref().unwrap().file, "path.csv");
@@ -68,8 +68,8 @@ fn what_contradicts_itself_is_refused() {
         ("dead_length = 4\nstroke = 3", "leg_length = 9"),
         ("rod_diameter = 0.2\n", ""),
         ("leg_diameter = 0.4\n", ""),
-        ("base_swing_deg = 45\n", ""),
-        ("base_swing_deg = 45", "base_swing_deg = 200"),
+        ("base_cone_angle_deg = 45\n", ""),
+        ("base_cone_angle_deg = 45", "base_cone_angle_deg = 200"),
         ("platform_axes = \"optimize\"", "platform_axes = \"up\""),
         ("[0.1, 0.2, 0.3], [7, 1, 2]]", "[0, 0, 0], [7, 1]]"),
         ("[0.1, 0.2, 0.3], [7, 1, 2]]", "[7, 1, 2]]"),
@@ -120,8 +120,8 @@ fn what_contradicts_itself_is_refused() {
 23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
 22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
 24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
-28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg` or universal joints, or remove `base_axes`
-28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
+28:1 design::missing_key: `base_axes` without `base_cone_angle_deg` | add `base_cone_angle_deg` or universal joints, or remove `base_axes`
+28:18 design::out_of_range: `base_cone_angle_deg` is 200 | stay within 180 degrees
 31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
 29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
 29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components
@@ -177,14 +177,14 @@ inertia = [[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5]]
 base = { radius = 90 }
 platform = { radius = 50, center = [1, 2] }
 machine = { min = [-90, -90, -5], max = [90, 90, 180] }
-[limits.reserve]
+[limits.safety_margin]
 all = "5%"
 leg_force = "10%"
-leg_too_long = 0.5
+max_leg_length = 0.5
 "#;
 
 #[test]
-fn payload_envelopes_and_reserves_are_read_and_written_back_to_the_bit() {
+fn payload_envelopes_and_safety_margins_are_read_and_written_back_to_the_bit() {
     let named =
         GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"kN\"\nmass_units = \"t\"", 1);
     let (design, _) = parse(&format!("{named}{WANTED}"), Format::Toml).unwrap();
@@ -192,28 +192,28 @@ fn payload_envelopes_and_reserves_are_read_and_written_back_to_the_bit() {
     assert_eq!((required.loads.len(), required.loads[0].name.as_str()), (3, "payload"));
     assert!((required.loads[0].force.z + 300.0 * GRAVITY).abs() < 1e-9, "tonnes weigh kilonewtons");
     assert_eq!(design.unit_of(Quantity::Force), "kN");
-    assert_eq!(required.reserve(TermKind::LegTooLong), 0.5);
-    assert!((required.reserve(TermKind::LegForce) - 50.0).abs() < 1e-12);
-    assert!((required.reserve(TermKind::LegTooShort) - 0.15).abs() < 1e-12, "5 percent of the travel");
-    assert!((required.reserve(TermKind::BaseEnvelope) - 4.5).abs() < 1e-12);
+    assert_eq!(required.safety_margin(TermKind::MaxLegLength), 0.5);
+    assert!((required.safety_margin(TermKind::LegForce) - 50.0).abs() < 1e-12);
+    assert!((required.safety_margin(TermKind::MinLegLength) - 0.15).abs() < 1e-12, "5 percent of the travel");
+    assert!((required.safety_margin(TermKind::BaseEnvelope) - 4.5).abs() < 1e-12);
     assert!(matches!(required.envelopes.machine, Some(Envelope::Box { .. })));
     for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
         assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
     }
     // one percentage for everything
-    let all = format!("{GOOD}[limits]\nreserve = \"2.5%\"\n");
+    let all = format!("{GOOD}[limits]\nsafety_margin = \"2.5%\"\n");
     let (design, _) = parse(&all, Format::Toml).unwrap();
-    assert_eq!((design.reserves.all, design.reserves.kinds.len()), (Some(2.5), 0));
+    assert_eq!((design.safety_margins.all, design.safety_margins.kinds.len()), (Some(2.5), 0));
     assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
     // lengths follow the unit; percentages and newtons do not
     let (design, _) =
         parse(&format!("{}{WANTED}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)), Format::Toml)
             .unwrap();
     let metres = design.in_units("m").unwrap();
-    assert_eq!(metres.requirements().reserve(TermKind::LegTooLong), 0.0005);
+    assert_eq!(metres.requirements().safety_margin(TermKind::MaxLegLength), 0.0005);
     assert_eq!(
-        metres.requirements().reserve(TermKind::LegForce),
-        design.requirements().reserve(TermKind::LegForce)
+        metres.requirements().safety_margin(TermKind::LegForce),
+        design.requirements().safety_margin(TermKind::LegForce)
     );
     let Some(Envelope::Cylinder { radius, center }) = metres.envelopes.platform else { panic!("a cylinder") };
     assert_eq!((radius, center), (0.05, [0.001, 0.002]));
@@ -224,7 +224,7 @@ fn payload_envelopes_and_reserves_are_read_and_written_back_to_the_bit() {
 }
 
 #[test]
-fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
+fn payloads_envelopes_and_safety_margins_that_are_none_are_refused() {
     let mut all = String::new();
     for (from, to) in [
         ("mass = 300", "weight = 300"),
@@ -239,8 +239,8 @@ fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
         ("max = [90, 90, 180]", "max = [90, -90, 180]"),
         ("all = \"5%\"", "all = 5"),
         ("leg_force = \"10%\"", "leg_force = \"110%\""),
-        ("leg_too_long = 0.5", "leg_long = 0.5"),
-        ("leg_too_long = 0.5", "leg_too_long = -0.5"),
+        ("max_leg_length = 0.5", "leg_long = 0.5"),
+        ("max_leg_length = 0.5", "max_leg_length = -0.5"),
     ] {
         assert!(WANTED.contains(from), "{from}");
         match parse(&format!("{GOOD}{}", WANTED.replacen(from, to, 1)), Format::Toml) {
@@ -262,7 +262,7 @@ max = [90, -90, 180]: design::out_of_range
 all = 5: design::wrong_type
 leg_force = "110%": design::out_of_range
 leg_long = 0.5: design::unknown_key
-leg_too_long = -0.5: design::not_positive
+max_leg_length = -0.5: design::not_positive
 "#
     );
     let units = GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"newton\"", 1);
@@ -412,7 +412,7 @@ platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1
             .iter()
             .all(|a| (a.unwrap().into_inner() - nalgebra::Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-15)
     );
-    assert!(matches!(base.axes, JointAxes::Given(_)), "the axes that swing has");
+    assert!(matches!(base.axes, JointAxes::Given(_)), "the axes of the cone angles");
     let platform = design.hardware.platform_universal.unwrap();
     assert_eq!((platform.limits_deg, platform.axes), ([None; 6], JointAxes::Home));
     assert!((platform.first_axes[2].unwrap().x - 0.5f64.sqrt()).abs() < 1e-15);
@@ -423,7 +423,7 @@ platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1
         };
         assert_eq!(parse_with_cranks(&text, format).unwrap().0, design, "{text}");
     }
-    // flexures bend within the swing and are ideal joints
+    // flexures bend within the cone angle and are ideal joints
     let flexure = format!("{JOINTS}platform_joint = {{ model = \"flexure\", bending_stiffness = 7e3 }}\n");
     let design = parse(&GOOD.replacen(JOINTS, &flexure, 1), Format::Toml).unwrap().0;
     assert_eq!((design.hardware.platform_bending, design.hardware.base_bending), ([Some(7e3); 6], [None; 6]));
@@ -437,10 +437,10 @@ platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1
 const PER_LEG: &str = "base_joint = [
   { model = \"universal\", first_axis = [3, 0, 4], angle_deg = [120, 40.5] },
   { model = \"ball\" },
-  { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 60], swing_deg = 170 },
-  { model = \"ball\", swing_deg = 12, housing = 0.375 },
+  { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 60], cone_angle_deg = 170 },
+  { model = \"ball\", cone_angle_deg = 12, housing = 0.375 },
   { model = \"universal\", first_axis = [0, 1, 0] },
-  { model = \"flexure\", bending_stiffness = 7e3, swing_deg = 3.5, housing = [0.25, 0.5, 0.75] },
+  { model = \"flexure\", bending_stiffness = 7e3, cone_angle_deg = 3.5, housing = [0.25, 0.5, 0.75] },
 ]
 ";
 
@@ -460,8 +460,8 @@ fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
     assert_eq!(h.base_joint_housing, [None, None, None, Some(Housing::Sphere(0.375)), None, Some(block)]);
     assert_eq!(h.platform_joint_housing, [None; 6]);
     // the limit of the body applies to legs without their own
-    assert_eq!(h.base_swing.unwrap().limits_deg, [45.0, 45.0, 170.0, 12.0, 45.0, 3.5]);
-    assert_eq!(h.platform_swing.unwrap().limits_deg, [60.0; 6]);
+    assert_eq!(h.base_cone_angle.unwrap().limits_deg, [45.0, 45.0, 170.0, 12.0, 45.0, 3.5]);
+    assert_eq!(h.platform_cone_angle.unwrap().limits_deg, [60.0; 6]);
     for format in [Format::Toml, Format::Json] {
         let text = match format {
             Format::Toml => design.to_toml(),
@@ -470,12 +470,12 @@ fn kinds_of_joints_per_leg_are_read_scaled_and_written_back_to_the_bit() {
         assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
     }
     // without a limit of the body the others have none
-    let free = GOOD.replacen(JOINTS, PER_LEG, 1).replacen("base_swing_deg = 45\n", "", 1);
+    let free = GOOD.replacen(JOINTS, PER_LEG, 1).replacen("base_cone_angle_deg = 45\n", "", 1);
     let free = parse(&free, Format::Toml).unwrap().0;
-    assert_eq!(free.hardware.base_swing.unwrap().limits_deg, [180.0, 180.0, 170.0, 12.0, 180.0, 3.5]);
+    assert_eq!(free.hardware.base_cone_angle.unwrap().limits_deg, [180.0, 180.0, 170.0, 12.0, 180.0, 3.5]);
     assert_eq!(parse(&free.to_toml(), Format::Toml).unwrap().0, free, "{}", free.to_toml());
     // six equal tables are one
-    let ball = "{ model = \"ball\", swing_deg = 45 }, ".repeat(6);
+    let ball = "{ model = \"ball\", cone_angle_deg = 45 }, ".repeat(6);
     let same = parse(&GOOD.replacen(JOINTS, &format!("base_joint = [{ball}]\n"), 1), Format::Toml).unwrap().0;
     let plain = parse(&GOOD.replacen(JOINTS, "", 1), Format::Toml).unwrap().0;
     assert_eq!(same.hardware, plain.hardware);
@@ -497,12 +497,12 @@ fn faults_of_kinds_of_joints_per_leg_are_refused_at_their_place() {
     let model = |new: &str| line_of(last, new);
     assert_eq!(model("{ model = \"cardan\" }"), ["+2 design::wrong_type `model` is \"cardan\""]);
     assert_eq!(
-        model("{ swing_deg = 3 }"),
+        model("{ cone_angle_deg = 3 }"),
         ["+2 design::missing_key `model` of `base_joint` of leg 2 in [hardware] is missing"]
     );
     assert_eq!(model("{ model = \"ball\", offset = 1 }").len(), 1);
-    assert!(model("{ model = \"ball\", swing_deg = 200 }")[0].starts_with("+2 design::out_of_range"));
-    assert!(model("{ model = \"ball\", swings = 20 }")[0].starts_with("+2 design::unknown_key"));
+    assert!(model("{ model = \"ball\", cone_angle_deg = 200 }")[0].starts_with("+2 design::out_of_range"));
+    assert!(model("{ model = \"ball\", cone_angles = 20 }")[0].starts_with("+2 design::unknown_key"));
     assert!(model("\"ball\"")[0].starts_with("+2 design::wrong_type"));
     // five tables, six directions for one joint, an axis along the first axis
     assert!(
@@ -522,8 +522,8 @@ fn faults_of_kinds_of_joints_per_leg_are_refused_at_their_place() {
         "{offset:?}"
     );
     // a flexure without any greatest angle, and a lead of legs that turn freely
-    let text = GOOD.replacen(JOINTS, &PER_LEG.replacen(", swing_deg = 3.5", "", 1), 1).replacen(
-        "base_swing_deg = 45\n",
+    let text = GOOD.replacen(JOINTS, &PER_LEG.replacen(", cone_angle_deg = 3.5", "", 1), 1).replacen(
+        "base_cone_angle_deg = 45\n",
         "",
         1,
     );
@@ -561,7 +561,7 @@ fn kinds_of_joints_that_say_too_little_or_too_much_are_refused() {
         let violations = parse_with_cranks(&GOOD.replacen(JOINTS, line, 1), Format::Toml).unwrap_err();
         assert!(violations.iter().all(|v| v.code == code) && violations.len() < 3, "{line} {violations:?}");
     }
-    let without = GOOD.replacen("platform_swing_deg = 60\n", "", 1);
+    let without = GOOD.replacen("platform_cone_angle_deg = 60\n", "", 1);
     let flexure = "platform_joint = { model = \"flexure\", bending_stiffness = 2 }\n";
     let violations = parse(&without.replacen(JOINTS, flexure, 1), Format::Toml).unwrap_err();
     assert_eq!(violations[0].code, Code::MissingKey, "a flexure without a greatest angle");
@@ -792,36 +792,37 @@ fn axes_are_normals_vectors_or_both() {
             .replacen("platform_axes = \"optimize\"", platform, 1);
         parse(&text, Format::Toml).unwrap().0
     };
-    let given = |swing: Option<machine::requirements::Swing>| {
-        let JointAxes::Given(axes) = swing.unwrap().axes else { panic!("axes are known") };
+    let given = |cone_angle: Option<machine::requirements::ConeLimits>| {
+        let JointAxes::Given(axes) = cone_angle.unwrap().axes else { panic!("axes are known") };
         axes.map(nalgebra::Unit::into_inner)
     };
     let design = with("base_axes = \"normal\"", "platform_axes = [0, 3, 4]");
     let h = design.hardware;
     let home = design.home_or_default();
-    for (leg, normal) in design.manipulator().legs().iter().zip(given(h.base_swing)) {
+    for (leg, normal) in design.manipulator().legs().iter().zip(given(h.base_cone_angle)) {
         let joints = design.manipulator().base_joints();
         assert!(joints.iter().all(|p| (p - joints[0]).dot(&normal).abs() < 1e-12), "{normal}");
         assert!((home.transform(&leg.platform) - leg.base).dot(&normal) > 0.0, "towards the platform");
     }
     let tilted = nalgebra::Vector3::new(0.0, 0.6, 0.8);
-    assert!(given(h.platform_swing).iter().all(|axis| (axis - tilted).norm() < 1e-15));
+    assert!(given(h.platform_cone_angle).iter().all(|axis| (axis - tilted).norm() < 1e-15));
     // joint angles count from them, in `assess` and `ik` alike
     let required = design.requirements();
     let terms = machine::requirements::Terms::new(design.manipulator(), &required, &home);
     let margins = terms.at(&home);
     for (i, leg) in design.manipulator().legs().iter().enumerate() {
         let line = home.transform(&leg.platform) - leg.base;
-        let swing = line.angle(&given(h.base_swing)[i]).to_degrees();
-        let margin = margins.iter().find(|(t, _)| t.kind == TermKind::BaseSwing && t.first == i).unwrap().1;
-        assert!((margin - (45.0 - swing)).abs() < 1e-9, "{margin} {swing}");
+        let cone_angle = line.angle(&given(h.base_cone_angle)[i]).to_degrees();
+        let margin =
+            margins.iter().find(|(t, _)| t.kind == TermKind::BaseConeAngle && t.first == i).unwrap().1;
+        assert!((margin - (45.0 - cone_angle)).abs() < 1e-9, "{margin} {cone_angle}");
     }
     let mixed = with(
         "base_axes = [\"normal\", [1, 0, 0], \"normal\", [0, 1, 0], [0, 0, 1], \"normal\"]",
         "platform_axes = \"normal\"",
     );
-    let axes = given(mixed.hardware.base_swing);
-    assert_eq!((axes[0], axes[1]), (given(h.base_swing)[0], nalgebra::Vector3::x()));
+    let axes = given(mixed.hardware.base_cone_angle);
+    assert_eq!((axes[0], axes[1]), (given(h.base_cone_angle)[0], nalgebra::Vector3::x()));
     assert_eq!(axes[2], axes[5]);
     for design in [design, mixed] {
         assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
@@ -910,7 +911,7 @@ fn assumptions_name_what_has_no_mass() {
     };
     let payload = "[payload]\nmass = 30\n";
     let said = |text: &str, at_rest, in_motion| {
-        design(text).assumptions_of(super::JudgedForces { at_rest, in_motion })
+        design(text).assumptions_of(super::AssessedForces { at_rest, in_motion })
     };
     assert_eq!(said(&plain, false, false), Vec::<String>::new());
     let of_legs = said(&plain, true, false);

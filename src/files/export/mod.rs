@@ -121,9 +121,9 @@ pub enum Unsupported {
     NotIdeal,
     /// The format has one greatest angle for all joints of a body.
     #[error(
-        "the joints of the {0} have different greatest angles (`swing_deg`), and the format has one for all joints of a body"
+        "the joints of the {0} have different greatest angles (`cone_angle_deg`), and the format has one for all joints of a body"
     )]
-    SwingOfLegs(Body),
+    ConeOfLegs(Body),
     /// A rod is along the axis of its crank at home.
     #[error("the rod of leg {leg} is along the axis of its crank at home, where the crank does not move it")]
     RodAlongAxis {

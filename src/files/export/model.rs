@@ -99,9 +99,9 @@ pub struct ExportCranks {
     /// Greatest torque of a crank, newton metres, if the design limits it.
     pub greatest_torque: Option<f64>,
     /// Cone angle of the joints at the tips, out of the planes of the cranks, radians, if the design limits it.
-    pub tip_swing: Option<f64>,
+    pub tip_angle: Option<f64>,
     /// Cone angle of the joints at the platform, from the rod directions at home, radians, if the design limits it.
-    pub platform_swing: Option<f64>,
+    pub platform_cone_angle: Option<f64>,
 }
 
 impl ExportCranks {
@@ -117,8 +117,8 @@ impl ExportCranks {
             platform,
             home_angles,
             greatest_torque: limits.max_torque.map(|t| t * torque_unit),
-            tip_swing: limits.tip_swing_deg.map(f64::to_radians),
-            platform_swing: limits.platform_swing_deg.map(f64::to_radians),
+            tip_angle: limits.tip_angle_deg.map(f64::to_radians),
+            platform_cone_angle: limits.platform_cone_angle_deg.map(f64::to_radians),
         }))
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct JointSort {
     /// The name of the model, or the names of several joints about one centre.
     pub(super) models: String,
     /// Greatest joint angle, degrees; `None` without a limit, or if joints about one centre differ.
-    pub(super) swing_deg: Option<f64>,
+    pub(super) cone_angle_deg: Option<f64>,
     /// Its housing, or the widest about one centre; `None` if the design gives none.
     pub(super) housing: Option<Housing>,
 }
@@ -35,8 +35,8 @@ impl JointSort {
                 format!("housing: box of {} mm", edges.join(" x "))
             }
         });
-        let swing = self.swing_deg.map(|deg| format!("swings by {} deg", real(deg)));
-        [housing, swing].into_iter().flatten().collect::<Vec<_>>().join("; ")
+        let cone_angle = self.cone_angle_deg.map(|deg| format!("cone angle {} deg", real(deg)));
+        [housing, cone_angle].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -122,9 +122,10 @@ impl Export {
                 } else {
                     format!("{}, {}", JOINTS[k], kind.models)
                 };
-                let swing =
-                    kind.swing_deg.map_or_else(String::new, |deg| format!("swings by {} deg; ", real(deg)));
-                let line = PartLine::new(name, names.len(), format!("{swing}{}", names.join(" ")));
+                let cone_angle = kind
+                    .cone_angle_deg
+                    .map_or_else(String::new, |deg| format!("cone angle {} deg; ", real(deg)));
+                let line = PartLine::new(name, names.len(), format!("{cone_angle}{}", names.join(" ")));
                 // the body has one ball size, which fits into each of its housings
                 let differ = kinds.iter().any(|(other, _)| other.housing != kind.housing);
                 let own = kind.housing.filter(|_| differ).map(|h| h.least_width());
@@ -181,10 +182,10 @@ impl Export {
     /// The joint of a leg at a body.
     fn joint_of(&self, body: Body, leg: usize) -> JointSort {
         let h = &self.hardware;
-        let swing = body.of((h.base_swing, h.platform_swing));
+        let cone_angle = body.of((h.base_cone_angle, h.platform_cone_angle));
         JointSort {
             models: h.joint_kind(body, leg).name().to_owned(),
-            swing_deg: swing.map(|s| s.limits_deg[leg]).filter(|deg| *deg < 180.0),
+            cone_angle_deg: cone_angle.map(|s| s.limits_deg[leg]).filter(|deg| *deg < 180.0),
             housing: h.housing(body, leg),
         }
     }
@@ -207,13 +208,13 @@ impl Export {
                     sorts.push(sort);
                 }
             }
-            let swing_deg = sorts.first().and_then(|s| s.swing_deg).filter(|_| sorts.len() == 1);
+            let cone_angle_deg = sorts.first().and_then(|s| s.cone_angle_deg).filter(|_| sorts.len() == 1);
             let housing = sorts
                 .iter()
                 .filter_map(|s| s.housing)
                 .max_by(|a, b| a.greatest_width().total_cmp(&b.greatest_width()));
             let models = sorts.into_iter().map(|s| s.models).collect::<Vec<_>>().join(" and ");
-            let sort = JointSort { models, swing_deg, housing };
+            let sort = JointSort { models, cone_angle_deg, housing };
             match kinds.iter_mut().find(|(known, _)| *known == sort) {
                 Some((_, names)) => names.push(joint.name.as_str()),
                 None => kinds.push((sort, vec![joint.name.as_str()])),

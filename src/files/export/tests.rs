@@ -7,7 +7,7 @@ use super::text::real;
 use super::triangulate::triangulate;
 use super::*;
 use crate::design::{DesignModel, Format, parse};
-use machine::requirements::{Housing, JointAxes, LegBody, LengthLimits, Swing};
+use machine::requirements::{ConeLimits, Housing, JointAxes, LegBody, LengthLimits};
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
@@ -324,8 +324,8 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     let height = text.split("type=\"plane\"").nth(1).and_then(|l| l.split("pos=\"0 0 ").nth(1)).unwrap();
     let height: f64 = height.split('"').next().unwrap().parse().unwrap();
     assert!(height < -0.5 * limited.bodies[0].ball_diameter * 1e-3 && height > -0.1, "{height}");
-    let swing = real(limited.hardware.base_swing.unwrap().limits_deg[0].to_radians());
-    assert_eq!(text.matches(&format!(" range=\"-{swing} {swing}\"")).count(), 12);
+    let cone_angle = real(limited.hardware.base_cone_angle.unwrap().limits_deg[0].to_radians());
+    assert_eq!(text.matches(&format!(" range=\"-{cone_angle} {cone_angle}\"")).count(), 12);
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn legs_that_are_equal_are_places_of_one_part_and_joints_say_what_they_are() {
     parts.sort_unstable();
     parts.dedup();
     assert_eq!(parts.len(), count, "two parts of one name: {parts:?}");
-    assert!(text.contains("PRODUCT('ball joint of the base','ball joint of the base','housing: ball of 40.0 mm; swings by 30.0 deg',"), "{text}");
+    assert!(text.contains("PRODUCT('ball joint of the base','ball joint of the base','housing: ball of 40.0 mm; cone angle 30.0 deg',"), "{text}");
     // the legs of an octahedral platform above the middle of its base have one length
     let equal = self::export(include_str!("../../../designs/worked/simulator-300kg.toml"));
     assert_eq!(equal.leg_kinds().len(), 1, "{:?}", equal.leg_kinds());
@@ -390,9 +390,9 @@ fn legs_that_are_equal_are_places_of_one_part_and_joints_say_what_they_are() {
     assert_eq!((products(&text, "cylinder"), products(&text, "rod, kind")), (1, kinds));
     // other joints at one leg: that body has two parts
     let mut mixed = design(SYMMETRIC);
-    mixed.hardware.base_swing = Some(Swing::of_all(20.0, JointAxes::Home));
-    if let Some(swing) = &mut mixed.hardware.base_swing {
-        swing.limits_deg[2] = 25.0;
+    mixed.hardware.base_cone_angle = Some(ConeLimits::of_all(20.0, JointAxes::Home));
+    if let Some(cone_angle) = &mut mixed.hardware.base_cone_angle {
+        cone_angle.limits_deg[2] = 25.0;
     }
     let text = text_of(&export_with(&mixed, &ExportOptions::default()), "step", "platform.step");
     assert!(text.contains("'ball joint of the base, kind 2'") && text.contains("'leg, kind 2'"), "{text}");

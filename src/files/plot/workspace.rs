@@ -261,7 +261,10 @@ mod tests {
             side,
             margins: (0..side * side).map(|k| if inside(column(k)) { 0.1 } else { -0.1 }).collect(),
             worst: (0..side * side).map(|k| Some(usize::from(column(k) < 10))).collect(),
-            limits: vec![limit("leg_too_long", "leg too long"), limit("leg_too_short", "leg <2> too short")],
+            limits: vec![
+                limit("max_leg_length", "leg too long"),
+                limit("min_leg_length", "leg <2> too short"),
+            ],
             required: None,
             home: ((0.0, 0.0), "home".into()),
         }
@@ -271,8 +274,8 @@ mod tests {
     fn every_limit_has_its_region_and_its_line_in_the_legend() {
         let text = workspace_slice(&figure());
         // a strip a row for each, and one in the legend
-        assert_eq!(text.matches("class=\"leg_too_long\"").count(), 32);
-        assert_eq!(text.matches("class=\"leg_too_short\"").count(), 32);
+        assert_eq!(text.matches("class=\"max_leg_length\"").count(), 32);
+        assert_eq!(text.matches("class=\"min_leg_length\"").count(), 32);
         assert_eq!(text.matches("class=\"boundary\"").count(), 3);
         assert!(text.contains(">leg &lt;2&gt; too short</text>"));
     }

@@ -30,7 +30,7 @@ pub use error_map::{ErrorAtPose, ErrorParts, MachineErrors, error_map, errors_at
 pub use joint::{Joint, displaced, joints};
 pub use rounding::holes_turn;
 pub use rounding::{
-    ExactRounding, Judgement, LeastMargin, NearestRounding, NoRounding, NoRoundingWord, RoundedJoint,
+    Evaluation, ExactRounding, LeastMargin, NearestRounding, NoRounding, NoRoundingWord, RoundedJoint,
     Rounding, RoundingProblem, round_to_grid,
 };
 pub use sample::{ErrorBound, ErrorKind, PoseSearch, ToleranceError};

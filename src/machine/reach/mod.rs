@@ -1,6 +1,6 @@
 //! Free travel of the platform from a pose until a requirement binds, and the allowed pose nearest to a given one.
 //!
-//! On a [`StraightWay`] every joint of the platform moves with a speed and an acceleration that are known beforehand.
+//! On a [`StraightPath`] every joint of the platform moves with a speed and an acceleration that are known beforehand.
 //! So the rate of each margin is bounded, and [`Reach::along`] takes steps over which no margin can reach zero.
 //! `docs/theory/reach.md` has the bounds.
 
@@ -20,7 +20,7 @@ use platform::manipulator::{Leg, Manipulator};
 pub use nearest::{NearestPose, NearestPoseOptions};
 pub use rays::{FreeRay, largest_box_within, volume_of_rays};
 pub use surface::ReachedSurface;
-pub use way::{PoseAxis, StraightWay};
+pub use way::{PoseAxis, StraightPath};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
 const SINGULAR: f64 = 1e-12;
@@ -142,7 +142,7 @@ impl<'a> Reach<'a> {
     /// stiffness, natural frequency and the sign of `det J` are sampled at every step. Steps are at most a fiftieth of
     /// the size.
     #[must_use]
-    pub fn along(&self, way: &StraightWay, most: f64) -> Travel {
+    pub fn along(&self, way: &StraightPath, most: f64) -> Travel {
         let fastest = step::fastest(way, &self.legs).max(f64::MIN_POSITIVE);
         let [longest, shortest, resolution] =
             [LONGEST, SHORTEST, RESOLUTION].map(|x| x * self.size / fastest);
@@ -172,7 +172,7 @@ impl<'a> Reach<'a> {
     /// The end of the way between an allowed and a forbidden place.
     fn between(
         &self,
-        way: &StraightWay,
+        way: &StraightPath,
         mut met: f64,
         mut violated: f64,
         resolution: f64,
@@ -202,7 +202,7 @@ impl<'a> Reach<'a> {
     pub fn free_ranges(&self, pose: &Pose) -> Option<[FreeRange; 6]> {
         self.allows(pose).then(|| {
             PoseAxis::ALL.map(|axis| {
-                let [back, forth] = self.both_ways(&StraightWay::axis(pose, axis));
+                let [back, forth] = self.both_ways(&StraightPath::axis(pose, axis));
                 FreeRange { axis, back, forth }
             })
         })
@@ -210,7 +210,7 @@ impl<'a> Reach<'a> {
 
     /// The free travel of a way backwards and forwards: over half a turn where the platform turns, else over ten sizes.
     #[must_use]
-    pub fn both_ways(&self, way: &StraightWay) -> [Travel; 2] {
+    pub fn both_ways(&self, way: &StraightPath) -> [Travel; 2] {
         let most = if way.turn.norm() > 0.0 { std::f64::consts::PI } else { FARTHEST * self.size };
         [self.along(&way.reversed(), most), self.along(way, most)]
     }
@@ -218,7 +218,7 @@ impl<'a> Reach<'a> {
     /// Distance of two poses: `sqrt(|p - p'|^2 + (L angle)^2)` with the length `L` of [`Reach::new`].
     #[must_use]
     pub fn distance(&self, from: &Pose, to: &Pose) -> f64 {
-        let way = StraightWay::between(from, to);
+        let way = StraightPath::between(from, to);
         way.velocity.norm().hypot(self.length * way.turn.norm())
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Rotation3, Vector6};
 
 use super::projection::{HalfSpace, project};
-use super::{Reach, StraightWay};
+use super::{Reach, StraightPath};
 use crate::requirements::Limit;
 use num::{Purpose, Rng};
 use platform::geom::Pose;
@@ -57,7 +57,7 @@ pub struct NearestPose {
     /// Whether the first-order conditions of a nearest pose hold: no step along the linearised margins leads nearer.
     /// They hold at every nearest pose with smooth margins, and do not exclude nearer poses farther away.
     pub stationary: bool,
-    /// Whether the straight way from home to the pose violates nothing, as tested by [`Reach::along`].
+    /// Whether the straight path from home to the pose violates nothing, as tested by [`Reach::along`].
     pub straight_from_home: bool,
 }
 
@@ -66,10 +66,10 @@ impl Reach<'_> {
     /// as a start.
     ///
     /// The starts are home, the allowed poses to which `asked` and a violated home are led back, and `starts` allowed
-    /// poses between home and `asked`. From each, the straight way towards `asked` is followed to its first limit. Then
-    /// each step goes to the nearest pose within the linearised margins and is corrected until all are met, nearer than
-    /// the last. The best result is the answer: not farther than the first limit of the straight way from home, and
-    /// locally nearest if it is [`stationary`](NearestPose::stationary). Deterministic for a seed.
+    /// poses between home and `asked`. From each, the straight path towards `asked` is followed to its first limit.
+    /// Then each step goes to the nearest pose within the linearised margins and is corrected until all are met, nearer
+    /// than the last. The best result is the answer: not farther than the first limit of the straight path from home,
+    /// and locally nearest if it is [`stationary`](NearestPose::stationary). Deterministic for a seed.
     #[must_use]
     pub fn nearest(&self, asked: &Pose, o: &NearestPoseOptions) -> Option<NearestPose> {
         if self.allows(asked) {
@@ -77,7 +77,7 @@ impl Reach<'_> {
         }
         let starts = self.starts(asked, o);
         let ends = starts.iter().map(|start| {
-            let first = self.along(&StraightWay::between(start, asked), 1.0).pose;
+            let first = self.along(&StraightPath::between(start, asked), 1.0).pose;
             self.approach(&first, asked, o.steps)
         });
         let best = ends.min_by(|a, b| self.distance(&a.0, asked).total_cmp(&self.distance(&b.0, asked)))?;
@@ -95,7 +95,7 @@ impl Reach<'_> {
         } else {
             Vec::new()
         };
-        let way = self.along(&StraightWay::between(&self.home, pose), 1.0);
+        let way = self.along(&StraightPath::between(&self.home, pose), 1.0);
         let straight_from_home = way.amount > 1.0 - 10.0 * STATIONARY;
         NearestPose { pose: *pose, distance, binding, stationary, straight_from_home }
     }
@@ -114,7 +114,7 @@ impl Reach<'_> {
         let mut rng = Purpose::NEAREST_POSES.rng(o.seed);
         let mut starts: Vec<Pose> =
             [&self.home, asked].into_iter().filter_map(|p| self.restored(p)).collect();
-        let way = StraightWay::between(&self.home, asked);
+        let way = StraightPath::between(&self.home, asked);
         let mut far = self.distance(&self.home, asked);
         if starts.is_empty() {
             far = far.max(self.size);
@@ -210,7 +210,7 @@ impl Reach<'_> {
         let mut distance = self.distance(&pose, asked);
         let mut radius = distance.min(self.size);
         for _ in 0..steps {
-            let way = StraightWay::between(&pose, asked);
+            let way = StraightPath::between(&pose, asked);
             let wish =
                 Vector6::from_fn(|k, _| if k < 3 { way.velocity[k] } else { self.length * way.turn[k - 3] });
             let mut spaces = self.half_spaces(&pose, radius);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{FARTHEST, Reach, StraightWay};
+use super::{FARTHEST, Reach, StraightPath};
 use crate::requirements::Limit;
 use platform::geom::Pose;
 
@@ -52,7 +52,7 @@ impl Reach<'_> {
         let (velocity, turn) =
             if is_turn { (Vector3::zeros(), *direction) } else { (*direction, Vector3::zeros()) };
         let most = if is_turn { std::f64::consts::PI } else { FARTHEST * self.size };
-        let found = self.along(&StraightWay { start: *from, velocity, turn, pivot: Vector3::zeros() }, most);
+        let found = self.along(&StraightPath { start: *from, velocity, turn, pivot: Vector3::zeros() }, most);
         FreeRay { direction: *direction, free: found.amount, binding: found.binding }
     }
 }

@@ -19,7 +19,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Reach, StraightWay};
+use super::{Reach, StraightPath};
 use crate::requirements::{CrankRoom, HingeAngle, Limit, Term, TermKind};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Leg};
@@ -52,7 +52,7 @@ struct LegPlace {
 }
 
 impl LegPlace {
-    fn of(leg: &Leg, way: &StraightWay, pose: &Pose) -> Self {
+    fn of(leg: &Leg, way: &StraightPath, pose: &Pose) -> Self {
         let (v, w) = (&way.velocity, &way.turn);
         let origin_arm = pose.rotation * leg.platform.coords;
         let pivot = pose.rotation * way.pivot;
@@ -92,7 +92,7 @@ impl LegPlace {
     }
 
     /// The step that the angle between leg and an axis (base frame) allows, up to a limit.
-    fn swing(&self, motion: &LineMotion, axis: &Vector3<f64>, limit_deg: f64) -> f64 {
+    fn cone_angle(&self, motion: &LineMotion, axis: &Vector3<f64>, limit_deg: f64) -> f64 {
         if limit_deg >= 180.0 {
             return f64::INFINITY;
         }
@@ -129,7 +129,7 @@ fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 
     let rate = 2.0 * room.rod * speed * (2.0 + room.rod / room.length);
     match kind {
         TermKind::CrankTransmission => lasts(room.above_least, rate),
-        TermKind::TipSwing => lasts(room.lean, speed),
+        TermKind::TipAngle => lasts(room.lean, speed),
         // s keeps half of its value
         _ => {
             let turning = 2.0 * speed * room.rod / (room.length * room.square.max(0.0).sqrt());
@@ -139,7 +139,7 @@ fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 
 }
 
 /// The greatest speed of a platform joint on a way.
-pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
+pub(super) fn fastest(way: &StraightPath, legs: &[Leg; 6]) -> f64 {
     let arm = |leg: &Leg| way.start.rotation * (leg.platform.coords - way.pivot);
     let turned = |leg: &Leg| way.turn.cross(&arm(leg)).norm();
     way.velocity.norm() + legs.iter().map(turned).fold(0.0, f64::max)
@@ -148,7 +148,7 @@ pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
 impl Reach<'_> {
     /// A step from a pose of the way over which no margin with a bounded rate reaches zero. Infinite if only forces,
     /// stiffness and the sign of `det J` remain.
-    pub(super) fn safe_step(&self, way: &StraightWay, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
+    pub(super) fn safe_step(&self, way: &StraightPath, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
         let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], way, pose));
         let steps = margins.iter().map(|(limit, margin)| match limit {
             Limit::Term(term) => self.step_of(*term, *margin, &places, pose),
@@ -163,17 +163,17 @@ impl Reach<'_> {
         let leg = &places[term.first];
         let base = &leg.in_base;
         match term.kind {
-            TermKind::LegTooShort => root(margin, leg.u.dot(&base.velocity), base.acceleration),
-            TermKind::LegTooLong => {
+            TermKind::MinLegLength => root(margin, leg.u.dot(&base.velocity), base.acceleration),
+            TermKind::MaxLegLength => {
                 let bend = base.acceleration + base.speed.powi(2) / (KEPT * leg.length);
                 root(margin, -leg.u.dot(&base.velocity), bend).min(base.cap)
             }
-            TermKind::BaseSwing => hardware.base_swing.map_or(f64::INFINITY, |s| {
-                leg.swing(base, &self.terms.axes()[0][term.first], s.limits_deg[term.first])
+            TermKind::BaseConeAngle => hardware.base_cone_angle.map_or(f64::INFINITY, |s| {
+                leg.cone_angle(base, &self.terms.axes()[0][term.first], s.limits_deg[term.first])
             }),
-            TermKind::PlatformSwing => hardware.platform_swing.map_or(f64::INFINITY, |s| {
+            TermKind::PlatformConeAngle => hardware.platform_cone_angle.map_or(f64::INFINITY, |s| {
                 let axis = pose.rotation * self.terms.axes()[1][term.first];
-                leg.swing(&leg.in_platform, &axis, s.limits_deg[term.first])
+                leg.cone_angle(&leg.in_platform, &axis, s.limits_deg[term.first])
             }),
             kind if kind.hinge().is_some() => {
                 let Some((body, angle)) = kind.hinge() else { return f64::INFINITY };
@@ -188,7 +188,7 @@ impl Reach<'_> {
                     // the second angle is within its limit if both ends of the first axis are 90 degrees minus the
                     // limit or more from the leg
                     HingeAngle::Second => {
-                        let side = |axis: Vector3<f64>| leg.swing(motion, &axis, 90.0 + limit);
+                        let side = |axis: Vector3<f64>| leg.cone_angle(motion, &axis, 90.0 + limit);
                         side(first).min(side(-first))
                     }
                     HingeAngle::First => {
@@ -220,8 +220,8 @@ impl Reach<'_> {
             }
             TermKind::MachineEnvelope if term.second == 1 => lasts(margin, base.speed),
             // distances from points of the circle of the crank: the joint of the platform is no faster than V
-            TermKind::RodTooShort | TermKind::RodTooLong => lasts(margin, base.speed),
-            TermKind::CrankTransmission | TermKind::CrankAngle | TermKind::TipSwing => self
+            TermKind::MinRodLength | TermKind::MaxRodLength => lasts(margin, base.speed),
+            TermKind::CrankTransmission | TermKind::CrankAngle | TermKind::TipAngle => self
                 .terms
                 .crank_room(term.first, pose)
                 .map_or(f64::INFINITY, |room| crank_step(&room, term.kind, margin, base.speed)),

@@ -1,4 +1,4 @@
-//! The surface of the positions that straight ways from a pose reach, as triangles.
+//! The surface of the positions that straight paths from a pose reach, as triangles.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::{FreeRay, Reach};
 use platform::geom::Pose;
 
-/// The boundary of the positions that straight ways reach at one orientation. Every way from the middle ends on it, so
+/// The boundary of the positions that straight paths reach at one orientation. Every way from the middle ends on it, so
 /// that it has no folds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachedSurface {
@@ -34,7 +34,7 @@ impl ReachedSurface {
 }
 
 impl Reach<'_> {
-    /// The surface of the positions that straight ways from an allowed pose reach, with `10 * 4^level + 2` corners.
+    /// The surface of the positions that straight paths from an allowed pose reach, with `10 * 4^level + 2` corners.
     #[must_use]
     pub fn surface(&self, from: &Pose, level: u32) -> ReachedSurface {
         let (directions, triangles) = sphere(level);

@@ -2,11 +2,11 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
-use super::{NearestPoseOptions, PoseAxis, Reach, StraightWay};
+use super::{NearestPoseOptions, PoseAxis, Reach, StraightPath};
 use crate::fixtures::symmetric_hexapod;
 use crate::requirements::{
-    Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Limit, Load, PlatformSpeed,
-    Requirements, Swing, TermKind, UniversalJoint,
+    ConeLimits, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Limit, Load,
+    PlatformSpeed, Requirements, TermKind, UniversalJoint,
 };
 use num::Rng;
 use platform::geom::Pose;
@@ -17,8 +17,8 @@ fn required(m: &Manipulator, home: &Pose) -> Requirements {
     let length = home.lengths(m).unwrap().get()[0];
     let hardware = Hardware {
         leg_length: Some(LengthLimits::Range(0.75 * length, 1.25 * length)),
-        base_swing: Some(Swing::of_all(25.0, JointAxes::Home)),
-        platform_swing: Some(Swing::of_all(40.0, JointAxes::Home)),
+        base_cone_angle: Some(ConeLimits::of_all(25.0, JointAxes::Home)),
+        platform_cone_angle: Some(ConeLimits::of_all(40.0, JointAxes::Home)),
         leg_body: Some(LegBody { diameter: 0.12, rod: Some((0.6 * length, 0.06)) }),
         leg_clearance: Some(0.02),
         max_leg_force: Some(60.0),
@@ -60,18 +60,18 @@ fn only_lengths(m: &Manipulator, home: &Pose, share: f64) -> Requirements {
 }
 
 /// A way of mixed velocities from a pose about home.
-fn drawn(home: &Pose, rng: &mut Rng) -> StraightWay {
+fn drawn(home: &Pose, rng: &mut Rng) -> StraightPath {
     let mut vector = |x: f64| Vector3::from_fn(|_, _| rng.uniform(-x, x));
     let start =
         Pose { rotation: Rotation3::new(vector(0.1)) * home.rotation, position: home.position + vector(0.1) };
-    StraightWay { start, velocity: vector(1.0), turn: vector(1.0), pivot: vector(0.3) }
+    StraightPath { start, velocity: vector(1.0), turn: vector(1.0), pivot: vector(0.3) }
 }
 
 #[test]
 fn one_number_of_a_pose_moves_and_the_others_stay() {
     let pose = Pose::new([1.0, 2.0, 3.0], platform::geom::Angles::from_degrees([20.0, -35.0, 130.0]));
     for (k, axis) in PoseAxis::ALL.into_iter().enumerate() {
-        let moved = StraightWay::axis(&pose, axis).at(0.25);
+        let moved = StraightPath::axis(&pose, axis).at(0.25);
         let numbers = |p: &Pose| {
             let angles = p.angles().radians();
             [p.position.x, p.position.y, p.position.z, angles[0], angles[1], angles[2]]
@@ -127,7 +127,7 @@ fn the_free_part_of_a_way_is_that_of_a_fine_search() {
     let mut kinds = ends_of_ways(&m, &required, &home, 60);
     // without limits of lengths and joint angles the others bind
     required.hardware =
-        Hardware { leg_length: None, base_swing: None, platform_swing: None, ..required.hardware };
+        Hardware { leg_length: None, base_cone_angle: None, platform_cone_angle: None, ..required.hardware };
     kinds.extend(ends_of_ways(&m, &required, &home, 60));
     required.hardware.max_leg_force = None;
     kinds.extend(ends_of_ways(&m, &required, &home, 60));
@@ -179,10 +179,10 @@ fn a_singular_pose_ends_a_way_where_nothing_else_does() {
     let home = default_home(&m);
     let nothing = Requirements::default();
     let reach = Reach::new(&m, &nothing, &home, 1.0);
-    let yaw = reach.along(&StraightWay::axis(&home, PoseAxis::Yaw), 3.0);
+    let yaw = reach.along(&StraightPath::axis(&home, PoseAxis::Yaw), 3.0);
     assert_eq!(yaw.binding, Some(Limit::Singular));
     assert!((yaw.amount - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{}", yaw.amount);
-    let up = reach.along(&StraightWay::axis(&home, PoseAxis::Z), 50.0);
+    let up = reach.along(&StraightPath::axis(&home, PoseAxis::Z), 50.0);
     assert!(up.binding.is_none() && up.amount.to_bits() == 50.0_f64.to_bits());
 }
 
@@ -193,16 +193,16 @@ fn a_way_from_a_limit_goes_inwards_and_not_outwards() {
     let required = required(&m, &home);
     let reach = Reach::new(&m, &required, &home, 1.0);
     for axis in PoseAxis::ALL {
-        let way = StraightWay::axis(&home, axis);
+        let way = StraightPath::axis(&home, axis);
         let end = reach.along(&way, 3.0);
-        let out = reach.along(&StraightWay { start: end.pose, ..way }, 3.0);
+        let out = reach.along(&StraightPath { start: end.pose, ..way }, 3.0);
         assert!(out.amount < 1e-8, "{}: {}", axis.name(), out.amount);
-        let back = reach.along(&StraightWay { start: end.pose, ..way.reversed() }, end.amount);
+        let back = reach.along(&StraightPath { start: end.pose, ..way.reversed() }, end.amount);
         assert!((back.amount - end.amount).abs() < 1e-12, "{}: {:?}", axis.name(), back);
     }
     let beyond = Pose { position: home.position + Vector3::z() * 5.0, ..home };
     assert!(reach.free_ranges(&beyond).is_none());
-    let stuck = reach.along(&StraightWay::axis(&beyond, PoseAxis::X), 1.0);
+    let stuck = reach.along(&StraightPath::axis(&beyond, PoseAxis::X), 1.0);
     assert!(stuck.amount == 0.0 && stuck.binding.is_some());
 }
 
@@ -235,10 +235,10 @@ fn the_nearest_pose_meets_the_limits_and_nothing_allowed_beside_it_is_nearer() {
             let found = reach.nearest(&asked, &NearestPoseOptions::default()).unwrap();
             assert!(reach.allows(&found.pose), "{k}");
             assert!((reach.distance(&found.pose, &asked) - found.distance).abs() < 1e-12);
-            let first = reach.along(&StraightWay::between(&home, &asked), 1.0);
+            let first = reach.along(&StraightPath::between(&home, &asked), 1.0);
             assert!(
                 found.distance <= reach.distance(&first.pose, &asked) + 1e-12,
-                "{k}: not farther than the straight way"
+                "{k}: not farther than the straight path"
             );
             assert!(found.distance <= reach.distance(&home, &asked), "{k}: nearer than home");
             if found.distance == 0.0 {
@@ -262,7 +262,7 @@ fn along_the_axis_of_symmetry_the_nearest_pose_is_the_highest() {
     let reach = Reach::new(&m, &required, &home, 1.0);
     let asked = Pose { position: home.position + Vector3::z() * 3.0, ..home };
     let found = reach.nearest(&asked, &NearestPoseOptions::default()).unwrap();
-    let highest = reach.along(&StraightWay::axis(&home, PoseAxis::Z), 3.0);
+    let highest = reach.along(&StraightPath::axis(&home, PoseAxis::Z), 3.0);
     assert!(
         (found.distance - (3.0 - highest.amount)).abs() < 1e-6,
         "{} {}",
@@ -271,7 +271,7 @@ fn along_the_axis_of_symmetry_the_nearest_pose_is_the_highest() {
     );
     assert!(found.stationary && found.straight_from_home);
     assert_eq!(found.binding.len(), 6, "{:?}", found.binding);
-    let tooth = |l: &Limit| matches!(l, Limit::Term(t) if t.kind == TermKind::LegTooLong);
+    let tooth = |l: &Limit| matches!(l, Limit::Term(t) if t.kind == TermKind::MaxLegLength);
     assert!(found.binding.iter().all(tooth));
     assert!(reach.nearest(&home, &NearestPoseOptions::default()).unwrap().distance < f64::MIN_POSITIVE);
 }

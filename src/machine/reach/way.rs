@@ -53,7 +53,7 @@ impl PoseAxis {
 /// A way from a pose: `R(t) = exp(t [w]) R`, while the pivot, a point `c` of the platform, moves on a line:
 /// `R(t) c + p(t) = R c + p + t v`, base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StraightWay {
+pub struct StraightPath {
     /// The start, at `t = 0`.
     pub start: Pose,
     /// Velocity of the pivot, design units.
@@ -64,7 +64,7 @@ pub struct StraightWay {
     pub pivot: Vector3<f64>,
 }
 
-impl StraightWay {
+impl StraightPath {
     /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay. A
     /// moving angle rotates about a fixed axis: `R e_x` for roll, `Rz(yaw) e_y` for pitch, `e_z` for yaw.
     #[must_use]
@@ -88,7 +88,7 @@ impl StraightWay {
         Self { start: *start, velocity, turn, pivot: still }
     }
 
-    /// The straight way between two poses, which ends at `t = 1`. The origin moves on a line; the platform rotates
+    /// The straight path between two poses, which ends at `t = 1`. The origin moves on a line; the platform rotates
     /// about one axis by at most half a turn.
     #[must_use]
     pub fn between(from: &Pose, to: &Pose) -> Self {
@@ -132,7 +132,7 @@ mod tests {
                 rotation: Rotation3::new(turn) * from.rotation,
                 position: Vector3::new(1.0, 2.0, 3.0),
             };
-            let end = StraightWay::between(&from, &to).at(1.0);
+            let end = StraightPath::between(&from, &to).at(1.0);
             assert!((end.rotation.matrix() - to.rotation.matrix()).amax() < 1e-14, "{k}");
             assert!((end.position - to.position).amax() < 1e-15);
         }

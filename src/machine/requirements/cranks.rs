@@ -105,11 +105,11 @@ pub struct Cranks {
     /// Greatest speed of a crank, degrees per second.
     pub max_speed_deg: Option<f64>,
     /// Least transmission angle, degrees; 0 where the design gives none.
-    pub least_transmission_deg: f64,
+    pub min_transmission_angle_deg: f64,
     /// Cone angle of the joint at the tip, out of the plane in which the crank turns, degrees.
-    pub tip_swing_deg: Option<f64>,
+    pub tip_angle_deg: Option<f64>,
     /// Cone angle of the joint at the platform, from the direction of the rod at home, degrees.
-    pub platform_swing_deg: Option<f64>,
+    pub platform_cone_angle_deg: Option<f64>,
 }
 
 impl Cranks {
@@ -117,13 +117,13 @@ impl Cranks {
     pub(super) fn whole(&self, kind: TermKind) -> f64 {
         let least = |of: &dyn Fn(&CrankedLeg) -> f64| self.legs.iter().map(of).fold(f64::INFINITY, f64::min);
         match kind {
-            TermKind::RodTooShort | TermKind::RodTooLong => least(&|leg| leg.rod),
-            TermKind::CrankTransmission => self.least_transmission_deg,
+            TermKind::MinRodLength | TermKind::MaxRodLength => least(&|leg| leg.rod),
+            TermKind::CrankTransmission => self.min_transmission_angle_deg,
             TermKind::CrankAngle => {
                 let range = |leg: &CrankedLeg| leg.limits_deg.map_or(f64::INFINITY, |[a, b]| 0.5 * (b - a));
                 Some(least(&range)).filter(|x| x.is_finite()).unwrap_or(0.0)
             }
-            TermKind::TipSwing => self.tip_swing_deg.unwrap_or(0.0),
+            TermKind::TipAngle => self.tip_angle_deg.unwrap_or(0.0),
             TermKind::CrankTorque => self.max_torque.unwrap_or(0.0),
             TermKind::CrankSpeed => self.max_speed_deg.unwrap_or(0.0),
             _ => 0.0,
@@ -171,22 +171,22 @@ impl Terms<'_> {
             let (r, l) = (crank.length, crank.rod);
             let mut keep = |kind, margin| out.push((Term { kind, first: i, second: i }, margin));
             let across = here.square.sqrt();
-            keep(TermKind::RodTooShort, l - here.along.hypot(across - r));
-            keep(TermKind::RodTooLong, here.along.hypot(across + r) - l);
+            keep(TermKind::MinRodLength, l - here.along.hypot(across - r));
+            keep(TermKind::MaxRodLength, here.along.hypot(across + r) - l);
             let transmission = arc_sine_of_root_deg(here.left / (l * l));
-            keep(TermKind::CrankTransmission, transmission - cranks.least_transmission_deg);
+            keep(TermKind::CrankTransmission, transmission - cranks.min_transmission_angle_deg);
             if let Some([least, most]) = crank.limits_deg {
                 let middle = (0.5 * (least + most)).to_radians();
                 let off = (here.sin * middle.cos() - here.cos * middle.sin())
                     .atan2(here.cos * middle.cos() + here.sin * middle.sin());
                 keep(TermKind::CrankAngle, 0.5 * (most - least) - off.abs().to_degrees());
             }
-            if let Some(limit) = cranks.tip_swing_deg {
-                keep(TermKind::TipSwing, limit - arc_sine_of_root_deg((here.along / l).powi(2)));
+            if let Some(limit) = cranks.tip_angle_deg {
+                keep(TermKind::TipAngle, limit - arc_sine_of_root_deg((here.along / l).powi(2)));
             }
-            if let Some(limit) = cranks.platform_swing_deg {
+            if let Some(limit) = cranks.platform_cone_angle_deg {
                 let rod = pose.transform(&legs[i].platform) - here.tip;
-                keep(TermKind::PlatformSwing, limit - angle_deg(&(back * rod), &self.axes()[1][i]));
+                keep(TermKind::PlatformConeAngle, limit - angle_deg(&(back * rod), &self.axes()[1][i]));
             }
         }
         let size = self.manipulator.size();
@@ -245,8 +245,8 @@ impl Terms<'_> {
         let cranks = self.required.cranks.as_ref()?;
         let crank = &cranks.legs[i];
         let here = crank.at(&self.manipulator.legs()[i], pose);
-        let least = crank.rod * cranks.least_transmission_deg.to_radians().sin();
-        let most = cranks.tip_swing_deg.map_or(f64::INFINITY, |limit| crank.rod * limit.to_radians().sin());
+        let least = crank.rod * cranks.min_transmission_angle_deg.to_radians().sin();
+        let most = cranks.tip_angle_deg.map_or(f64::INFINITY, |limit| crank.rod * limit.to_radians().sin());
         Some(CrankRoom {
             length: crank.length,
             rod: crank.rod,

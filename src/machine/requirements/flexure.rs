@@ -90,12 +90,12 @@ mod tests {
         let pose = moved(&Vector3::new(0.2, -0.1, 0.3), &Vector3::new(0.1, 0.2, -0.3), &home);
         let energy = |pose: &Pose| -> f64 {
             let legs = m.legs();
-            let swing = |body: usize, i: usize| {
+            let cone_angle = |body: usize, i: usize| {
                 let line = pose.transform(&legs[i].platform) - legs[i].base;
                 let line = if body == 0 { line } else { pose.rotation.inverse() * line };
                 line.angle(&terms.axes()[body][i])
             };
-            (0..6).map(|i| 1.5 * swing(0, i).powi(2) + swing(1, i).powi(2)).sum()
+            (0..6).map(|i| 1.5 * cone_angle(0, i).powi(2) + cone_angle(1, i).powi(2)).sum()
         };
         let found = terms.flexure_wrench(&pose).unwrap();
         let h = 1e-6;

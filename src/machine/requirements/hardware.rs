@@ -162,7 +162,7 @@ pub enum JointAxes {
 
 /// Limits of the angles between the legs and the joint axes of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Swing {
+pub struct ConeLimits {
     /// Greatest angle between each leg and its axis, in leg order, degrees, above 0 and at most 180; 180 limits
     /// nothing.
     pub limits_deg: [f64; 6],
@@ -170,7 +170,7 @@ pub struct Swing {
     pub axes: JointAxes,
 }
 
-impl Swing {
+impl ConeLimits {
     /// The same limit for all legs, degrees, from axes.
     #[must_use]
     pub fn of_all(limit_deg: f64, axes: JointAxes) -> Self {
@@ -291,9 +291,9 @@ pub struct Hardware {
     /// Lengths of the legs.
     pub leg_length: Option<LengthLimits>,
     /// Cone angles of the base joints.
-    pub base_swing: Option<Swing>,
+    pub base_cone_angle: Option<ConeLimits>,
     /// Cone angles of the platform joints.
-    pub platform_swing: Option<Swing>,
+    pub platform_cone_angle: Option<ConeLimits>,
     /// Universal joints of the base; none where no joint is one.
     pub base_universal: Option<UniversalJoint>,
     /// Universal joints of the platform.
@@ -372,8 +372,8 @@ impl Hardware {
     /// The axes of the joints of a body, if a limit refers to them.
     #[must_use]
     pub fn axes(&self, body: Body) -> Option<JointAxes> {
-        let swing = body.of((self.base_swing, self.platform_swing)).map(|s| s.axes);
-        swing.or(self.universal(body).map(|joint| joint.axes))
+        let cone_angle = body.of((self.base_cone_angle, self.platform_cone_angle)).map(|s| s.axes);
+        cone_angle.or(self.universal(body).map(|joint| joint.axes))
     }
 
     /// The limit of an angle of the universal joint of a leg, degrees; `None` without such a limit, and for other

@@ -17,7 +17,7 @@ use platform::geom::{Pose, any_across};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointAngles {
     /// Angle of leg and axis, degrees, 0 to 180.
-    pub swing_deg: f64,
+    pub cone_angle_deg: f64,
     /// Both angles of a universal joint, degrees: the first from -180 to 180, the second from -90 to 90. At +-90 the
     /// first is undetermined.
     pub universal_deg: [f64; 2],
@@ -25,9 +25,9 @@ pub struct JointAngles {
 
 impl JointAngles {
     fn of(line: &Vector3<f64>, axis: &Vector3<f64>, hinge: Option<&Hinge>) -> Self {
-        let swing_deg = angle_deg(line, axis);
+        let cone_angle_deg = angle_deg(line, axis);
         if let Some(hinge) = hinge {
-            return Self { swing_deg, universal_deg: hinge.angles_deg(line) };
+            return Self { cone_angle_deg, universal_deg: hinge.angles_deg(line) };
         }
         let x = any_across(axis);
         let y = axis.cross(&x);
@@ -35,7 +35,7 @@ impl JointAngles {
         // u = (sin b, -cos b sin a, cos b cos a)
         let first = (-across + 0.0).atan2(up);
         let second = along.atan2(across.hypot(up));
-        Self { swing_deg, universal_deg: [first, second].map(f64::to_degrees) }
+        Self { cone_angle_deg, universal_deg: [first, second].map(f64::to_degrees) }
     }
 }
 
@@ -81,9 +81,9 @@ mod tests {
             let led = turn(x, a) * (turn(y, b) * axis);
             assert!((led - line.normalize()).norm() < 1e-14);
             let cosine = a.to_radians().cos() * b.to_radians().cos();
-            assert!((found.swing_deg.to_radians().cos() - cosine).abs() < 1e-14);
+            assert!((found.cone_angle_deg.to_radians().cos() - cosine).abs() < 1e-14);
         }
         let still = JointAngles::of(&Vector3::z(), &Vector3::z(), None);
-        assert_eq!((still.swing_deg, still.universal_deg), (0.0, [0.0, 0.0]));
+        assert_eq!((still.cone_angle_deg, still.universal_deg), (0.0, [0.0, 0.0]));
     }
 }

@@ -107,8 +107,8 @@ mod tests {
             PoseLimit { share, limit: Some(Limit::Term(t)) } if share < 0.0 => Some(t.kind.code()),
             _ => None,
         };
-        assert_eq!(kind(length), Some("leg_too_long"));
-        assert_eq!(kind(-0.9 * length), Some("leg_too_short"));
+        assert_eq!(kind(length), Some("max_leg_length"));
+        assert_eq!(kind(-0.9 * length), Some("min_leg_length"));
         assert_eq!(kind(0.0), None);
     }
 

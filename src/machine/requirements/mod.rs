@@ -23,7 +23,7 @@ mod limit;
 mod load;
 mod payload;
 mod plate;
-mod reserve;
+mod safety_margin;
 mod standing;
 mod term;
 #[cfg(test)]
@@ -44,7 +44,8 @@ pub use envelope::{ball, room};
 pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
 pub use hardware::{
-    Hardware, Housing, JointAxes, JointType, LegBody, LegMasses, LegPart, LegSegment, LengthLimits, Swing,
+    ConeLimits, Hardware, Housing, JointAxes, JointType, LegBody, LegMasses, LegPart, LegSegment,
+    LengthLimits,
 };
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
@@ -59,7 +60,7 @@ pub use plate::{
 pub use plate::{PlateBody, on_circle};
 pub use plate::{frame_of, plate_normal};
 pub use platform::geom::{ListedFrom, PoseSpace, Region};
-pub use reserve::{Reserve, Reserves};
+pub use safety_margin::{SafetyMargin, SafetyMargins};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
 pub use universal::HingeAngle;
@@ -113,8 +114,8 @@ pub struct Requirements {
     pub plates: Plates,
     /// The space of the payload, platform frame.
     pub payload_shape: Option<KeepOutShape>,
-    /// The required reserve of each limit.
-    pub reserves: Reserves,
+    /// The required safety margin of each limit.
+    pub safety_margins: SafetyMargins,
     /// Cranks with rods of constant length in place of legs of variable length; limits of such legs then have no
     /// effect.
     pub cranks: Option<Box<Cranks>>,
@@ -139,7 +140,7 @@ impl Requirements {
             platform_speed: self.platform_speed,
             platform_stiffness: self.platform_stiffness,
             vibrating: self.vibrating,
-            reserves: self.reserves.clone(),
+            safety_margins: self.safety_margins.clone(),
             cranks: self.cranks.clone(),
             ..Self::default()
         };
@@ -157,7 +158,7 @@ impl Requirements {
             envelopes: self.envelopes,
             plates: self.plates.clone(),
             payload_shape: self.payload_shape,
-            reserves: self.reserves.clone(),
+            safety_margins: self.safety_margins.clone(),
             ..Self::default()
         };
         [drives, rest]

@@ -23,13 +23,13 @@ use platform::manipulator::{Body, Manipulator, jacobian};
 )]
 pub enum TermKind {
     /// Leg length minus the least one.
-    LegTooShort,
+    MinLegLength,
     /// Greatest leg length minus the leg length.
-    LegTooLong,
+    MaxLegLength,
     /// Limit minus the joint angle between leg and axis at the base.
-    BaseSwing,
+    BaseConeAngle,
     /// Limit minus the joint angle between leg and axis at the platform.
-    PlatformSwing,
+    PlatformConeAngle,
     /// Limit minus the angle about the first axis of a universal joint at the base.
     BaseFirstAngle,
     /// Limit minus the angle about its second axis.
@@ -75,16 +75,16 @@ pub enum TermKind {
     /// Lowest natural frequency minus the least one.
     NaturalFrequency,
     /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
-    RodTooShort,
+    MinRodLength,
     /// Distance of the platform joint from the farthest point of the crank circle minus the rod length.
-    RodTooLong,
+    MaxRodLength,
     /// Transmission angle of a crank minus the least one. Its sine is the share of a push along the rod that turns the
     /// crank. At 0 degrees crank and rod are in a plane with the axis.
     CrankTransmission,
     /// Distance of the angle of a crank from its limits.
     CrankAngle,
     /// Limit minus the angle between a rod and the plane in which its crank turns.
-    TipSwing,
+    TipAngle,
     /// Greatest torque of a crank minus the torque under a load.
     CrankTorque,
     /// Greatest speed of a crank minus the speed in the worst direction of motion.
@@ -117,10 +117,10 @@ pub enum Quantity {
 impl TermKind {
     /// Every kind.
     pub const ALL: [Self; 33] = [
-        Self::LegTooShort,
-        Self::LegTooLong,
-        Self::BaseSwing,
-        Self::PlatformSwing,
+        Self::MinLegLength,
+        Self::MaxLegLength,
+        Self::BaseConeAngle,
+        Self::PlatformConeAngle,
         Self::BaseFirstAngle,
         Self::BaseSecondAngle,
         Self::PlatformFirstAngle,
@@ -143,11 +143,11 @@ impl TermKind {
         Self::LinearStiffness,
         Self::AngularStiffness,
         Self::NaturalFrequency,
-        Self::RodTooShort,
-        Self::RodTooLong,
+        Self::MinRodLength,
+        Self::MaxRodLength,
         Self::CrankTransmission,
         Self::CrankAngle,
-        Self::TipSwing,
+        Self::TipAngle,
         Self::CrankTorque,
         Self::CrankSpeed,
     ];
@@ -156,10 +156,10 @@ impl TermKind {
     #[must_use]
     pub fn code(self) -> &'static str {
         match self {
-            Self::LegTooShort => "leg_too_short",
-            Self::LegTooLong => "leg_too_long",
-            Self::BaseSwing => "base_swing",
-            Self::PlatformSwing => "platform_swing",
+            Self::MinLegLength => "min_leg_length",
+            Self::MaxLegLength => "max_leg_length",
+            Self::BaseConeAngle => "base_cone_angle",
+            Self::PlatformConeAngle => "platform_cone_angle",
             Self::BaseFirstAngle => "base_first_angle",
             Self::BaseSecondAngle => "base_second_angle",
             Self::PlatformFirstAngle => "platform_first_angle",
@@ -182,11 +182,11 @@ impl TermKind {
             Self::LinearStiffness => "linear_stiffness",
             Self::AngularStiffness => "angular_stiffness",
             Self::NaturalFrequency => "natural_frequency",
-            Self::RodTooShort => "rod_too_short",
-            Self::RodTooLong => "rod_too_long",
+            Self::MinRodLength => "min_rod_length",
+            Self::MaxRodLength => "max_rod_length",
             Self::CrankTransmission => "crank_transmission",
             Self::CrankAngle => "crank_angle",
-            Self::TipSwing => "tip_swing",
+            Self::TipAngle => "tip_angle",
             Self::CrankTorque => "crank_torque",
             Self::CrankSpeed => "crank_speed",
         }
@@ -196,10 +196,10 @@ impl TermKind {
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
-            Self::LegTooShort => "leg length, minimum",
-            Self::LegTooLong => "leg length, maximum",
-            Self::BaseSwing => "joint angle at base, maximum",
-            Self::PlatformSwing => "joint angle at platform, maximum",
+            Self::MinLegLength => "leg length, minimum",
+            Self::MaxLegLength => "leg length, maximum",
+            Self::BaseConeAngle => "joint angle at base, maximum",
+            Self::PlatformConeAngle => "joint angle at platform, maximum",
             Self::BaseFirstAngle => "first joint angle at base, maximum",
             Self::BaseSecondAngle => "second joint angle at base, maximum",
             Self::PlatformFirstAngle => "first joint angle at platform, maximum",
@@ -222,11 +222,11 @@ impl TermKind {
             Self::LinearStiffness => "stiffness against force, minimum",
             Self::AngularStiffness => "stiffness against torque, minimum",
             Self::NaturalFrequency => "natural frequency, minimum",
-            Self::RodTooShort => "rod length to near side, minimum",
-            Self::RodTooLong => "rod length to far side, maximum",
+            Self::MinRodLength => "rod length to near side, minimum",
+            Self::MaxRodLength => "rod length to far side, maximum",
             Self::CrankTransmission => "transmission angle, minimum",
             Self::CrankAngle => "crank angle, range",
-            Self::TipSwing => "joint angle at crank tip, maximum",
+            Self::TipAngle => "joint angle at crank tip, maximum",
             Self::CrankTorque => "crank torque, maximum",
             Self::CrankSpeed => "crank speed, maximum",
         }
@@ -236,11 +236,11 @@ impl TermKind {
     #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
-            Self::BaseSwing
-            | Self::PlatformSwing
+            Self::BaseConeAngle
+            | Self::PlatformConeAngle
             | Self::CrankTransmission
             | Self::CrankAngle
-            | Self::TipSwing => Quantity::Angle,
+            | Self::TipAngle => Quantity::Angle,
             Self::CrankTorque => Quantity::Torque,
             Self::CrankSpeed => Quantity::AngularSpeed,
             kind if kind.hinge().is_some() => Quantity::Angle,
@@ -276,7 +276,7 @@ impl TermKind {
 
     /// The kinds that single leg lines decide, besides [`HINGES`](Self::HINGES).
     const OF_LEG_LINES: [Self; 4] =
-        [Self::LegTooShort, Self::LegTooLong, Self::BaseSwing, Self::PlatformSwing];
+        [Self::MinLegLength, Self::MaxLegLength, Self::BaseConeAngle, Self::PlatformConeAngle];
 
     /// The kinds of gaps between legs and other bodies.
     const CLEARANCES: [Self; 4] =
@@ -528,7 +528,7 @@ impl<'a> Terms<'a> {
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
         let legs = self.legs_at(&joints, pose);
         if wanted(&TermKind::OF_LEG_LINES) || wanted(&TermKind::HINGES) {
-            self.lengths_and_swing(&legs, pose, &mut out);
+            self.lengths_and_cone_angles(&legs, pose, &mut out);
         }
         if wanted(&TermKind::CLEARANCES) {
             self.clearances(&legs.ends, pose, &mut out);
@@ -612,7 +612,7 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn lengths_and_swing(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+    fn lengths_and_cone_angles(&self, legs: &LegsAt, pose: &Pose, out: &mut Vec<(Term, f64)>) {
         let hardware = &self.required.hardware;
         let back = pose.rotation.inverse();
         for (i, (a, b)) in legs.ends.iter().enumerate() {
@@ -620,18 +620,18 @@ impl<'a> Terms<'a> {
             let own = |kind| Term { kind, first: i, second: i };
             if let Some(limits) = hardware.leg_length {
                 let (least, greatest) = limits.range();
-                out.push((own(TermKind::LegTooShort), legs.lengths[i] - least));
-                out.push((own(TermKind::LegTooLong), greatest - legs.lengths[i]));
+                out.push((own(TermKind::MinLegLength), legs.lengths[i] - least));
+                out.push((own(TermKind::MaxLegLength), greatest - legs.lengths[i]));
             }
-            if let Some(swing) = hardware.base_swing {
+            if let Some(cone_angle) = hardware.base_cone_angle {
                 out.push((
-                    own(TermKind::BaseSwing),
-                    swing.limits_deg[i] - angle_deg(&line, &self.axes[0][i]),
+                    own(TermKind::BaseConeAngle),
+                    cone_angle.limits_deg[i] - angle_deg(&line, &self.axes[0][i]),
                 ));
             }
-            if let Some(swing) = hardware.platform_swing {
+            if let Some(cone_angle) = hardware.platform_cone_angle {
                 let angle = angle_deg(&(back * line), &self.axes[1][i]);
-                out.push((own(TermKind::PlatformSwing), swing.limits_deg[i] - angle));
+                out.push((own(TermKind::PlatformConeAngle), cone_angle.limits_deg[i] - angle));
             }
             for kind in TermKind::HINGES {
                 let Some((body, angle)) = kind.hinge() else { continue };

@@ -51,15 +51,15 @@ fn nothing_required_gives_no_margins() {
 }
 
 #[test]
-fn lengths_swing_and_clearances_of_upright_legs() {
+fn lengths_cone_angles_and_clearances_of_upright_legs() {
     let (m, home) = upright();
     let mut r = Requirements::default();
     r.hardware.leg_length = Some(LengthLimits::Range(9.0, 10.5));
     r.hardware.leg_body = Some(LegBody { diameter: 1.0, rod: Some((6.0, 0.5)) });
     r.hardware.leg_clearance = Some(0.25);
-    r.hardware.base_swing = Some(Swing::of_all(30.0, JointAxes::Home));
+    r.hardware.base_cone_angle = Some(ConeLimits::of_all(30.0, JointAxes::Home));
     let tilted = Unit::new_normalize(Vector3::new(1.0, 0.0, 1.0));
-    r.hardware.platform_swing = Some(Swing::of_all(50.0, JointAxes::Given([tilted; 6])));
+    r.hardware.platform_cone_angle = Some(ConeLimits::of_all(50.0, JointAxes::Given([tilted; 6])));
     r.hardware.joint_diameter = Some(1.5);
     r.min_joint_distance = Some(3.0);
     let post = KeepOutShape::Capsule {
@@ -77,12 +77,12 @@ fn lengths_swing_and_clearances_of_upright_legs() {
         terms.at(pose).into_iter().filter(|t| t.0.kind == kind).map(|t| t.1).collect()
     };
     let near = |x: &[f64], y: f64| assert!(x.iter().all(|x| (x - y).abs() < 1e-12), "{x:?} {y}");
-    near(&values(&home, TermKind::LegTooShort), 1.0);
-    near(&values(&home, TermKind::LegTooLong), 0.5);
-    near(&values(&home, TermKind::BaseSwing), 30.0);
-    near(&values(&home, TermKind::PlatformSwing), 5.0);
-    near(&values(&at(10.0), TermKind::BaseSwing), -15.0);
-    near(&values(&at(10.0), TermKind::PlatformSwing), 50.0);
+    near(&values(&home, TermKind::MinLegLength), 1.0);
+    near(&values(&home, TermKind::MaxLegLength), 0.5);
+    near(&values(&home, TermKind::BaseConeAngle), 30.0);
+    near(&values(&home, TermKind::PlatformConeAngle), 5.0);
+    near(&values(&at(10.0), TermKind::BaseConeAngle), -15.0);
+    near(&values(&at(10.0), TermKind::PlatformConeAngle), 50.0);
     // neighbours are 4 apart: cylinder to cylinder 4 - 1 - 0.25
     let gaps = values(&home, TermKind::LegClearance);
     assert_eq!(gaps.len(), 15);
@@ -122,16 +122,16 @@ fn the_worst_length_of_a_box_is_at_its_corner_and_is_found() {
     let space = PoseSpace { translation: Vector3::new(3.0, 4.0, 2.0), ..PoseSpace::at(home) };
     let found = assess(&m, &r, &space, &quick());
     let longest = (25.0f64 + 144.0).sqrt();
-    assert!((margin(&found, TermKind::LegTooLong).value - (12.0 - longest)).abs() < 1e-12);
+    assert!((margin(&found, TermKind::MaxLegLength).value - (12.0 - longest)).abs() < 1e-12);
     assert!(!found.all_met());
     // the least length, 8, is an inner pose of the face z = 8: only the search comes near
-    assert!((0.0..1e-6).contains(&margin(&found, TermKind::LegTooShort).value));
+    assert!((0.0..1e-6).contains(&margin(&found, TermKind::MinLegLength).value));
     let again = assess(&m, &r, &space, &quick());
     assert_eq!(found, again, "same seed, same answer");
     // an ellipsoid with these half axes does not reach the corner
     let round = PoseSpace { region: Region::Ellipsoid, ..space };
     let inside = assess(&m, &r, &round, &quick());
-    assert!(margin(&inside, TermKind::LegTooLong).value > 12.0 - longest + 0.3);
+    assert!(margin(&inside, TermKind::MaxLegLength).value > 12.0 - longest + 0.3);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn a_violation_between_two_poses_of_a_trajectory_is_found() {
     let mut space = PoseSpace::at(home);
     space.trajectory = vec![at(-6.0), at(6.0)];
     let found = assess(&m, &r, &space, &quick());
-    assert!(margin(&found, TermKind::LegTooShort).value < -0.99);
+    assert!(margin(&found, TermKind::MinLegLength).value < -0.99);
     space.trajectory.truncate(1);
     assert!(assess(&m, &r, &space, &quick()).all_met());
 }
@@ -235,21 +235,21 @@ fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
         fixed_to: Body::Base,
         legs: None,
     };
-    let with = |length: f64, swing: f64, force: f64, speed: f64| {
+    let with = |length: f64, cone_angle: f64, force: f64, speed: f64| {
         let mut r = Requirements {
             loads: vec![weight.clone()],
             platform_speed: Some(PlatformSpeed { linear: 1.0, angular_deg: 10.0 }),
             ..Requirements::default()
         };
         r.hardware.leg_length = Some(LengthLimits::Range(0.1, length));
-        r.hardware.base_swing = Some(Swing::of_all(swing, base_axes));
+        r.hardware.base_cone_angle = Some(ConeLimits::of_all(cone_angle, base_axes));
         r.hardware.max_leg_force = Some(force);
         r.hardware.max_leg_speed = Some(speed);
         r
     };
     let least = |r: &Requirements| {
         let found = assess(&m, r, &PoseSpace::at(home), &quick());
-        [TermKind::LegTooLong, TermKind::BaseSwing, TermKind::LegForce, TermKind::LegSpeed]
+        [TermKind::MaxLegLength, TermKind::BaseConeAngle, TermKind::LegForce, TermKind::LegSpeed]
             .map(|kind| (margin(&found, kind).value, margin(&found, kind).standing))
     };
     let wide = [100.0, 90.0, 1e4, 100.0];
@@ -276,7 +276,7 @@ fn several() -> (Manipulator, Requirements, PoseSpace) {
     r.hardware.leg_length = Some(LengthLimits::Range(8.0, 18.0));
     r.hardware.leg_body = Some(LegBody { diameter: 0.4, rod: Some((6.0, 0.3)) });
     r.hardware.leg_clearance = Some(0.05);
-    r.hardware.base_swing = Some(Swing::of_all(30.0, JointAxes::Home));
+    r.hardware.base_cone_angle = Some(ConeLimits::of_all(30.0, JointAxes::Home));
     r.hardware.max_leg_speed = Some(3.0);
     r.platform_speed = Some(PlatformSpeed { linear: 1.0, angular_deg: 2.0 });
     let sphere = KeepOutShape::Sphere { center: Point3::new(0.0, 0.0, 3.0), diameter: 2.0 };
@@ -307,7 +307,7 @@ fn a_kind_alone_has_the_margins_it_has_among_all() {
 #[test]
 fn proofs_do_not_depend_on_the_number_of_threads() {
     let (m, mut r, space) = several();
-    r.reserves.all = Some(0.02);
+    r.safety_margins.all = Some(0.02);
     let of = |threads: usize, close: bool| {
         let options = quick().threads(std::num::NonZeroUsize::new(threads).unwrap()).close(close);
         prove(&m, &r, &space, &options, 400)
@@ -317,9 +317,10 @@ fn proofs_do_not_depend_on_the_number_of_threads() {
         assert_eq!(one, of(3, close));
         // more than a batch of one requirement, where bounds come close
         assert!(!close || one.bounds.iter().map(|b| b.cells).max() > Some(40), "{one:?}");
-        assert_eq!((one.all_met(), one.all_reserved()), (Some(true), Some(true)), "{one:?}");
+        assert_eq!((one.all_met(), one.all_keep_safety_margin()), (Some(true), Some(true)), "{one:?}");
     }
-    // a bound that only decides gives the same reserves as a close one
-    let reserves = |p: &MarginProof| p.bounds.iter().map(MarginBound::keeps_reserve).collect::<Vec<_>>();
-    assert_eq!(reserves(&of(1, false)), reserves(&of(1, true)));
+    // a bound that only decides gives the same safety margins as a close one
+    let safety_margins =
+        |p: &MarginProof| p.bounds.iter().map(MarginBound::keeps_safety_margin).collect::<Vec<_>>();
+    assert_eq!(safety_margins(&of(1, false)), safety_margins(&of(1, true)));
 }

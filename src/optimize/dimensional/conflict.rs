@@ -311,7 +311,7 @@ fn others_hold(model: &Model<'_>, refined: &RefinedRun, group: ConstraintGroup) 
 /// Violations in the units of the requirements.
 fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTreeMap<ConstraintGroup, f64> {
     let h = &model.problem.requirements.hardware;
-    let reserve = |kind| model.problem.requirements.reserve(kind);
+    let safety_margin = |kind| model.problem.requirements.safety_margin(kind);
     let least = |kind| model.problem.requirements.least_stiffness_of(kind).unwrap_or(1.0);
     let ends = model.shape.ends(x);
     let mut out: BTreeMap<ConstraintGroup, f64> = BTreeMap::new();
@@ -326,22 +326,24 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
             let lean = |limit: f64| beyond(limit, l.length[leg]);
             let hinge = kind.hinge().zip(h.angle_limit_deg(kind, leg));
             let miss = match kind {
-                TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| lean(s.limits_deg[leg] - reserve(kind))),
-                TermKind::PlatformSwing => {
-                    h.platform_swing.map_or(0.0, |s| lean(s.limits_deg[leg] - reserve(kind)))
+                TermKind::BaseConeAngle => {
+                    h.base_cone_angle.map_or(0.0, |s| lean(s.limits_deg[leg] - safety_margin(kind)))
+                }
+                TermKind::PlatformConeAngle => {
+                    h.platform_cone_angle.map_or(0.0, |s| lean(s.limits_deg[leg] - safety_margin(kind)))
                 }
                 kind if kind.hinge().is_some() => match hinge {
                     Some(((body, HingeAngle::First), limit)) => {
-                        beyond(limit - reserve(kind), model.terms.across_first_axis(&l, body, leg))
+                        beyond(limit - safety_margin(kind), model.terms.across_first_axis(&l, body, leg))
                     }
-                    Some(((_, HingeAngle::Second), limit)) => lean(90.0 + limit - reserve(kind)),
+                    Some(((_, HingeAngle::Second), limit)) => lean(90.0 + limit - safety_margin(kind)),
                     None => 0.0,
                 },
                 TermKind::LegForce => -item.value * h.max_leg_force.unwrap_or(1.0),
                 TermKind::LegSpeed => -item.value * h.max_leg_speed.unwrap_or(1.0),
                 TermKind::LinearStiffness | TermKind::AngularStiffness => -item.value * least(kind),
                 TermKind::NaturalFrequency => {
-                    let wanted = least(kind) + reserve(kind);
+                    let wanted = least(kind) + safety_margin(kind);
                     let share = wanted / least(kind);
                     wanted - least(kind) * (share * share + 2.0 * item.value).max(0.0).sqrt()
                 }

@@ -170,7 +170,7 @@ impl Model<'_> {
     /// The cone of a convex requirement, the line affine in the step.
     fn cone(&self, exact: ConvexForm, n: &Near<'_>) -> AffineCone {
         let (l, at, rates) = (&n.l, n.at, n.rates);
-        let (ConvexForm::Length { leg, .. } | ConvexForm::Swing { leg, .. }) = exact;
+        let (ConvexForm::Length { leg, .. } | ConvexForm::ConeAngle { leg, .. }) = exact;
         let velocity = |rate: &Rate| {
             let lift = if at.follows { rate.lift } else { Vector3::zeros() };
             let own = rate.ends.iter().filter(|e| e.0 == leg);
@@ -185,7 +185,7 @@ impl Model<'_> {
                 let head = (greatest / self.terms.size - self.backoff, vec![0.0; rates.len()]);
                 AffineCone { head, tail, slack: 1.0 }
             }
-            ConvexForm::Swing { axis, cos, .. } => {
+            ConvexForm::ConeAngle { axis, cos, .. } => {
                 let head = ((line.dot(&axis) - self.backoff) / cos, along(axis / cos));
                 AffineCone { head, tail, slack: 1.0 / cos }
             }

@@ -44,7 +44,7 @@ pub(crate) struct PlacedPlate<'a> {
     hull: Vec<usize>,
 }
 
-/// A value with its gradient, before reserve and clearance.
+/// A value with its gradient, before safety margin and clearance.
 type Seen<P> = (f64, P);
 
 impl<'a> PlateModel<'a> {
@@ -120,11 +120,11 @@ impl PlacedPlate<'_> {
 
     /// Distances of the holes from the outline minus the required ones, for each hole and each edge of the outline that
     /// bounds its depth.
-    pub(super) fn edges<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
+    pub(super) fn edges<P: Gradient>(&self, safety_margin: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let kind = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
         let mut tell = |(seat, part): (usize, usize), (value, pull): Seen<P>| {
-            let value = (value - model.plate.edge_distance - reserve) / model.size;
+            let value = (value - model.plate.edge_distance - safety_margin) / model.size;
             see(PoseTerm {
                 id: (kind, seat, seat, part),
                 value,
@@ -156,12 +156,12 @@ impl PlacedPlate<'_> {
     ///
     /// Only near holes of two joints are used: they are within the least distance plus the width of their pattern.
     /// Others are never the nearest ones of a similar platform.
-    pub(super) fn gaps<P: Gradient>(&self, reserve: f64, see: &mut impl FnMut(PoseTerm<P>)) {
+    pub(super) fn gaps<P: Gradient>(&self, safety_margin: f64, see: &mut impl FnMut(PoseTerm<P>)) {
         let model = self.model;
         let plate = model.plate;
         let kind = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
         let mut tell = |[i, j]: [usize; 2], part: usize, (value, pull): Seen<P>| {
-            let value = (value - reserve) / model.size;
+            let value = (value - safety_margin) / model.size;
             see(PoseTerm { id: (kind, i, j, part), value, pull: pull.scaled(1.0 / model.size), exact: None });
         };
         let pattern = plate.bolts.map_or(0.0, |b| b.circle);

@@ -192,8 +192,8 @@ pub enum InvalidProblem {
         high: f64,
     },
     /// Axes can be chosen only for limits of joint angles below 90 degrees.
-    #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
-    SwingTooWide(f64),
+    #[error("joint axes can be chosen for cone angles below 90 degrees only, and this limit is {0} degrees")]
+    ConeTooWide(f64),
     /// Axes of universal joints cannot be chosen.
     #[error(
         "the axes of universal joints are not chosen: joint_axes is for ball joints, and the {0} has universal ones"
@@ -254,11 +254,13 @@ impl DimensionalProblem {
         if let Mode::Lexicographic { slack } = self.mode {
             positive("the slack of the levels", slack)?;
         }
-        for (swing, wanted) in [hardware.base_swing, hardware.platform_swing].iter().zip(self.axes_wanted()) {
-            if let (Some(swing), true) = (swing, wanted)
-                && swing.least_deg() >= 90.0
+        for (cone_angle, wanted) in
+            [hardware.base_cone_angle, hardware.platform_cone_angle].iter().zip(self.axes_wanted())
+        {
+            if let (Some(cone_angle), true) = (cone_angle, wanted)
+                && cone_angle.least_deg() >= 90.0
             {
-                return Err(InvalidProblem::SwingTooWide(swing.least_deg()));
+                return Err(InvalidProblem::ConeTooWide(cone_angle.least_deg()));
             }
         }
         for body in Body::BOTH {
@@ -309,10 +311,10 @@ impl DimensionalProblem {
     /// Whether the axes of base and platform joints are chosen: requested, and with limits.
     pub(crate) fn axes_wanted(&self) -> [bool; 2] {
         let h = &self.requirements.hardware;
-        let wanted = |k: usize, swing: Option<machine::requirements::Swing>| {
-            swing.is_some_and(|s| s.axes == JointAxes::Optimize || self.variables.joint_axes[k])
+        let wanted = |k: usize, cone_angle: Option<machine::requirements::ConeLimits>| {
+            cone_angle.is_some_and(|s| s.axes == JointAxes::Optimize || self.variables.joint_axes[k])
         };
-        [wanted(0, h.base_swing), wanted(1, h.platform_swing)]
+        [wanted(0, h.base_cone_angle), wanted(1, h.platform_cone_angle)]
     }
 
     /// The single poses, and those along the trajectory.

@@ -15,7 +15,9 @@ use super::shape::{JointEnds, LegJoints, Shape};
 use super::stiffness::{self, RayleighQuotient};
 use crate::climb::TermId;
 use machine::requirements;
-use machine::requirements::{HingeAngle, Housing, JointAxes, KeepOutShape, Requirements, Swing, TermKind};
+use machine::requirements::{
+    ConeLimits, HingeAngle, Housing, JointAxes, KeepOutShape, Requirements, TermKind,
+};
 use num::ordered::{OrderedNumber, Sloped};
 use platform::geom::Pose;
 use platform::manipulator::Body;
@@ -26,7 +28,7 @@ pub(crate) enum ConvexForm {
     /// `greatest >= |d|`.
     Length { leg: usize, greatest: f64 },
     /// `d . c / cos(limit) >= |d|` for a given axis (base frame).
-    Swing { leg: usize, axis: Vector3<f64>, cos: f64 },
+    ConeAngle { leg: usize, axis: Vector3<f64>, cos: f64 },
 }
 
 /// A requirement at a pose.
@@ -87,7 +89,7 @@ impl<'a> RequirementTerms<'a> {
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
         self.lengths(l, see);
-        self.swing(l, ends, x, see);
+        self.cone_angle(l, ends, x, see);
         self.hinges(l, ends, see);
         self.leg_clearances(l, see);
         self.keep_outs(l, see);
@@ -109,8 +111,8 @@ impl<'a> RequirementTerms<'a> {
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
         match kind {
-            TermKind::LegTooShort | TermKind::LegTooLong => self.lengths(l, see),
-            TermKind::BaseSwing | TermKind::PlatformSwing => self.swing(l, ends, x, see),
+            TermKind::MinLegLength | TermKind::MaxLegLength => self.lengths(l, see),
+            TermKind::BaseConeAngle | TermKind::PlatformConeAngle => self.cone_angle(l, ends, x, see),
             kind if kind.hinge().is_some() => self.hinges(l, ends, see),
             TermKind::LegClearance => self.leg_clearance(l, (first, second), see),
             TermKind::LegForce => self.forces(l, see),
@@ -126,7 +128,7 @@ impl<'a> RequirementTerms<'a> {
     fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(wanted) = self.required.platform_stiffness else { return };
         let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
-        let of = |kind, least: f64| 1.0 + self.required.reserve(kind) / least;
+        let of = |kind, least: f64| 1.0 + self.required.safety_margin(kind) / least;
         for (kind, least, about_torques) in [
             (TermKind::LinearStiffness, wanted.linear, false),
             (TermKind::AngularStiffness, wanted.angular, true),
@@ -146,17 +148,17 @@ impl<'a> RequirementTerms<'a> {
     fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(limits) = self.required.hardware.leg_length else { return };
         let (least, greatest) = limits.range();
-        let least = least + self.required.reserve(TermKind::LegTooShort);
-        let greatest = greatest - self.required.reserve(TermKind::LegTooLong);
+        let least = least + self.required.safety_margin(TermKind::MinLegLength);
+        let greatest = greatest - self.required.safety_margin(TermKind::MaxLegLength);
         for i in 0..6 {
             let mut pull = P::none();
             pull.line(i, l.direction[i] / self.size);
             let short = (l.length[i] - least) / self.size;
-            see(PoseTerm { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
+            see(PoseTerm { id: (TermKind::MinLegLength, i, i, 0), value: short, pull, exact: None });
             let exact = Some(ConvexForm::Length { leg: i, greatest });
             let long = (greatest - l.length[i]) / self.size;
             see(PoseTerm {
-                id: (TermKind::LegTooLong, i, i, 0),
+                id: (TermKind::MaxLegLength, i, i, 0),
                 value: long,
                 pull: pull.scaled(-1.0),
                 exact,
@@ -164,7 +166,7 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
-    fn swing<P: Gradient>(
+    fn cone_angle<P: Gradient>(
         &self,
         l: &LegLines,
         ends: &JointEnds,
@@ -172,29 +174,32 @@ impl<'a> RequirementTerms<'a> {
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
         let h = &self.required.hardware;
-        let bodies = [(TermKind::BaseSwing, h.base_swing), (TermKind::PlatformSwing, h.platform_swing)];
-        for (body, (kind, swing)) in bodies.into_iter().enumerate() {
-            let Some(swing) = swing else { continue };
+        let bodies = [
+            (TermKind::BaseConeAngle, h.base_cone_angle),
+            (TermKind::PlatformConeAngle, h.platform_cone_angle),
+        ];
+        for (body, (kind, cone_angle)) in bodies.into_iter().enumerate() {
+            let Some(cone_angle) = cone_angle else { continue };
             for i in 0..6 {
-                see(self.swing_of(l, ends, x, (body, kind, i), &swing));
+                see(self.cone_angle_of(l, ends, x, (body, kind, i), &cone_angle));
             }
         }
     }
 
-    fn swing_of<P: Gradient>(
+    fn cone_angle_of<P: Gradient>(
         &self,
         l: &LegLines,
         ends: &JointEnds,
         x: &[f64],
         (body, kind, i): (usize, TermKind, usize),
-        swing: &Swing,
+        cone_angle: &ConeLimits,
     ) -> PoseTerm<P> {
-        let cos = (swing.limits_deg[i] - self.required.reserve(kind)).to_radians().cos();
+        let cos = (cone_angle.limits_deg[i] - self.required.safety_margin(kind)).to_radians().cos();
         let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
         let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
         let mut pull = P::none();
         let d = &l.line[i];
-        let (axis, exact) = match (self.axes[body], swing.axes) {
+        let (axis, exact) = match (self.axes[body], cone_angle.axes) {
             (Some(first), _) => {
                 let c = Vector3::from_fn(|k, _| x[first + 3 * i + k]);
                 pull.set_axis(body, i, back(d) / self.size);
@@ -202,7 +207,7 @@ impl<'a> RequirementTerms<'a> {
             }
             (None, JointAxes::Given(axes)) => {
                 let c = here(&axes[i]);
-                (c, (cos > 0.0).then_some(ConvexForm::Swing { leg: i, axis: c, cos }))
+                (c, (cos > 0.0).then_some(ConvexForm::ConeAngle { leg: i, axis: c, cos }))
             }
             (None, _) => {
                 // along the leg at home, which moves with the joints
@@ -236,7 +241,7 @@ impl<'a> RequirementTerms<'a> {
                 else {
                     continue;
                 };
-                let limit = (limit - self.required.reserve(kind)).to_radians();
+                let limit = (limit - self.required.safety_margin(kind)).to_radians();
                 let first = first.into_inner();
                 match angle {
                     HingeAngle::First => {
@@ -325,7 +330,7 @@ impl<'a> RequirementTerms<'a> {
     ) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::LegClearance);
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(TermKind::LegClearance);
         l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
             see(PoseTerm {
                 id: (TermKind::LegClearance, i, j, gap.part),
@@ -360,7 +365,7 @@ impl<'a> RequirementTerms<'a> {
     ) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(kind);
         l.keep_out_gaps(&body, i, shape, &mut |gap: Gap<P>| {
             see(PoseTerm {
                 id: (kind, i, k, gap.part),
@@ -381,7 +386,7 @@ impl<'a> RequirementTerms<'a> {
         let h = &self.required.hardware;
         let Some(leg_body) = h.leg_body else { return };
         let kind = TermKind::PlateClearance;
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(kind);
         for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
             for i in 0..6 {
                 let reach = h.joint_reach(model.body, i);
@@ -407,7 +412,7 @@ impl<'a> RequirementTerms<'a> {
 
     fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
-        let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
+        let kept = 1.0 - self.required.safety_margin(TermKind::LegForce) / greatest;
         let lines = HeldLegs::new::<P>(l, self.size);
         for (k, load) in self.required.loads.iter().enumerate() {
             let forces = lines.hold(load);
@@ -437,7 +442,7 @@ impl<'a> RequirementTerms<'a> {
         else {
             return;
         };
-        let kept = 1.0 - self.required.reserve(TermKind::LegSpeed) / greatest;
+        let kept = 1.0 - self.required.safety_margin(TermKind::LegSpeed) / greatest;
         for i in 0..6 {
             let moment = Sloped::norm(Sloped::point(&l.arm[i].cross(&l.direction[i])));
             let fastest = speed.fastest(Sloped::from(1.0), moment);
@@ -453,7 +458,7 @@ impl<'a> RequirementTerms<'a> {
     pub(super) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(PoseTerm<P>)) {
         for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
         {
-            let reserve = self.required.reserve(kind);
+            let safety_margin = self.required.safety_margin(kind);
             for (i, j) in self.separate_housings(body) {
                 let at = body.of((&ends.base, &ends.platform));
                 let d = Sloped::point(&(at[j] - at[i]));
@@ -463,7 +468,7 @@ impl<'a> RequirementTerms<'a> {
                 ];
                 for (part, gap) in gaps.into_iter().enumerate().filter_map(|(k, gap)| Some((k, gap?))) {
                     let pull = joint_pull(body, i, j, &(gap.slope / self.size));
-                    let value = (gap.value - reserve) / self.size;
+                    let value = (gap.value - safety_margin) / self.size;
                     see(PoseTerm { id: (kind, i, j, part), value, pull, exact: None });
                 }
             }
@@ -477,8 +482,8 @@ impl<'a> RequirementTerms<'a> {
         for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
             let edge = model.body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
             let gap = model.body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
-            plate.edges(self.required.reserve(edge), see);
-            plate.gaps(self.required.reserve(gap), see);
+            plate.edges(self.required.safety_margin(edge), see);
+            plate.gaps(self.required.safety_margin(gap), see);
         }
     }
 
@@ -491,7 +496,7 @@ impl<'a> RequirementTerms<'a> {
         ];
         for (kind, body, envelope) in bodies {
             let Some(envelope) = envelope else { continue };
-            let reserve = self.required.reserve(kind);
+            let safety_margin = self.required.safety_margin(kind);
             let at = body.of((&ends.base, &ends.platform));
             for i in self.different_housings(body) {
                 let (half, ball) = requirements::room(self.required.hardware.housing(body, i));
@@ -501,7 +506,7 @@ impl<'a> RequirementTerms<'a> {
                         Body::Base => pull.at_base(i, &g),
                         Body::Platform => pull.at_arm(i, &g),
                     }
-                    let value = (margin.value - reserve) / self.size;
+                    let value = (margin.value - safety_margin) / self.size;
                     see(PoseTerm { id: (kind, i, i, part), value, pull, exact: None });
                 });
             }
@@ -512,7 +517,7 @@ impl<'a> RequirementTerms<'a> {
     fn machine<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(PoseTerm<P>)) {
         let Some(envelope) = self.required.envelopes.machine else { return };
         let kind = TermKind::MachineEnvelope;
-        let reserve = self.required.reserve(kind);
+        let safety_margin = self.required.safety_margin(kind);
         for i in 0..6 {
             for body in Body::BOTH {
                 let ball = requirements::ball(self.required.hardware.housing(body, i));
@@ -526,7 +531,7 @@ impl<'a> RequirementTerms<'a> {
                             pull.at_position(&g);
                         }
                     }
-                    let value = (margin.value - reserve) / self.size;
+                    let value = (margin.value - safety_margin) / self.size;
                     see(PoseTerm { id: (kind, i, body.index(), part), value, pull, exact: None });
                 });
             }

@@ -144,7 +144,7 @@ fn room(side: usize, zone: Zone, m: &OffsetModel, limits: &OffsetLimits) -> Zone
         limits.room(side, cut).into_iter().map(|outer| ZonePiece { outer, kept: kept(&outer) }).collect();
     if pieces.is_empty() {
         let available = (cut.1 - cut.0) * m.sides[side].edge_length() * m.scale;
-        return Err(Conflict::NoRoom { side, zone, available });
+        return Err(Conflict::NoSpace { side, zone, available });
     }
     Ok(pieces)
 }
@@ -399,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn spacing_wider_than_half_an_edge_leaves_no_room_inside() {
+    fn spacing_wider_than_half_an_edge_leaves_no_space_inside() {
         // platform edge 6, spacing 3.1: nothing inside platform edges, base edges keep space
         let all = divisions(&|p| p.min_joint_distance = 3.1);
         for d in &all {
@@ -407,7 +407,7 @@ mod tests {
             assert_eq!(d.cells.is_empty(), platform_inside, "{}", d.branch);
         }
         let d = &all[364];
-        assert!(d.conflicts.iter().all(|c| matches!(c, Conflict::NoRoom { zone: Zone::Inside, .. })));
+        assert!(d.conflicts.iter().all(|c| matches!(c, Conflict::NoSpace { zone: Zone::Inside, .. })));
         assert_eq!(d.conflicts.len(), 3);
     }
 

@@ -210,7 +210,7 @@ pub enum Conflict {
         zone: Zone,
     },
     /// No part of the zone within the bounds has the spacing from the three vertices.
-    NoRoom {
+    NoSpace {
         /// Side of the hexagon.
         side: usize,
         /// The zone.
@@ -241,8 +241,14 @@ pub enum Conflict {
 
 impl Conflict {
     /// All codes.
-    pub const CODES: [&'static str; 6] =
-        ["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"];
+    pub const CODES: [&'static str; 6] = [
+        "vertices_too_close",
+        "outside_bounds",
+        "no_space",
+        "pair_too_close",
+        "det_too_small",
+        "combination",
+    ];
 
     /// A short stable code, one of [`CODES`](Self::CODES).
     #[must_use]
@@ -250,7 +256,7 @@ impl Conflict {
         match self {
             Self::VerticesTooClose { .. } => Self::CODES[0],
             Self::OutsideBounds { .. } => Self::CODES[1],
-            Self::NoRoom { .. } => Self::CODES[2],
+            Self::NoSpace { .. } => Self::CODES[2],
             Self::PairTooClose { .. } => Self::CODES[3],
             Self::DetTooSmall { .. } => Self::CODES[4],
             Self::Combination { .. } => Self::CODES[5],
@@ -272,7 +278,7 @@ impl std::fmt::Display for Conflict {
             Self::OutsideBounds { side, zone } => {
                 write!(f, "the bounds of offset {} leave nothing {}", side + 1, zone.words())
             }
-            Self::NoRoom { side, zone, available } => write!(
+            Self::NoSpace { side, zone, available } => write!(
                 f,
                 "offset {}: {} {} is too short for the joint distance",
                 side + 1,

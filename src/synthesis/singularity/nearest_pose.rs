@@ -3,7 +3,7 @@
 //! Poses are `y = (d, L w)` from the given one: shift `d` of the platform origin and rotation vector `w` in the base
 //! frame, a radian counted as a length `L`. The singular poses are the zeros of `F(y) = det J`, and the nearest one is
 //! sought by `y <- g (g . y - F) / |g|^2` with the gradient `g` of `F`: the foot of the given pose on the tangent plane
-//! of the level of `F` (Rackwitz, Fiessler 1978). It starts from the first changes of sign on straight ways in many
+//! of the level of `F` (Rackwitz, Fiessler 1978). It starts from the first changes of sign on straight paths in many
 //! directions. The answer is a local minimum of the distance.
 
 use nalgebra::{Rotation3, Vector3, Vector6};
@@ -18,7 +18,7 @@ use platform::manipulator::{Manipulator, leg_determinant};
 pub struct NearestPoseSearch {
     /// A radian counts as this length.
     pub length: f64,
-    /// Directions of straight ways, besides those along the twelve axes.
+    /// Directions of straight paths, besides those along the twelve axes.
     pub directions: usize,
     /// The seed.
     pub seed: u64,
@@ -170,7 +170,7 @@ impl Around<'_> {
         }
     }
 
-    /// Half the length of a straight way across the pose on which `det J` is proved to change its sign.
+    /// Half the length of a straight path across the pose on which `det J` is proved to change its sign.
     fn proved_within(&self, y: &Vector6<f64>, g: &Vector6<f64>) -> Option<f64> {
         let normal = g.normalize();
         let half = [1e-10, 1e-8, 1e-6, 1e-4].map(|share| share * self.m.size());

@@ -161,10 +161,10 @@ impl DimensionalJudge {
         }
         let mut requirements = self.problem.requirements.clone();
         let hardware = &mut requirements.hardware;
-        let swings = [&mut hardware.base_swing, &mut hardware.platform_swing];
-        for (body, swing) in swings.into_iter().enumerate() {
-            let Some(swing) = swing else { continue };
-            if self.problem.variables.joint_axes[body] || swing.axes == JointAxes::Optimize {
+        let cone_angles = [&mut hardware.base_cone_angle, &mut hardware.platform_cone_angle];
+        for (body, cone_angle) in cone_angles.into_iter().enumerate() {
+            let Some(cone_angle) = cone_angle else { continue };
+            if self.problem.variables.joint_axes[body] || cone_angle.axes == JointAxes::Optimize {
                 let poses = self.poses(home);
                 let axis = |leg: &Leg| {
                     let along = |pose: &Pose| {
@@ -174,7 +174,7 @@ impl DimensionalJudge {
                     let all: Vec<Vector3<f64>> = poses.iter().map(along).collect();
                     Unit::new_normalize(cap::centre(&all))
                 };
-                swing.axes = JointAxes::Given(legs.each_ref().map(axis));
+                cone_angle.axes = JointAxes::Given(legs.each_ref().map(axis));
             }
         }
         Some(Built { manipulator, requirements, home })
@@ -192,11 +192,11 @@ impl DimensionalJudge {
         }
         let mut built = Built { manipulator: s.manipulator.clone(), home: s.home, ..own };
         let hardware = &mut built.requirements.hardware;
-        for (swing, axes) in
-            [(&mut hardware.base_swing, s.axes[0]), (&mut hardware.platform_swing, s.axes[1])]
+        for (cone_angle, axes) in
+            [(&mut hardware.base_cone_angle, s.axes[0]), (&mut hardware.platform_cone_angle, s.axes[1])]
         {
-            if let (Some(swing), Some(axes)) = (swing, axes) {
-                swing.axes = JointAxes::Given(axes);
+            if let (Some(cone_angle), Some(axes)) = (cone_angle, axes) {
+                cone_angle.axes = JointAxes::Given(axes);
             }
         }
         Ok(built)

@@ -54,7 +54,7 @@ fn simulators_limit_the_swing_of_rods_at_both_ends() {
     let out = folder.path().to_str().unwrap();
     let path = folder.path().join("limited.toml");
     let text = std::fs::read_to_string(HEAD).unwrap();
-    let limits = "max_torque = 520.0\ntip_swing_deg = 25.0\nplatform_swing_deg = 35.0";
+    let limits = "max_torque = 520.0\ntip_angle_deg = 25.0\nplatform_cone_angle_deg = 35.0";
     std::fs::write(&path, text.replace("max_torque = 520.0", limits)).unwrap();
     let path = path.to_str().unwrap();
     let done = equipod(&["export", path, "--to", "mjcf", "-o", out, "--json"]);
@@ -81,9 +81,9 @@ fn simulators_limit_the_swing_of_rods_at_both_ends() {
         let joint = design.manipulator().legs()[i - 1].platform.coords * 1e-3;
         assert!(((joint - seat).norm() - 0.0085).abs() < 1e-12, "{seat}");
     }
-    assert!((left - margin("tip_swing")).abs() < 1e-9, "{left} {}", margin("tip_swing"));
+    assert!((left - margin("tip_angle")).abs() < 1e-9, "{left} {}", margin("tip_angle"));
     // at home no rod swings at the platform
-    assert!((margin("platform_swing") - 35_f64.to_radians()).abs() < 1e-9);
+    assert!((margin("platform_cone_angle") - 35_f64.to_radians()).abs() < 1e-9);
     // without limits there are none
     let done = equipod(&["export", HEAD, "--to", "mjcf", "-o", out, "--json"]);
     assert_eq!(done.status.code(), Some(0));

@@ -53,12 +53,12 @@ fn every_slip_in_a_crank_is_refused_at_its_place() {
         ("max_torque = 1500", "max_torqe = 1500", Code::UnknownKey, "max_torqe"),
         (
             "max_torque = 1500",
-            "least_transmission_deg = 90",
+            "min_transmission_angle_deg = 90",
             Code::OutOfRange,
-            "`least_transmission_deg` is 90 degrees",
+            "`min_transmission_angle_deg` is 90 degrees",
         ),
-        ("max_torque = 1500", "tip_swing_deg = 95", Code::OutOfRange, "tip_swing_deg"),
-        ("max_torque = 1500", "platform_swing_deg = -4", Code::NotPositive, "platform_swing_deg"),
+        ("max_torque = 1500", "tip_angle_deg = 95", Code::OutOfRange, "tip_angle_deg"),
+        ("max_torque = 1500", "platform_cone_angle_deg = -4", Code::NotPositive, "platform_cone_angle_deg"),
         ("[cranks.A6]", "[cranks.A7]", Code::UnknownKey, "A7"),
         (
             "mirror = \"A1\"\nplane = \"xz\"\n[cranks.A3]",

@@ -1,4 +1,4 @@
-//! Requirements of cranks: margins at a pose, less their reserves, and proved over the workspace.
+//! Requirements of cranks: margins at a pose, less their safety margins, and proved over the workspace.
 
 use std::f64::consts::TAU;
 
@@ -10,14 +10,14 @@ use nalgebra::Vector3;
 use super::{HEAD, LIMITS, SERVOS, asked, drawn, limited};
 use crate::cli_frame::{document, equipod};
 
-/// Margins of cranks less their reserves, as rows of the answer.
+/// Margins of cranks less their safety margins, as rows of the answer.
 #[test]
-fn reserves_of_cranks_are_taken_off_their_margins() {
+fn safety_margins_of_cranks_are_taken_off_their_margins() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("r.toml");
     let text = SERVOS.replace("max_torque = 1500", LIMITS).replace(
         "[speed]\nlinear = 50",
-        "[workspace]\ntranslation = [3, 3, 3]\nrotation_deg = [2, 2, 2]\n[limits.reserve]\nrod_too_short = 0.5\ncrank_transmission = \"10%\"\ncrank_angle = 4\ncrank_torque = \"50%\"\ntip_swing = \"25%\"\ncrank_speed = 400\n[speed]\nlinear = 50\nangular_deg = 30",
+        "[workspace]\ntranslation = [3, 3, 3]\nrotation_deg = [2, 2, 2]\n[limits.safety_margin]\nmin_rod_length = 0.5\ncrank_transmission = \"10%\"\ncrank_angle = 4\ncrank_torque = \"50%\"\ntip_angle = \"25%\"\ncrank_speed = 400\n[speed]\nlinear = 50\nangular_deg = 30",
     );
     // angles about those at home, which are 150 degrees
     let text = text.replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
@@ -30,27 +30,30 @@ fn reserves_of_cranks_are_taken_off_their_margins() {
         rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {doc}"))
     };
     // shares are relative to the limit: 20 degrees, 1500 force mm, 40 degrees
-    for (name, reserve) in [
-        ("rod_too_short", 0.5),
+    for (name, safety_margin) in [
+        ("min_rod_length", 0.5),
         ("crank_transmission", 2.0),
         ("crank_angle", 4.0),
         ("crank_torque", 750.0),
-        ("tip_swing", 10.0),
+        ("tip_angle", 10.0),
         ("crank_speed", 400.0),
-        ("rod_too_long", 0.0),
+        ("max_rod_length", 0.0),
     ] {
         let row = row(name);
         let of = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
-        assert!((of("reserve") - reserve).abs() < 1e-12, "{row}");
-        assert!((of("margin_with_reserve") - (of("margin") - reserve)).abs() < 1e-9, "{row}");
+        assert!((of("reserve") - safety_margin).abs() < 1e-12, "{row}");
+        assert!((of("net_margin") - (of("margin") - safety_margin)).abs() < 1e-9, "{row}");
         // kept where that is proved, not kept where the margin found is less; the limits themselves are met
-        assert_eq!(row["reserve_kept"] == false, of("margin") < reserve, "{row}");
+        assert_eq!(row["safety_margin_kept"] == false, of("margin") < safety_margin, "{row}");
         assert!(row["status"] != "violated", "{row}");
     }
     // the margin of a speed is positive, and less than the required safety margin
     assert!(row("crank_speed")["margin"].as_f64().unwrap() > 0.0, "{doc}");
-    assert_eq!((&row("crank_speed")["reserve_kept"], &doc["reserve_kept"]), (&false.into(), &false.into()));
-    assert_eq!(row("rod_too_short")["reserve_kept"], true, "{doc}");
+    assert_eq!(
+        (&row("crank_speed")["safety_margin_kept"], &doc["safety_margin_kept"]),
+        (&false.into(), &false.into())
+    );
+    assert_eq!(row("min_rod_length")["safety_margin_kept"], true, "{doc}");
     assert!(matches!(code, Some(0 | 3)), "{doc}");
 }
 
@@ -88,8 +91,8 @@ fn margins_of_cranks_are_those_of_their_kinematics() {
             for (kind, meant) in [
                 (TermKind::CrankTransmission, transmissions[i].abs().asin().to_degrees() - 20.0),
                 (TermKind::CrankAngle, left[i].to_degrees()),
-                (TermKind::TipSwing, 40.0 - out),
-                (TermKind::PlatformSwing, 25.0 - swung),
+                (TermKind::TipAngle, 40.0 - out),
+                (TermKind::PlatformConeAngle, 25.0 - swung),
                 (TermKind::CrankSpeed, 300.0 - speeds[i].to_degrees()),
                 (TermKind::CrankTorque, 1500.0 - torques[i].abs()),
             ] {
@@ -100,8 +103,8 @@ fn margins_of_cranks_are_those_of_their_kinematics() {
             let joint = pose.transform(&leg.platform);
             let away = (0..7200).map(|k| (joint - platform.tip(i, f64::from(k) * TAU / 7200.0)).norm());
             let (least, most) = away.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-            assert!((margin(TermKind::RodTooShort, i) - (leg.rod - least)).abs() < 1e-4);
-            assert!((margin(TermKind::RodTooLong, i) - (most - leg.rod)).abs() < 1e-4);
+            assert!((margin(TermKind::MinRodLength, i) - (leg.rod - least)).abs() < 1e-4);
+            assert!((margin(TermKind::MaxRodLength, i) - (most - leg.rod)).abs() < 1e-4);
         }
     }
     // beyond reach the rows of reach and of the transmission are violated, and nothing breaks down
@@ -110,7 +113,7 @@ fn margins_of_cranks_are_those_of_their_kinematics() {
         let own = terms.at(&far).into_iter().filter(|t| t.0.kind == kind).map(|t| t.1);
         own.fold(f64::INFINITY, f64::min)
     };
-    assert!(platform.ik(&far).is_err() && least(TermKind::RodTooShort) < -30.0);
+    assert!(platform.ik(&far).is_err() && least(TermKind::MinRodLength) < -30.0);
     assert!(least(TermKind::CrankTransmission) < -20.0 && least(TermKind::CrankTorque) == f64::NEG_INFINITY);
 }
 
@@ -125,12 +128,12 @@ fn proved_margins_of_cranks_hold_over_the_workspace() {
     let found = design.assess_with(&options, 250).unwrap();
     let kinds: Vec<TermKind> = found.proof.bounds.iter().map(|b| b.found.term.kind).collect();
     for kind in [
-        TermKind::PlatformSwing,
-        TermKind::RodTooShort,
-        TermKind::RodTooLong,
+        TermKind::PlatformConeAngle,
+        TermKind::MinRodLength,
+        TermKind::MaxRodLength,
         TermKind::CrankTransmission,
         TermKind::CrankAngle,
-        TermKind::TipSwing,
+        TermKind::TipAngle,
         TermKind::CrankTorque,
         TermKind::CrankSpeed,
     ] {
@@ -145,14 +148,15 @@ fn proved_margins_of_cranks_hold_over_the_workspace() {
             "{kind:?}: {bound:?} {least}"
         );
     }
-    let reach = found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::RodTooShort).unwrap();
+    let reach = found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::MinRodLength).unwrap();
     assert_eq!(reach.verdict, MarginVerdict::Met, "{reach:?}");
     // one limit moved beyond the least margin found is violated, and is told so
     let wanted =
         found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::CrankTransmission).unwrap();
     let more = wanted.found.value + 20.0 + 0.5;
-    let text =
-        design.text().replace("least_transmission_deg = 20", &format!("least_transmission_deg = {more}"));
+    let text = design
+        .text()
+        .replace("min_transmission_angle_deg = 20", &format!("min_transmission_angle_deg = {more}"));
     let strict = parse_with_cranks(&text, Format::Toml).unwrap().0;
     let found = strict.assess_with(&options, 250).unwrap();
     let row = found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::CrankTransmission).unwrap();
@@ -168,7 +172,7 @@ fn the_head_is_assessed_and_keys_of_cranks_are_written() {
     let names: Vec<&str> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(
         names,
-        ["rod_too_short", "rod_too_long", "crank_transmission", "crank_angle", "crank_torque"],
+        ["min_rod_length", "max_rod_length", "crank_transmission", "crank_angle", "crank_torque"],
         "{doc}"
     );
     assert_eq!((&rows[0]["status"], &rows[2]["status"]), (&"met".into(), &"met".into()), "{doc}");
@@ -177,5 +181,5 @@ fn the_head_is_assessed_and_keys_of_cranks_are_written() {
     let design = limited();
     let (again, _) = parse_with_cranks(&design.to_toml(), Format::Toml).unwrap();
     assert_eq!((again.crank_limits(), &again), (design.crank_limits(), &design));
-    assert_eq!(design.crank_limits().tip_swing_deg, Some(40.0));
+    assert_eq!(design.crank_limits().tip_angle_deg, Some(40.0));
 }

@@ -99,7 +99,7 @@ fn asked(args: &[&str]) -> (Option<i32>, Value) {
 
 /// Everything that limits cranks and rods.
 const LIMITS: &str =
-    "max_torque = 1500\nleast_transmission_deg = 20\ntip_swing_deg = 40\nplatform_swing_deg = 25";
+    "max_torque = 1500\nmin_transmission_angle_deg = 20\ntip_angle_deg = 40\nplatform_cone_angle_deg = 25";
 
 fn limited() -> Design {
     let text = SERVOS.replace("max_torque = 1500", LIMITS).replace(

@@ -38,7 +38,7 @@ fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
             assert!(!met(&at(end + sign * 1e-4)), "{name} {way}: {row}");
             let binds = row[way]["binds"]["name"].as_str().unwrap();
             assert!(
-                ["rod_too_short", "rod_too_long", "crank_angle", "crank_torque"].contains(&binds),
+                ["min_rod_length", "max_rod_length", "crank_angle", "crank_torque"].contains(&binds),
                 "{row}"
             );
         }
@@ -47,7 +47,7 @@ fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
     let (code, doc) = asked(&["limits", HEAD, "--to", "0,0,260,0,0,0"]);
     assert_eq!(code, Some(1), "{doc}");
     assert!(
-        doc["way"]["binds"]["name"].is_string() && doc["nearest_allowed"]["distance"].is_number(),
+        doc["straight_path"]["binds"]["name"].is_string() && doc["nearest_allowed"]["distance"].is_number(),
         "{doc}"
     );
     let (code, doc) = asked(&["limits", HEAD, "--at", "0,0,260,0,0,0"]);
@@ -57,7 +57,7 @@ fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
         .iter()
         .map(|v| v["name"].as_str().unwrap_or("singular"))
         .collect();
-    assert_eq!((code, violated.contains(&"rod_too_short")), (Some(1), true), "{doc}");
+    assert_eq!((code, violated.contains(&"min_rod_length")), (Some(1), true), "{doc}");
     assert!(!violated.contains(&"singular"), "where no rod reaches there is no sign to lose: {doc}");
 }
 
@@ -77,7 +77,7 @@ fn ways_of_cranks_keep_every_limit_between_their_steps() {
     let mut bound = std::collections::BTreeSet::new();
     for to in ["30,10,110,0,0,0", "0,0,80,0,0,0", "0,0,125,0,0,0", "0,0,105,0,0,60", "5,-30,100,20,5,0"] {
         let (_, doc) = asked(&["limits", path.to_str().unwrap(), "--to", to]);
-        let way = &doc["way"];
+        let way = &doc["straight_path"];
         let free = way["free"].as_f64().unwrap_or_else(|| panic!("{doc}"));
         bound.insert(way["binds"]["name"].as_str().unwrap_or_else(|| panic!("{to}: {doc}")).to_string());
         let target: Pose = to.parse().unwrap();
@@ -110,7 +110,7 @@ fn a_motion_of_cranks_has_speeds_torques_and_powers() {
         .iter()
         .map(|r| r["margin"]["name"].as_str().unwrap())
         .collect();
-    for name in ["crank_torque", "crank_speed", "crank_angle", "rod_too_short"] {
+    for name in ["crank_torque", "crank_speed", "crank_angle", "min_rod_length"] {
         assert!(names.contains(&name), "{names:?}");
     }
     let text = std::fs::read_to_string(&table).unwrap();

@@ -42,7 +42,7 @@ fn angles_of_a_pose_and_poses_of_angles_belong_together() {
     let most = torques.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
     assert!((margin("crank_torque").unwrap() - (520.0 - most)).abs() < 1e-9);
     assert!(margin("crank_angle").unwrap() > 0.0 && margin("crank_speed").is_none(), "no speed is asked for");
-    assert!(margin("rod_too_short").unwrap() > 0.0 && margin("crank_transmission").unwrap() > 0.0);
+    assert!(margin("min_rod_length").unwrap() > 0.0 && margin("crank_transmission").unwrap() > 0.0);
     // and back, from home and among all poses
     let list = angles.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
     for extra in [vec!["--near", "home"], vec![]] {

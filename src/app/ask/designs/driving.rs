@@ -36,16 +36,16 @@ impl DriveFit {
     }
 
     /// Whether the safety margin on every limit is kept too.
-    pub fn keeps_reserve(&self) -> Option<bool> {
+    pub fn keeps_safety_margin(&self) -> Option<bool> {
         let fits = self.fits();
         let along = |m: &MotionReport| {
             let required = self.design.requirements();
-            m.margins.iter().all(|m| m.margin.value >= required.reserve(m.margin.term.kind))
+            m.margins.iter().all(|m| m.margin.value >= required.safety_margin(m.margin.term.kind))
         };
         if fits == Some(false) || !self.motions.iter().all(along) {
             return Some(false);
         }
-        self.assessed.met_with_reserve()
+        self.assessed.met_with_safety_margin()
     }
 
     /// Drives that fit come first, then undecided ones; within a group by price, then mass, then the order of the
@@ -169,7 +169,13 @@ impl Design {
         let proof = self.proved(&rest, seed);
         let (regularity, regularity_cells) = regular_workspace(m, &space, ASSESS_CELLS, seed);
         let conditioning = least_conditioning(m, &space, &deciding(seed), self.characteristic_length());
-        AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning }
+        AssessReport {
+            assessed_poses: self.assessed_poses(),
+            proof,
+            regularity,
+            regularity_cells,
+            conditioning,
+        }
     }
 
     /// The proved margins of some requirements, with as many cells as a decision takes, up to the limit of a search. A
@@ -181,7 +187,7 @@ impl Design {
             found = prove(m, required, &space, &deciding(seed), cells);
             let decided = match found.all_met() {
                 Some(false) => true,
-                Some(true) => found.all_reserved().is_some(),
+                Some(true) => found.all_keep_safety_margin().is_some(),
                 None => false,
             };
             if decided {

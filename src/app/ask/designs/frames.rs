@@ -1,7 +1,7 @@
 //! The convention in which poses of a design come in and go out.
 
 use crate::Design;
-use machine::reach::StraightWay;
+use machine::reach::StraightPath;
 use platform::geom::{InvalidPose, Pose, PoseConvention, WrittenPose};
 
 /// A convention for poses with the home that they may count from.
@@ -39,9 +39,9 @@ impl PoseFrames {
     /// The ways on which one of the six numbers of a pose grows and the others stay; for a rotation vector turns about
     /// x, y and z in place of its components.
     #[must_use]
-    pub fn ways(&self, pose: &Pose) -> [StraightWay; 6] {
+    pub fn ways(&self, pose: &Pose) -> [StraightPath; 6] {
         let pivot = self.convention.pivot_on_platform();
-        self.convention.ways(pose, &self.home).map(|[velocity, turn]| StraightWay {
+        self.convention.ways(pose, &self.home).map(|[velocity, turn]| StraightPath {
             start: *pose,
             velocity,
             turn,

@@ -80,7 +80,7 @@ impl std::fmt::Display for CheckReport {
 
 /// The poses of an assessment: home, and the poses that the design states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct JudgedPoses {
+pub struct AssessedPoses {
     /// Every pose of a region about home.
     pub region: bool,
     /// Single poses, without the motions between them.
@@ -89,7 +89,7 @@ pub struct JudgedPoses {
     pub trajectory: usize,
 }
 
-impl JudgedPoses {
+impl AssessedPoses {
     /// The poses of a workspace.
     #[must_use]
     pub fn of(workspace: &Workspace) -> Self {
@@ -140,7 +140,7 @@ fn poses(n: usize) -> String {
 }
 
 /// The poses as the end of a sentence.
-impl std::fmt::Display for JudgedPoses {
+impl std::fmt::Display for AssessedPoses {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.region, self.listed, self.trajectory) {
             (false, 0, 0) => f.write_str("at home; no workspace stated"),
@@ -166,7 +166,7 @@ impl std::fmt::Display for JudgedPoses {
 #[non_exhaustive]
 pub struct AssessReport {
     /// The poses assessed.
-    pub judged: JudgedPoses,
+    pub assessed_poses: AssessedPoses,
     /// The least margin of each kind of requirement, with its proof.
     pub proof: MarginProof,
     /// Whether a pose of the workspace is singular.
@@ -190,8 +190,8 @@ impl AssessReport {
 
     /// Whether the safety margin on every limit is kept too, which a search has to reach: proved, or `None`.
     #[must_use]
-    pub fn met_with_reserve(&self) -> Option<bool> {
-        match (self.met(), self.proof.all_reserved()) {
+    pub fn met_with_safety_margin(&self) -> Option<bool> {
+        match (self.met(), self.proof.all_keep_safety_margin()) {
             (Some(false), _) | (_, Some(false)) => Some(false),
             (Some(true), Some(true)) => Some(true),
             _ => None,
@@ -215,7 +215,7 @@ impl AssessReport {
     #[must_use]
     pub fn regularity_in_words(&self) -> String {
         match self.regularity {
-            Regularity::Regular => self.judged.regular_in_words(),
+            Regularity::Regular => self.assessed_poses.regular_in_words(),
             Regularity::ChangesSign(_) => {
                 "The workspace holds a singular pose: det J changes its sign on the way to it".to_owned()
             }
@@ -228,7 +228,7 @@ impl AssessReport {
 impl std::fmt::Display for AssessReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.met() {
-            Some(true) => write!(f, "meets all its requirements, proved {}", self.judged)?,
+            Some(true) => write!(f, "meets all its requirements, proved {}", self.assessed_poses)?,
             Some(false) => write!(f, "violates requirements: {}", self.names(Some(false)))?,
             None => write!(
                 f,
@@ -236,12 +236,12 @@ impl std::fmt::Display for AssessReport {
                 self.names(None)
             )?,
         }
-        if self.met() != Some(true) && !self.judged.are_stated() {
-            f.write_str("; no workspace stated, judged at home")?;
+        if self.met() != Some(true) && !self.assessed_poses.are_stated() {
+            f.write_str("; no workspace stated, assessed at home")?;
         }
-        if self.proof.bounds.iter().any(|b| b.reserve.is_some()) {
-            let short = |wanted| self.kinds(MarginBound::keeps_reserve, wanted).join("; ");
-            match self.proof.all_reserved() {
+        if self.proof.bounds.iter().any(|b| b.safety_margin.is_some()) {
+            let short = |wanted| self.kinds(MarginBound::keeps_safety_margin, wanted).join("; ");
+            match self.proof.all_keep_safety_margin() {
                 Some(true) => f.write_str("; every safety margin is kept")?,
                 Some(false) => write!(f, "; the safety margin is not kept: {}", short(Some(false)))?,
                 None => write!(f, "; the safety margin is not proved to be kept: {}", short(None))?,
@@ -414,12 +414,18 @@ impl Design {
         );
         tell(AssessStage::Conditioning);
         let conditioning = self.least_conditioning(options, length);
-        Ok(AssessReport { judged: self.judged_poses(), proof, regularity, regularity_cells, conditioning })
+        Ok(AssessReport {
+            assessed_poses: self.assessed_poses(),
+            proof,
+            regularity,
+            regularity_cells,
+            conditioning,
+        })
     }
 
     /// The poses at which the design is assessed.
-    pub fn judged_poses(&self) -> JudgedPoses {
-        JudgedPoses::of(&self.workspace)
+    pub fn assessed_poses(&self) -> AssessedPoses {
+        AssessedPoses::of(&self.workspace)
     }
 
     /// The worst conditioning over these poses, of the rods for a design with cranks.

@@ -44,7 +44,7 @@ pub use exploring::{
 };
 pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;
-pub use judging::{AssessReport, BOX_CELLS, CheckReport, JudgedPoses};
+pub use judging::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
 pub use moved_legs::{
     InvalidMove, LegMoveRequest, MoveOptions, MovedAtOnce, MovesReport, NamedFamily, NoMoves,
@@ -52,13 +52,13 @@ pub use moved_legs::{
 pub use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(feature = "optimize")]
 pub use optimizing::{
-    Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, EasedDemand,
-    FoundFront, FoundOffsets, FoundPlatform, FreedomOutcome, FreedomWord, OpenedFreedom, OptimizeEvidence,
-    OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, SearchedDrive,
+    Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, FoundFront,
+    FoundOffsets, FoundPlatform, FreedomOutcome, FreedomWord, OpenedFreedom, OptimizeEvidence,
+    OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, RelaxedRequirement, SearchedDrive,
 };
 pub use pentapod::{HeldLine, PentapodReport, about_five_legs};
 pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
-pub use relocating::{MoveSearchReport, MoveWishes, MovedPlatform, SearchWord, wishes_in_words};
+pub use relocating::{MoveSearchReport, MoveTargets, MovedPlatform, SearchWord, targets_in_words};
 pub use replaceable::{NoPlanes, NoReplaceableLegs, ReplaceableFamily, ReplaceableLegs, ReplaceableOptions};
 pub use self_motions::{MotionOrigin, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
 pub use singular_poses::{

@@ -10,7 +10,7 @@ use synthesis::LegMapOutcome;
 use synthesis::components::Components;
 use synthesis::relocate::search::{
     Candidate, Hole, Impossibility, LegSource, MoveSearchOptions, Placement, SearchError, SearchOutcome,
-    SearchVerdict, Wishes, search,
+    SearchVerdict, Targets, search,
 };
 use synthesis::relocate::{Assembled, JointOrigin, spanning_joints};
 use verify::judge;
@@ -26,7 +26,7 @@ const ON_LINE: f64 = 1e-12;
 
 /// Requested properties of an equivalent platform; missing ones follow from the design.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct MoveWishes {
+pub struct MoveTargets {
     /// Whether every joint shall hold one leg.
     pub no_shared_joints: bool,
     /// Whether no two legs, as straight segments, may meet.
@@ -97,7 +97,7 @@ impl MovedPlatform {
     /// Gives the platform a name and a description, and the leg lengths at the pose of the given design.
     fn finish(&mut self, given: &Design, number: usize) {
         let (c, judged) = (&self.candidate, self.assessed.as_ref());
-        let words = wishes_in_words(c.fulfilled, judged.map(|a| (a.met(), a.names(a.met()))));
+        let words = targets_in_words(c.fulfilled, judged.map(|a| (a.met(), a.names(a.met()))));
         let Some(out) = &mut self.design else { return };
         out.name = format!("{}, rearranged {number}", given.name);
         out.description = Some(format!(
@@ -114,13 +114,13 @@ impl MovedPlatform {
 /// The requested properties and requirements that a platform has and misses. The argument `judged` tells whether all
 /// requirements are met, with the names of the requirements of this verdict.
 #[must_use]
-pub fn wishes_in_words(wishes: bool, judged: Option<(Option<bool>, String)>) -> String {
-    let wishes = if wishes { "every wish fulfilled" } else { "not every wish fulfilled" };
+pub fn targets_in_words(targets: bool, judged: Option<(Option<bool>, String)>) -> String {
+    let targets = if targets { "every target met" } else { "not every target met" };
     match judged {
-        None => wishes.to_owned(),
-        Some((Some(true), _)) => format!("{wishes}, all requirements met"),
-        Some((Some(false), names)) => format!("{wishes}, requirements violated: {names}"),
-        Some((None, names)) => format!("{wishes}, requirements not proved: {names}"),
+        None => targets.to_owned(),
+        Some((Some(true), _)) => format!("{targets}, all requirements met"),
+        Some((Some(false), names)) => format!("{targets}, requirements violated: {names}"),
+        Some((None, names)) => format!("{targets}, requirements not proved: {names}"),
     }
 }
 
@@ -137,11 +137,11 @@ impl MoveSearchReport {
     /// The outcome, including the requirements of the design.
     #[must_use]
     pub fn word(&self) -> SearchWord {
-        let wished = || self.platforms.iter().filter(|f| f.candidate.fulfilled);
+        let on_target = || self.platforms.iter().filter(|f| f.candidate.fulfilled);
         match self.outcome.verdict {
             SearchVerdict::Impossible(_) => SearchWord::Impossible,
-            SearchVerdict::Found if wished().any(MovedPlatform::is_fulfilled) => SearchWord::Found,
-            SearchVerdict::Found if wished().all(|f| f.met() == Some(false)) => SearchWord::Violated,
+            SearchVerdict::Found if on_target().any(MovedPlatform::is_fulfilled) => SearchWord::Found,
+            SearchVerdict::Found if on_target().all(|f| f.met() == Some(false)) => SearchWord::Violated,
             SearchVerdict::Found | SearchVerdict::Undecided => SearchWord::Undecided,
         }
     }
@@ -159,21 +159,21 @@ impl std::fmt::Display for MoveSearchReport {
         let o = &self.outcome;
         match o.verdict {
             SearchVerdict::Found => {
-                let wished = self.platforms.iter().filter(|f| f.candidate.fulfilled).count();
+                let on_target = self.platforms.iter().filter(|f| f.candidate.fulfilled).count();
                 let count = self.platforms.iter().filter(|f| f.is_fulfilled()).count();
                 let judged = self.platforms.iter().any(|f| f.assessed.is_some());
                 match self.word() {
                     SearchWord::Found if judged => {
-                        write!(f, "{count} equivalent platform(s) fulfil every wish and meet the requirements of the design")
+                        write!(f, "{count} equivalent platform(s) meet every target and meet the requirements of the design")
                     }
-                    SearchWord::Found => write!(f, "{count} equivalent platform(s) fulfil every wish"),
+                    SearchWord::Found => write!(f, "{count} equivalent platform(s) meet every target"),
                     SearchWord::Violated => write!(
                         f,
-                        "{wished} equivalent platform(s) fulfil every wish, and each of them violates requirements of the design"
+                        "{on_target} equivalent platform(s) meet every target, and each of them violates requirements of the design"
                     ),
                     _ => write!(
                         f,
-                        "{wished} equivalent platform(s) fulfil every wish, and none of them is proved to meet the requirements of the design"
+                        "{on_target} equivalent platform(s) meet every target, and none of them is proved to meet the requirements of the design"
                     ),
                 }
             }
@@ -199,7 +199,7 @@ impl std::fmt::Display for MoveSearchReport {
             ),
             SearchVerdict::Undecided => write!(
                 f,
-                "undecided: no platform with every wish was found in {} of {} pattern(s) of legs, which proves nothing",
+                "undecided: no platform that meets every target was found in {} of {} pattern(s) of legs, which proves nothing",
                 o.searched, o.patterns
             ),
         }
@@ -215,10 +215,10 @@ impl Design {
     pub fn search_moves(
         &self,
         families: &Components,
-        wishes: &MoveWishes,
+        targets: &MoveTargets,
         options: &MoveSearchOptions,
     ) -> Result<MoveSearchReport, SearchError> {
-        let mut outcome = search(self.manipulator(), families, &self.wishes(wishes), options)?;
+        let mut outcome = search(self.manipulator(), families, &self.targets(targets), options)?;
         let candidates = std::mem::take(&mut outcome.candidates).into_iter();
         let platforms = candidates.map(|c| self.judged_move(families, c, options.seed));
         let mut platforms = platforms.collect::<Result<Vec<_>, _>>()?;
@@ -262,7 +262,7 @@ impl Design {
     }
 
     /// The requested properties, with limits that follow from the design.
-    fn wishes(&self, asked: &MoveWishes) -> Wishes {
+    fn targets(&self, asked: &MoveTargets) -> Targets {
         let m = self.manipulator();
         let (size, hardware) = (m.size(), self.hardware);
         let home = self.home_or_default();
@@ -274,7 +274,7 @@ impl Design {
             housings.filter_map(|(body, leg)| hardware.housing(body, leg)).map(|h| h.greatest_width());
         let spacing = asked.spacing.or(widths.reduce(f64::max)).or(self.optimize.min_joint_distance);
         let diameter = || hardware.leg_body.map_or(0.0, |b| b.diameter);
-        Wishes {
+        Targets {
             no_shared_joints: asked.no_shared_joints,
             spacing: spacing.unwrap_or(SPACING_SHARE * size),
             clearance: asked.no_crossing.then(|| asked.clearance.unwrap_or_else(diameter)),

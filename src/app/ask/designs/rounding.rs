@@ -16,7 +16,7 @@ use files::design::DesignModel;
 use machine::manufacture::{NoRounding, Rounding, RoundingProblem, round_to_grid};
 use machine::requirements::{Grid, HolePattern};
 #[cfg(feature = "optimize")]
-use machine::requirements::{Requirements, Reserve, VariableKind};
+use machine::requirements::{Requirements, SafetyMargin, VariableKind};
 #[cfg(feature = "optimize")]
 use optimize::dimensional::{self, DimensionalProblem, Progress, ShapeSearchOptions};
 use platform::manipulator::{Body, Manipulator};
@@ -258,8 +258,8 @@ fn widen(required: &mut Requirements, missed: &AssessReport) {
         let kind = bound.found.term.kind;
         let short = -bound.found.value;
         if short > 0.0 && short.is_finite() {
-            let reserve = required.reserve(kind) + GROWTH * short;
-            required.reserves.kinds.insert(kind, Reserve::Amount(reserve));
+            let safety_margin = required.safety_margin(kind) + GROWTH * short;
+            required.safety_margins.kinds.insert(kind, SafetyMargin::Amount(safety_margin));
         }
     }
 }

@@ -40,7 +40,7 @@ pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Fa
             design.name
         );
         let help =
-            "without `offset` and `screw_lead`, or without masses of the legs, the frequency is judged";
+            "without `offset` and `screw_lead`, or without masses of the legs, the frequency is assessed";
         return Err(Failure::refused("design::not_ideal", message).with_help(help));
     }
     if design.workspace.trajectory.is_none() {

@@ -15,7 +15,7 @@ use machine::reach::{NearestPoseOptions, ReachedSurface};
 use machine::requirements::Limit;
 use platform::geom::Pose;
 use records::{
-    FreeRangeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, StraightWayRecord, WorkspaceSizeRecord,
+    FreeRangeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, StraightPathRecord, WorkspaceSizeRecord,
 };
 
 /// Arguments of `limits`.
@@ -90,7 +90,9 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
         allowed,
         violated: violated.iter().map(|(limit, margin)| LimitRecord::new(&design, *limit, *margin)).collect(),
         axes: if allowed { FreeRangeRecord::all(&design, &reach, &at, &frames) } else { Vec::new() },
-        way: to.filter(|_| allowed).map(|to| StraightWayRecord::new(&design, &reach, &frames, [&at, &to])),
+        straight_path: to
+            .filter(|_| allowed)
+            .map(|to| StraightPathRecord::new(&design, &reach, &frames, [&at, &to])),
         nearest_allowed: nearest
             .as_ref()
             .map(|found| NearestAllowedRecord::new(&design, &reach, &frames, found)),
@@ -117,7 +119,7 @@ fn surface_format(path: &Path) -> Result<SurfaceFormat, Failure> {
     })
 }
 
-/// The positions in the convention, with the requirement that ends the way to each.
+/// The positions in the convention, with the requirement that ends the path to each.
 fn triangles((design, frames): (&Design, &PoseFrames), found: &ReachedSurface) -> SurfaceFile {
     let rotation = found.from.rotation;
     let points = found.positions().map(|position| frames.write(&Pose { rotation, position }).position);

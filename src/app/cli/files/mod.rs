@@ -384,7 +384,7 @@ pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             Failure::new(Exit::Internal, "file::disk_full", message)
-                .with_help("make room, or write elsewhere")
+                .with_help("free some space, or write elsewhere")
         }
         _ => {
             Failure::refused("file::not_writable", message).with_help("check the folder and its permissions")

@@ -19,7 +19,7 @@ const Limits = {
     if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not checked"];
     if (limits.regular.met === false) return ["bad", "singular pose in the workspace"];
     if (limits.met === false || limits.requirements.some((m) => m.met === false)) return ["bad", "violates requirements"];
-    if (limits.met) return limits.judged.region ? ["good", "meets all requirements"] : ["good", `requirements ${limits.judged.met_in_words}`];
+    if (limits.met) return limits.assessed_poses.region ? ["good", "meets all requirements"] : ["good", `requirements ${limits.assessed_poses.met_in_words}`];
     return ["", limits.whole ? "no violation found, not all proved" : "no violation found so far"];
   },
 
@@ -47,7 +47,7 @@ const Limits = {
     if (!app.core.live) return "The least margin of each requirement at the pose shown, not over the workspace; below zero the requirement is violated.";
     if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being checked.`;
     if (limits.error) return limits.error.code === "nothing_required" ? "The design requires nothing: it has no [hardware], loads or keep-outs." : limits.error.message;
-    const over = limits.judged.stated ? `over ${limits.poses} poses of the workspace` : "at home";
+    const over = limits.assessed_poses.stated ? `over ${limits.poses} poses of the workspace` : "at home";
     if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof are on their way" : "a browser with workers looks at more of them"}.`;
     return `Least margins of ${whose}, which ${limits.explanation}; below zero a requirement is violated.`;
   },

@@ -156,7 +156,7 @@ class Plane {
     const [column, row] = at.map((t) => Math.round(((t - low) / (high - low)) * (n - 1)));
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];
-    const next = here ? `violates: ${name(here)}` : "violates none at these poses; the judgement at the top of the page has the proof for the mark";
+    const next = here ? `violates: ${name(here)}` : "violates none at these poses; the assessment at the top of the page has the proof for the mark";
     return `${all} The platform next to the mark ${next}.`;
   }
 

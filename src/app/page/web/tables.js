@@ -1,14 +1,14 @@
 // Numbers in tables: the text alternative of every picture.
 
-/** What a margin is the room of, in words. */
+/** The quantity of each margin, in words. */
 const REQUIREMENTS = {
-  leg_too_short: "legs, above the least length", leg_too_long: "legs, below the greatest length",
-  base_swing: "swing of the base joints", platform_swing: "swing of the platform joints",
+  min_leg_length: "legs, above the least length", max_leg_length: "legs, below the greatest length",
+  base_cone_angle: "cone angle of the base joints", platform_cone_angle: "cone angle of the platform joints",
   base_first_angle: "angle about the first axes, base joints", base_second_angle: "angle about the second axes, base joints",
   platform_first_angle: "angle about the first axes, platform joints",
   platform_second_angle: "angle about the second axes, platform joints",
-  rod_too_short: "rods, long enough to reach", rod_too_long: "rods, short enough to close", crank_transmission: "trans\u00admission angle of the cranks",
-  crank_angle: "angle of the cranks", tip_swing: "lean of the rods at the tips", crank_torque: "torque of the cranks", crank_speed: "speed of the cranks",
+  min_rod_length: "rods, long enough to reach", max_rod_length: "rods, short enough to close", crank_transmission: "trans\u00admission angle of the cranks",
+  crank_angle: "angle of the cranks", tip_angle: "lean of the rods at the tips", crank_torque: "torque of the cranks", crank_speed: "speed of the cranks",
   leg_clearance: "gap between legs", keep_out: "gap to the keep-outs", leg_force: "leg force", leg_speed: "leg speed",
   base_spacing: "gap between base joints", platform_spacing: "gap between platform joints",
 };

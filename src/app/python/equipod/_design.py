@@ -924,7 +924,7 @@ class Design:
         at : pose_like, shape (4, 4), optional
             Home when absent.
         to : pose_like, shape (4, 4), optional
-            Also the straight way to this pose, and the allowed pose nearest to it.
+            Also the straight path to this pose, and the allowed pose nearest to it.
         options : sequence of str
             Further options of ``equipod limits``.
         """
@@ -1096,7 +1096,7 @@ class Design:
         drives : path, optional
             A table of drives, as for :meth:`drives`: the platform is searched with each drive that could win, and the design has the chosen one, the cheapest with which the requirements are met where every drive has a price. ``answer.drive_search`` says what came of each.
         time_limit : float, optional
-            Seconds after which the search has ended, with the best so far, and that is judged.
+            Seconds after which the search has ended, with the best so far, and that is assessed.
         progress : callable or bool, optional
             Is given lines of text; True writes them on one line.
 

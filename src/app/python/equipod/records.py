@@ -122,7 +122,7 @@ RegionWord = Literal["box", "ellipsoid"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
 RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
 Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
-RiddenWord = Literal["limit", "range_end", "reserve"]
+ActiveBoundWord = Literal["limit", "range", "safety_margin"]
 SearchMethodWord = Literal["dimensional", "offsets"]
 SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
@@ -141,7 +141,7 @@ TermKind = Literal[
     "base_hole_gap",
     "base_second_angle",
     "base_spacing",
-    "base_swing",
+    "base_cone_angle",
     "crank_angle",
     "crank_speed",
     "crank_torque",
@@ -150,8 +150,8 @@ TermKind = Literal[
     "leg_clearance",
     "leg_force",
     "leg_speed",
-    "leg_too_long",
-    "leg_too_short",
+    "max_leg_length",
+    "min_leg_length",
     "linear_stiffness",
     "machine_envelope",
     "natural_frequency",
@@ -163,10 +163,10 @@ TermKind = Literal[
     "platform_hole_gap",
     "platform_second_angle",
     "platform_spacing",
-    "platform_swing",
-    "rod_too_long",
-    "rod_too_short",
-    "tip_swing",
+    "platform_cone_angle",
+    "max_rod_length",
+    "min_rod_length",
+    "tip_angle",
 ]
 VariantWord = Literal["exact", "nearest"]
 VerdictWord = Literal["equivalent", "inconclusive", "not_equivalent", "singular"]
@@ -229,16 +229,16 @@ class AssessAnswer(Record):
     name: str
     #: The role of the design in this answer.
     role: DesignRoleWord
-    #: The verdict for all poses that `judged` names. True: every margin and det J are proved. False: one
+    #: The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved. False: one
     #: pose proves a violation or a change of sign of det J. Null: neither is proved.
     met: Union[bool, None]
     #: The verdict in one sentence.
     explanation: str
     #: The poses assessed.
-    judged: JudgedPosesRecord
+    assessed_poses: AssessedPosesRecord
     #: The verdict for the safety margins. True: every margin is proved to keep its safety margin. False:
     #: the given pose proves the opposite. Null: neither is proved.
-    reserve_kept: Union[bool, None]
+    safety_margin_kept: Union[bool, None]
     #: The least margin of each kind.
     requirements: tuple[MarginRecord, ...]
     #: The requirement with the least margin as a share of its limit; null: no requirement has a limit to
@@ -369,7 +369,7 @@ class BranchConflictRecord(Record):
     """A proof that a branch or a part of it is empty."""
 
     #: A short stable code.
-    code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
+    code: Literal["vertices_too_close", "outside_bounds", "no_space", "pair_too_close", "det_too_small", "combination"]
     #: The proof in one sentence, with its numbers.
     message: str
 
@@ -527,7 +527,7 @@ class CalibrationRecord(Record):
     after: ResidualsRecord
     #: Leave-one-out residuals to first order, without outliers: each pose against the machine fitted to
     #: the other poses.
-    left_out: ResidualsRecord
+    leave_one_out: ResidualsRecord
     #: Residuals of the measurements of `--check`; null: there are none.
     check: Union[ResidualsRecord, None]
     #: Lines of the measurements that the unknowns depend on: without one of them, the unknowns are not
@@ -635,7 +635,7 @@ class CheckAnswer(Record):
     #: All linear dependencies of the leg vectors.
     dependencies: tuple[DependencyRecord, ...]
     #: The legs of the first known case, from 1.
-    guilty_legs: Union[tuple[int, ...], None]
+    dependent_legs: Union[tuple[int, ...], None]
     #: The known cases that apply, the most specific first.
     cases: tuple[CaseRecord, ...]
     #: The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
@@ -904,7 +904,7 @@ class ConflictReasonRecord(Record):
     """A kind of proof that branches of the offsets are empty."""
 
     #: A short stable code.
-    code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
+    code: Literal["vertices_too_close", "outside_bounds", "no_space", "pair_too_close", "det_too_small", "combination"]
     #: Number of branches with this as their first proof.
     branches: int
     #: The proof for one of these branches in one sentence, with its numbers.
@@ -1068,7 +1068,7 @@ class DecouplingLeg(Record):
     legs: Union[tuple[int, ...], None]
 
 
-class DefaultReserveRecord(Record):
+class DefaultSafetyMarginRecord(Record):
     """The result for a default safety margin that the design does not state itself."""
 
     #: The safety margin on every limit, percent.
@@ -1292,7 +1292,7 @@ class DesignJointModel(Record):
     """DesignJointModel"""
 
     #: `ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a
-    #: right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing
+    #: right angle to it and to the leg; `flexure`: bends about its centre, within the cone angle
     model: Literal["ball", "universal", "flexure"]
     #: universal: direction of the first axis in the frame of the body, one for all joints or six in leg
     #: order, in a list of tables one; required
@@ -1306,8 +1306,8 @@ class DesignJointModel(Record):
     #: along the axes of the body
     housing: Union[DesignHousing, None]
     #: greatest angle between the leg and the axis of the joint, in place of that of the body
-    #: (`base_swing_deg`, `platform_swing_deg`)
-    swing_deg: Union[float, None]
+    #: (`base_cone_angle_deg`, `platform_cone_angle_deg`)
+    cone_angle_deg: Union[float, None]
     #: flexure: torque over angle, force units times design units per radian; required
     bending_stiffness: Union[DesignPositive, None]
 
@@ -1435,7 +1435,7 @@ class DriveRecord(Record):
     #: Whether the drive fits: true and false are proved; null: undecided.
     fits: Union[bool, None]
     #: Whether the safety margin on every limit is kept too: true and false are proved; null: undecided.
-    reserve_kept: Union[bool, None]
+    safety_margin_kept: Union[bool, None]
     #: The travel, design units.
     stroke: Union[float, None]
     #: Least and greatest length from joint centre to joint centre, design units.
@@ -1588,7 +1588,7 @@ class ExactRoundingOutcome(Record):
     #: The joints.
     joints: Union[tuple[RoundedJointRecord, ...], None]
     #: The figures of the rounded design.
-    judgement: Union[JudgementRecord, None]
+    evaluation: Union[EvaluationRecord, None]
     #: Statistics of the search.
     search: Union[RoundingSearchRecord, None]
     #: The obstacle.
@@ -1611,7 +1611,7 @@ class ExactRoundingRecord(Record):
     #: The joints.
     joints: tuple[RoundedJointRecord, ...]
     #: The figures of the rounded design.
-    judgement: JudgementRecord
+    evaluation: EvaluationRecord
     #: Statistics of the search.
     search: RoundingSearchRecord
 
@@ -1647,7 +1647,7 @@ class ExploreAnswer(Record):
     #: none.
     price: Union[PriceRecord, None]
     #: The result for the default safety margin of 5 % on every limit; null: the design states its own.
-    reserve: Union[DefaultReserveRecord, None]
+    safety_margin: Union[DefaultSafetyMarginRecord, None]
     #: The comparison of the design with the optimised platform; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
@@ -1730,7 +1730,7 @@ class ExploreOctahedralAnswer(Record):
     #: none.
     price: Union[PriceRecord, None]
     #: The result for the default safety margin of 5 % on every limit; null: the design states its own.
-    reserve: Union[DefaultReserveRecord, None]
+    safety_margin: Union[DefaultSafetyMarginRecord, None]
     #: The comparison of the design with the optimised platform; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
@@ -1871,7 +1871,7 @@ class FiguresRecord(Record):
     #: none.
     lightest_drive: Union[LightestDriveRecord, None]
     #: The poses of all figures.
-    judged: JudgedPosesRecord
+    assessed_poses: AssessedPosesRecord
     #: Number of poses evaluated for the figures; the assessment and the conditioning use poses of their
     #: own.
     poses: int
@@ -2298,7 +2298,7 @@ class FrontMemberRecord(Record):
     search_margins: Union[SearchMarginsRecord, None]
     #: The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null:
     #: none.
-    riding: Union[RidingRecord, None]
+    active_bounds: Union[ActiveBoundsRecord, None]
     #: Whether the platform is proved to meet its requirements; null: some are unproved.
     requirements_met: Union[bool, None]
     #: The result of `assess` for the platform; null: the design has no requirements.
@@ -2567,7 +2567,7 @@ class JointsRecord(Record):
     explanation: str
 
 
-class JudgedPoseRecord(Record):
+class PoseFiguresRecord(Record):
     """A pose with figures of its Jacobian."""
 
     #: Position of the platform origin, base frame, design units.
@@ -2582,7 +2582,7 @@ class JudgedPoseRecord(Record):
     four_planes: Union[tuple[Union[float, None], ...], None]
 
 
-class JudgedPosesRecord(Record):
+class AssessedPosesRecord(Record):
     """The poses of an assessment, with home."""
 
     #: Whether the design states a workspace; otherwise only home is assessed.
@@ -2597,7 +2597,7 @@ class JudgedPosesRecord(Record):
     met_in_words: str
 
 
-class JudgementRecord(Record):
+class EvaluationRecord(Record):
     """The quality of a design."""
 
     #: The worst inverse condition number over the poses.
@@ -2612,8 +2612,8 @@ class JudgementRecord(Record):
     requirements: tuple[RequirementMarginRecord, ...]
     #: No requirement is violated.
     met: bool
-    #: Every margin keeps its reserve too.
-    reserve_kept: bool
+    #: Every margin is at least its safety margin.
+    safety_margin_kept: bool
 
 
 class LeastConditioningRecord(Record):
@@ -2666,7 +2666,7 @@ class LegSlideRecord(Record):
     #: The name of F, the joint that the leg keeps.
     fixed: str
     #: The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
-    share: ExactNumberRecord
+    offset: ExactNumberRecord
     #: The number 1 - t.
     rest: ExactNumberRecord
     #: The squared edge d^2 = |XY|^2, design units squared.
@@ -2677,7 +2677,7 @@ class LegSlideRecord(Record):
     constant: ExactNumberRecord
 
 
-class LegWayRecord(Record):
+class LegPathPoseRecord(Record):
     """A pose with all lengths but one."""
 
     #: The distance of the joints of the leg.
@@ -2750,7 +2750,7 @@ class LimitsAnswer(Record):
     axes: tuple[FreeRangeRecord, ...]
     #: The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is
     #: not allowed.
-    way: Union[StraightWayRecord, None]
+    straight_path: Union[StraightPathRecord, None]
     #: The allowed pose nearest to the pose of `--to`, or nearest to the pose of `--at` if that is not
     #: allowed. Null: every requested pose is allowed, or no allowed pose was found.
     nearest_allowed: Union[NearestAllowedRecord, None]
@@ -2870,15 +2870,15 @@ class MapAnswer(Record):
     A_exact: Union[tuple[tuple[str, ...], ...], None]
     #: The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     c_exact: Union[tuple[str, ...], None]
-    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t.
+    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t.
     #: Its row of A has the entries 1 - t and t, the others zero. The list has the t for which det A
     #: vanishes while other legs stay fixed. An entry is null for other legs, or if no t exists. The list
     #: is null if `det_exact` is null.
-    singular_shares: Union[tuple[Union[str, None], ...], None]
-    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other
+    singular_offsets: Union[tuple[Union[str, None], ...], None]
+    #: det A as a polynomial with exact coefficients in the offsets t1 to t6 of all such legs, the other
     #: legs fixed. TO is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is
     #: null.
-    det_of_shares: Union[str, None]
+    det_of_offsets: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
     #: Relative distance of each leg of TO from the span of the legs of FROM.
@@ -2931,15 +2931,15 @@ class MapRecord(Record):
     A_exact: Union[tuple[tuple[str, ...], ...], None]
     #: The constant terms as exact numbers, design units squared; null if `det_exact` is null.
     c_exact: Union[tuple[str, ...], None]
-    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the share t.
+    #: The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t.
     #: Its row of A has the entries 1 - t and t, the others zero. The list has the t for which det A
     #: vanishes while other legs stay fixed. An entry is null for other legs, or if no t exists. The list
     #: is null if `det_exact` is null.
-    singular_shares: Union[tuple[Union[str, None], ...], None]
-    #: det A as a polynomial with exact coefficients in the shares t1 to t6 of all such legs, the other
+    singular_offsets: Union[tuple[Union[str, None], ...], None]
+    #: det A as a polynomial with exact coefficients in the offsets t1 to t6 of all such legs, the other
     #: legs fixed. TO is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is
     #: null.
-    det_of_shares: Union[str, None]
+    det_of_offsets: Union[str, None]
     #: The largest of the residuals.
     residual: Union[float, None]
     #: Relative distance of each leg of TO from the span of the legs of FROM.
@@ -2973,7 +2973,7 @@ class MappedLengthsRecord(Record):
     #: The lengths of TO; null: there are none.
     to: Union[tuple[Union[float, None], ...], None]
     #: The reason why there are none: no regular map, or a squared length that is not positive.
-    why_not: Union[str, None]
+    reason: Union[str, None]
 
 
 class MarginRecord(Record):
@@ -2983,14 +2983,14 @@ class MarginRecord(Record):
     name: TermKind
     #: The least margin over the sampled poses, negative for a violation.
     margin: Union[float, None]
-    #: The safety margin (reserve) that the design requires for this limit, in the unit of the margin; 0:
+    #: The safety margin that the design requires for this limit, in the unit of the margin; 0:
     #: none.
-    reserve: Union[float, None]
+    safety_margin: Union[float, None]
     #: The margin minus the safety margin.
-    margin_with_reserve: Union[float, None]
+    net_margin: Union[float, None]
     #: Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at
     #: the sampled poses.
-    reserve_kept: Union[bool, None]
+    safety_margin_kept: Union[bool, None]
     #: Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other
     #: answers it holds at the sampled poses.
     met: Union[bool, None]
@@ -3213,7 +3213,7 @@ class NearestRoundingOutcome(Record):
     #: The joints.
     joints: Union[tuple[RoundedJointRecord, ...], None]
     #: The figures of the rounded design.
-    judgement: Union[JudgementRecord, None]
+    evaluation: Union[EvaluationRecord, None]
     #: The error of the pose when the formula of the given design is used.
     pose_error: Union[RoundingErrorRecord, None]
     #: Number of joints that are not on the nearest hole.
@@ -3236,7 +3236,7 @@ class NearestRoundingRecord(Record):
     #: The joints.
     joints: tuple[RoundedJointRecord, ...]
     #: The figures of the rounded design.
-    judgement: JudgementRecord
+    evaluation: EvaluationRecord
     #: The error of the pose when the formula of the given design is used.
     pose_error: RoundingErrorRecord
     #: Number of joints that are not on the nearest hole.
@@ -3448,7 +3448,7 @@ class OptimizeAnswer(Record):
     search_margins: Union[SearchMarginsRecord, None]
     #: The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null:
     #: none.
-    riding: Union[RidingRecord, None]
+    active_bounds: Union[ActiveBoundsRecord, None]
     #: Whether the platform is proved to meet its requirements; null: some are unproved.
     requirements_met: Union[bool, None]
     #: The result of `assess` for the platform; null: the design has no requirements.
@@ -3533,7 +3533,7 @@ class OptimizedRecord(Record):
     #: det A of the leg map; null: the variables leave the equivalence class of the design.
     det: Union[float, None]
     #: The active bounds of the platform; null: none.
-    riding: Union[RidingRecord, None]
+    active_bounds: Union[ActiveBoundsRecord, None]
 
 
 class OptimumRecord(Record):
@@ -4073,24 +4073,24 @@ class ResolutionRecord(Record):
     all: SmallMotionRecord
 
 
-class RiddenBoundRecord(Record):
+class ActiveBoundRecord(Record):
     """An active bound."""
 
     #: The name of a variable or a requirement, or `abs_det`.
     name: str
     #: The kind of bound.
-    kind: RiddenWord
+    kind: ActiveBoundWord
     #: The value of the variable, or the margin of the limit.
     value: Union[float, None]
     #: The unit of the value; empty for a pure number.
     unit: str
 
 
-class RidingRecord(Record):
+class ActiveBoundsRecord(Record):
     """The active bounds of a platform, and the growth of its bodies."""
 
     #: Active ranges of variables and active limits.
-    bounds: tuple[RiddenBoundRecord, ...]
+    bounds: tuple[ActiveBoundRecord, ...]
     #: Greatest distance of a base joint from the centre of the base joints, divided by its value in the
     #: design.
     base_growth: Union[float, None]
@@ -4148,7 +4148,7 @@ class RoundAnswer(Record):
     #: Whether origins and angles of the grids are optimised too.
     free_grid: bool
     #: The figures of the given design.
-    wanted: JudgementRecord
+    given: EvaluationRecord
     #: The best rounding that is exactly equivalent to an octahedral platform.
     exact: ExactRoundingOutcome
     #: The rounding of every joint to a hole near its given position.
@@ -4410,7 +4410,7 @@ class SignPairsRecord(Record):
     #: Groups of assembly modes joined by such paths, numbers from 1.
     groups: tuple[tuple[int, ...], ...]
     #: The paths found.
-    ways: tuple[WayRecord, ...]
+    paths: tuple[JoiningPathRecord, ...]
 
 
 class SignPartRecord(Record):
@@ -4508,11 +4508,11 @@ class SingularPosesAnswer(Record):
     #: pose; null: no region is given.
     regular: Union[RegularityRecord, None]
     #: The given pose.
-    pose: JudgedPoseRecord
+    pose: PoseFiguresRecord
     #: The leg lengths, design units.
     lengths: tuple[float, ...]
     #: The real poses with these lengths.
-    assembly_modes: tuple[JudgedPoseRecord, ...]
+    assembly_modes: tuple[PoseFiguresRecord, ...]
     #: Whether every path is accounted for; false: poses may be missing.
     assembly_modes_accounted: bool
     #: A box of regular poses around the pose.
@@ -4642,7 +4642,7 @@ class StiffnessRecord(Record):
     natural: Union[tuple[NaturalMotionRecord, ...], None]
 
 
-class StraightWayRecord(Record):
+class StraightPathRecord(Record):
     """The straight path to another pose: the platform origin moves on a line while the platform rotates about one axis."""
 
     #: The end of the path.
@@ -4671,9 +4671,9 @@ class StuckLegRecord(Record):
     screw: Union[ScrewRecord, None]
     #: Poses of that motion with smaller lengths of the leg, up to its limit, a tenth of its length, or the
     #: first singular pose; none for cranks.
-    shorter: tuple[LegWayRecord, ...]
+    shorter: tuple[LegPathPoseRecord, ...]
     #: The same with greater lengths.
-    longer: tuple[LegWayRecord, ...]
+    longer: tuple[LegPathPoseRecord, ...]
 
 
 class SymmetryRecord(Record):
@@ -4892,7 +4892,7 @@ class WarningRecord(Record):
     help: str
 
 
-class WayRecord(Record):
+class JoiningPathRecord(Record):
     """A path without singular pose between two assembly modes."""
 
     #: The numbers of the two modes, from 1.
@@ -4919,7 +4919,7 @@ class WorkspaceSizeRecord(Record):
     #: an estimate from the paths that were followed.
     volume: float
     #: The relative difference between the volume estimates from every second path and from the others.
-    volume_doubt: float
+    volume_uncertainty: float
     #: Number of paths followed.
     rays: int
     #: The limits that end the paths, the most frequent first.
@@ -5001,7 +5001,7 @@ DesignQuaternion = tuple[DesignNumber, ...]
 
 DesignRange = tuple[DesignNumber, ...]
 
-DesignReserve = Union[DesignNotNegative, DesignPercent]
+DesignSafetyMargin = Union[DesignNotNegative, DesignPercent]
 
 DesignVector = tuple[DesignNumber, ...]
 

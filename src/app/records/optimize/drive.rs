@@ -110,7 +110,7 @@ impl DriveSearchWord {
 
 /// The requirements that a drive limits.
 const OF_DRIVES: [TermKind; 4] =
-    [TermKind::LegTooShort, TermKind::LegTooLong, TermKind::LegForce, TermKind::LegSpeed];
+    [TermKind::MinLegLength, TermKind::MaxLegLength, TermKind::LegForce, TermKind::LegSpeed];
 
 /// The margins of all requirements of the platform found, or of the platform with the least violation.
 fn margins(driven: &DrivenPlatform) -> Vec<MarginRecord> {
@@ -128,11 +128,11 @@ fn reason(driven: &DrivenPlatform) -> Option<String> {
         return None;
     }
     let of = |m: &MarginRecord| {
-        let missed = (m.margin_with_reserve.0, m.unit.as_str());
+        let missed = (m.net_margin.0, m.unit.as_str());
         format!("{}: {} {}", m.name.label(), rounded(missed.0, 3), missed.1)
     };
     let missed: Vec<String> =
-        margins(driven).iter().filter(|m| m.margin_with_reserve.0 < 0.0 && !m.at_limit).map(of).collect();
+        margins(driven).iter().filter(|m| m.net_margin.0 < 0.0 && !m.at_limit).map(of).collect();
     let listed = if missed.is_empty() { String::new() } else { format!(": {}", missed.join(", ")) };
     Some(match &report.outcome {
         _ if report.interrupted => "the search was told to end".to_owned(),

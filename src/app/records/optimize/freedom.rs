@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{AssessAnswer, DesignRecord, DesignRoleWord, Number};
 use ask::Design;
-use ask::{ConflictFreedom, EasedDemand, FreedomWord, OpenedFreedom};
+use ask::{ConflictFreedom, FreedomWord, OpenedFreedom, RelaxedRequirement};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
 /// A freedom that the design does not allow, and the result of the search with it.
@@ -93,7 +93,7 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
             "with {what} a platform was found that violates nothing at the sampled poses; not all is proved"
         ),
         FreedomWord::Unresolved if !opened.eased.is_empty() => {
-            let less = |e: &EasedDemand| {
+            let less = |e: &RelaxedRequirement| {
                 let (name, unit) = super::conflict::words(design, e.demand);
                 let [to, from] = [e.to, e.from].map(super::conflict::amount);
                 format!("{name}: would have to give by {to} {unit} in place of {from} {unit}")

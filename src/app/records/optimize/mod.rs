@@ -2,17 +2,18 @@
 //!
 //! Every field is present; null means that it does not apply or that nothing is known.
 
+mod active_bounds;
 mod branches;
 mod conflict;
 mod drive;
 mod freedom;
 mod platform;
-mod riding;
 mod symmetry;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::active_bounds::{ActiveBoundRecord, ActiveBoundWord, ActiveBoundsRecord};
 pub use self::branches::{BranchConflictRecord, BranchRecord};
 pub use self::conflict::{ConflictReasonRecord, ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
 pub use self::drive::{DriveSearchRecord, DriveSearchWord, SearchedDriveRecord};
@@ -22,7 +23,6 @@ pub use self::platform::{
     NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchMarginsRecord, SearchStepRecord,
     VerifiedRecord, WorstPoseRecord,
 };
-pub use self::riding::{RiddenBoundRecord, RiddenWord, RidingRecord};
 pub use self::symmetry::SymmetryRecord;
 use crate::{DesignRecord, Number, SourceWord};
 use ask::Design;

@@ -4,7 +4,7 @@ use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::riding::{DetMargin, RidingRecord};
+use super::active_bounds::{ActiveBoundsRecord, DetMargin};
 use crate::map::matrix;
 use crate::{
     AssessAnswer, DesignRecord, DesignRoleWord, MarginRecord, Number, PoseQuaternionRecord, PoseRecord,
@@ -12,7 +12,7 @@ use crate::{
 };
 use ask::Checked;
 use ask::Design;
-use ask::optimizing::offset_reserves;
+use ask::optimizing::offset_safety_margins;
 use machine::requirements::Objective;
 use optimize::dimensional::{ChosenVariable, DimensionalSolution, HistoryStep};
 use optimize::offsets::{Branch, OffsetProblem, OffsetSolution};
@@ -60,7 +60,7 @@ pub struct FoundPlatformRecord {
     /// Margins of the extra conditions of the search.
     pub search_margins: Option<SearchMarginsRecord>,
     /// The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null: none.
-    pub riding: Option<RidingRecord>,
+    pub active_bounds: Option<ActiveBoundsRecord>,
     /// Whether the platform is proved to meet its requirements; null: some are unproved.
     pub requirements_met: Option<bool>,
     /// The result of `assess` for the platform; null: the design has no requirements.
@@ -90,11 +90,14 @@ impl FoundPlatformRecord {
         // a platform compared with the design has the same triangles
         let base = Self::checked(design, c, &s.objectives, s.poses.len());
         let variables = s.variables.clone();
-        let margin =
-            det.map(|det| DetMargin { left: det.abs() - min_abs_det, least: min_abs_det, reserve: 0.0 });
+        let margin = det.map(|det| DetMargin {
+            left: det.abs() - min_abs_det,
+            least: min_abs_det,
+            safety_margin: 0.0,
+        });
         let edges = octahedral.as_ref().filter(|_| map.is_some()).map(|(t, o)| (*t, edge_lengths(o)));
         Self {
-            riding: RidingRecord::new(
+            active_bounds: ActiveBoundsRecord::new(
                 design,
                 c,
                 &variables,
@@ -138,11 +141,15 @@ impl FoundPlatformRecord {
         };
         let base = Self::checked(design, c, &[(Objective::WorstConditioning, r.objective)], count);
         let variables: Vec<ChosenVariable> = (0..6).map(variable).collect();
-        let [_, reserve] = offset_reserves(design, &p.octahedral);
-        let margin = DetMargin { left: r.margins.det + reserve, least: p.min_abs_det - reserve, reserve };
+        let [_, safety_margin] = offset_safety_margins(design, &p.octahedral);
+        let margin = DetMargin {
+            left: r.margins.det + safety_margin,
+            least: p.min_abs_det - safety_margin,
+            safety_margin,
+        };
         let known = base.constraint_margins.as_deref().unwrap_or_default();
         Self {
-            riding: RidingRecord::new(design, c, &variables, known, Some(margin)),
+            active_bounds: ActiveBoundsRecord::new(design, c, &variables, known, Some(margin)),
             variables: Some(variables),
             offsets: Some(s.offsets.map(Number)),
             shifts: Some(s.shifts.map(Number)),

@@ -17,7 +17,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.table(table(found));
     sheet.space();
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
-    sheet.line("The proved margin is a lower bound over the poses judged; the least margin was found at the worst pose.");
+    sheet.line("The proved margin is a lower bound over the poses assessed; the least margin was found at the worst pose.");
     if found.met.is_none() {
         sheet.line(
             "Poses between the sampled ones may violate what is not proved; more --cells may prove it.",
@@ -34,8 +34,8 @@ fn key_numbers(sheet: &mut Sheet, found: &AssessAnswer) {
         let margin = margin.map_or_else(String::new, |m| format!("{} {}, ", figure(m.margin.0), m.unit));
         let share = figure(100.0 * t.share.0);
         let whole = match t.name {
-            TermKind::LegTooShort | TermKind::LegTooLong => "the travel",
-            TermKind::RodTooShort | TermKind::RodTooLong => "the rod's length",
+            TermKind::MinLegLength | TermKind::MaxLegLength => "the travel",
+            TermKind::MinRodLength | TermKind::MaxRodLength => "the rod's length",
             TermKind::CrankAngle => "half the range",
             _ => "its limit",
         };
@@ -125,7 +125,7 @@ pub fn sentence(found: &AssessAnswer) -> String {
 #[must_use]
 pub fn table(found: &AssessAnswer) -> Table {
     // a column for the safety margin, if the design requires one on any limit
-    let reserved = found.requirements.iter().any(|m| m.reserve.0 > 0.0);
+    let reserved = found.requirements.iter().any(|m| m.safety_margin.0 > 0.0);
     let mut table = Table::new(
         [left("requirement", 17), left("status", 9).gap(2), right("least margin", 0).gap(2)]
             .into_iter()
@@ -159,12 +159,12 @@ pub fn table(found: &AssessAnswer) -> Table {
             x if x.is_finite() => figure(x),
             _ => "none".into(),
         };
-        let short = if m.reserve_kept == Some(false) { Tone::No } else { Tone::Plain };
+        let short = if m.safety_margin_kept == Some(false) { Tone::No } else { Tone::Plain };
         row(
             m.name.label(),
             Cell::toned(m.status.name().replace('_', " "), tone),
             [&figure(margin), &proved],
-            Cell::toned(figure(m.margin_with_reserve.0), short),
+            Cell::toned(figure(m.net_margin.0), short),
             [&m.unit, &m.between.join(", "), &place(m.pose.as_ref())],
         );
     }

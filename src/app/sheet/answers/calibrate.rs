@@ -118,7 +118,7 @@ fn residuals(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     let rows = [
         ("before", Some(&found.before)),
         ("after", Some(&found.after)),
-        ("pose left out", Some(&found.left_out)),
+        ("pose left out", Some(&found.leave_one_out)),
         ("check", found.check.as_ref()),
     ];
     for (name, residuals) in rows {

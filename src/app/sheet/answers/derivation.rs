@@ -46,12 +46,12 @@ fn text(x: &ExactNumberRecord) -> String {
 /// `(1 - t) s_X + t s_Y - t (1 - t) d^2`.
 fn row(step: &LegSlideRecord) -> String {
     let [x, y] = step.between.map(|leg| format!("s{leg}"));
-    combination([(text(&step.rest), x), (text(&step.share), y)], &text(&step.constant))
+    combination([(text(&step.rest), x), (text(&step.offset), y)], &text(&step.constant))
 }
 
 fn coplanar(out: &mut Sheet, step: &LegSlideRecord) {
     let LegSlideRecord { leg, ends: [x, y], moved, fixed, between: [a, b], .. } = step;
-    let place = combination([("1".into(), x.clone()), (text(&step.share), format!("({y} - {x})"))], "0");
+    let place = combination([("1".into(), x.clone()), (text(&step.offset), format!("({y} - {x})"))], "0");
     say!(out, "\n   leg {leg}: {moved} = {place}; {x}, {y}, {moved} and {fixed} in one plane");
     let (zero, one, d) = ("0".to_owned(), "1".to_owned(), text(&step.square));
     let [to_x, to_y] = step.squares_to_ends.each_ref().map(text);

@@ -180,7 +180,7 @@ fn scalar(value: &Value) -> Option<String> {
     }
 }
 
-/// Whether a text is a word of the answers, such as `leg_too_short`, rather than a sentence, a path or a user's name.
+/// Whether a text is a word of the answers, such as `min_leg_length`, rather than a sentence, a path or a user's name.
 fn is_name(text: &str) -> bool {
     text.contains('_') && text.chars().all(|c| c.is_ascii_lowercase() || c == '_')
 }
@@ -234,7 +234,7 @@ mod tests {
     #[test]
     fn names_of_fields_and_answers_read_as_words() {
         let show = |text: &str| scalar(&serde_json::from_str(text).unwrap()).unwrap();
-        assert_eq!(show("\"leg_too_short\""), "leg too short");
+        assert_eq!(show("\"min_leg_length\""), "min leg length");
         assert_eq!(show("\"A1_A2\""), "A1_A2", "the name of a joint stays");
         let words = ["rotation_deg", "real_count", "worst_s", "p"].map(words);
         assert_eq!(words, ["rotation [deg]", "real count", "worst [s]", "position"]);

@@ -75,7 +75,7 @@ fn binding(drive: &DriveRecord) -> Vec<String> {
     for m in &drive.assessment.requirements {
         let own = matches!(
             m.name,
-            TermKind::LegTooShort | TermKind::LegTooLong | TermKind::LegForce | TermKind::LegSpeed
+            TermKind::MinLegLength | TermKind::MaxLegLength | TermKind::LegForce | TermKind::LegSpeed
         );
         let tells = if drive.fits == Some(true) { own } else { m.met != Some(true) };
         if tells {

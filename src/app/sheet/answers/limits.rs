@@ -5,7 +5,7 @@ use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
     FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseInFrames,
-    PoseQuaternionRecord, RayEndRecord, StraightWayRecord, WorkspaceSizeRecord,
+    PoseQuaternionRecord, RayEndRecord, StraightPathRecord, WorkspaceSizeRecord,
 };
 
 /// An end of a range below this share of the largest number of its row is rounding.
@@ -32,7 +32,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     if !answer.frames.is_usual() {
         say!(out, "{}", answer.frames.sentence);
     }
-    if let Some(found) = &answer.way {
+    if let Some(found) = &answer.straight_path {
         way(&mut out, answer, found);
     }
     if let Some(found) = &answer.nearest_allowed {
@@ -85,7 +85,7 @@ fn shown(answer: &LimitsAnswer, record: &PoseQuaternionRecord, in_frames: &PoseI
     written(in_frames).map(figure).join(",")
 }
 
-fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightWayRecord) {
+fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightPathRecord) {
     let to = pose(&found.to);
     match &found.binds {
         None => say!(out, "\nThe straight path to {to} is free."),
@@ -145,7 +145,7 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
             "{} {unit}^3 on straight paths at the orientation of home (halves of {} paths differ by {:.1} %)",
             figure(found.volume),
             found.rays,
-            100.0 * found.volume_doubt
+            100.0 * found.volume_uncertainty
         ),
     );
     line("", &format!("they end at: {ends}"));

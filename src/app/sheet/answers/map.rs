@@ -23,7 +23,7 @@ pub fn map(answer: &MapAnswer, from: &str, to: &str) -> Sheet {
 fn mapped(out: &mut Sheet, lengths: &MappedLengthsRecord) {
     out.space();
     let Some(to) = &lengths.to else {
-        say!(out, "no lengths of TO: {}", lengths.why_not.as_deref().unwrap_or_default());
+        say!(out, "no lengths of TO: {}", lengths.reason.as_deref().unwrap_or_default());
         return;
     };
     let mut table = Table::new([left("", 6), right("FROM", 9), right("TO", 9).gap(2)]);
@@ -93,7 +93,7 @@ pub(super) fn combination(terms: impl IntoIterator<Item = (String, String)>, con
 
 /// The map in exact numbers, one formula for each leg.
 fn exact_rows(out: &mut Sheet, r: &MapRecord) {
-    let (Some(a), Some(c), Some(shares)) = (&r.matrix_exact, &r.constants_exact, &r.singular_shares) else {
+    let (Some(a), Some(c), Some(shares)) = (&r.matrix_exact, &r.constants_exact, &r.singular_offsets) else {
         return;
     };
     out.line("\nexactly, for the joints as the designs say them:");
@@ -109,7 +109,7 @@ fn exact_rows(out: &mut Sheet, r: &MapRecord) {
             singular.map_or_else(String::new, |t| format!("    (det A = 0 with t = {t} in this row)"));
         say!(out, "  s{}' = {row}{singular}", i + 1);
     }
-    if let Some(polynomial) = &r.det_of_shares {
-        say!(out, "  with any shares t of these edges det A = {polynomial}: singular where it is zero");
+    if let Some(polynomial) = &r.det_of_offsets {
+        say!(out, "  with any offsets t of these edges det A = {polynomial}: singular where it is zero");
     }
 }

@@ -190,13 +190,13 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
 }
 
 fn requirements(out: &mut Sheet, motion: &MotionRunRecord) {
-    let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
+    let reserved = motion.requirements.iter().any(|r| r.margin.safety_margin.0 > 0.0);
     let less = reserved.then(|| right("after safety margin", 0).gap(2));
     let columns = [left("requirement", 17), right("least margin", 0).gap(2)].into_iter().chain(less);
     let mut table =
         Table::new(columns.chain([left("unit", 0), left("binds at", 0).gap(2), left("time s", 0).gap(2)]));
     for TimedMarginRecord { time_s, margin } in &motion.requirements {
-        let less = reserved.then(|| Cell::from(figure(margin.margin_with_reserve.0)));
+        let less = reserved.then(|| Cell::from(figure(margin.net_margin.0)));
         let found = judged(margin, figure(margin.margin.0));
         let (of, at) = (margin.between.join(", "), figure(*time_s));
         let cells = [margin.name.label().into(), found].into_iter().chain(less);

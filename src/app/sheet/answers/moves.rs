@@ -3,7 +3,7 @@
 use super::map::leg_map;
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
-use ask::wishes_in_words;
+use ask::targets_in_words;
 use records::{
     AssessAnswer, CandidateRecord, LegEndsRecord, LegMoveRecord, MoveSearchAnswer, MovesAnswer,
     SingularParametersRecord,
@@ -107,10 +107,10 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
             figure(c.map.inverse_condition.0),
             c.shared_joints
         );
-        let columns = [left("wish", 13).gap(4), right("value", 9), right("required", 9).gap(2)];
+        let columns = [left("target", 13).gap(4), right("value", 9), right("required", 9).gap(2)];
         let rows = c.margins.iter().map(|m| {
             let [value, required] = [m.value, m.required].map(figure);
-            [m.wish.name().to_string(), value, required, figure(m.slack)]
+            [m.target.name().to_string(), value, required, figure(m.slack)]
         });
         out.table(Table::new(columns.into_iter().chain([right("slack", 9).gap(2)])).with_rows(rows));
         for p in &c.moves {
@@ -129,5 +129,5 @@ fn fulfilled(c: &CandidateRecord) -> String {
         let kinds = a.requirements.iter().filter(|m| m.met == a.met).map(|m| m.name.label());
         kinds.chain((a.regular.met == a.met).then_some("no singular pose")).collect::<Vec<_>>().join("; ")
     };
-    wishes_in_words(c.wishes_fulfilled, c.assessment.as_ref().map(|a| (a.met, names(a))))
+    targets_in_words(c.targets_met, c.assessment.as_ref().map(|a| (a.met, names(a))))
 }

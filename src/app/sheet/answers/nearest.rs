@@ -35,11 +35,11 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
         n.poses,
         if n.workspace_from == SourceWord::Design { "design's" } else { "default" }
     );
-    if !n.settled {
-        out.line("the fit has not settled: there are nearer platforms");
+    if !n.converged {
+        out.line("the fit has not converged: there are nearer platforms");
     }
     if n.set_aside > 0 {
-        say!(out, "{} nearer way(s) were set aside: they make no regular platform", n.set_aside);
+        say!(out, "{} nearer fit(s) were set aside: they make no regular platform", n.set_aside);
     }
     for path in &r.paths {
         say!(out, "wrote {path}");

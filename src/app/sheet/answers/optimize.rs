@@ -72,7 +72,7 @@ fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     if let Some(list) = &a.candidates {
         candidates(&mut out, list);
     }
-    if let Some(r) = &a.platform.riding {
+    if let Some(r) = &a.platform.active_bounds {
         say!(out, "{}", r.message);
     }
     branches(&mut out, a);
@@ -368,7 +368,7 @@ mod tests {
         let (design, _) = parse(&text, Format::Toml).unwrap();
         let give = |kind, alone, together| Give { demand: Demand::Requirement(kind), alone, together };
         let demands = vec![
-            give(TermKind::LegTooShort, Some(1.5647), 1.5647),
+            give(TermKind::MinLegLength, Some(1.5647), 1.5647),
             give(TermKind::BaseSpacing, Some(3.25e-8), 0.0),
             give(TermKind::LegForce, Some(0.0), 4.5e-7),
             give(TermKind::LegSpeed, None, 0.0),

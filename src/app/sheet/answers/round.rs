@@ -4,13 +4,13 @@ use super::verdict;
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use ask::rounding::RoundingWay;
-use machine::manufacture::Judgement;
+use machine::manufacture::Evaluation;
 use records::{
     ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord,
 };
 
 /// A line about a design; `met`: the verdict over the whole workspace, if there is one.
-fn judged(out: &mut Sheet, what: &str, j: &Judgement, met: Option<bool>, units: &str) {
+fn judged(out: &mut Sheet, what: &str, j: &Evaluation, met: Option<bool>, units: &str) {
     let requirements = match (met, j.met) {
         (Some(true), true) => "met",
         (None, true) => "met at the sampled poses",
@@ -65,10 +65,10 @@ pub fn round(r: &RoundAnswer) -> Sheet {
     // the written design was assessed over the whole workspace; the line about its sampled poses must not claim more
     let written = r.chosen.or(r.least_missed);
     let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
-    judged(&mut out, "wanted", &r.wanted, None, units);
+    judged(&mut out, "given", &r.given, None, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {
-            judged(&mut out, "exact", &e.judgement, known(RoundingWay::Exact), units);
+            judged(&mut out, "exact", &e.evaluation, known(RoundingWay::Exact), units);
             let proof = if e.proved { "proved in exact arithmetic" } else { "NOT proved" };
             say!(
                 out,
@@ -86,7 +86,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
     }
     match &r.nearest {
         NearestRoundingOutcome::Found(n) => {
-            judged(&mut out, "nearest", &n.judgement, known(RoundingWay::Nearest), units);
+            judged(&mut out, "nearest", &n.evaluation, known(RoundingWay::Nearest), units);
             let e = &n.pose_error;
             say!(
                 out,

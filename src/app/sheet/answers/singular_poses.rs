@@ -5,8 +5,8 @@ use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use platform::geom::Pose;
 use records::{
-    JudgedPoseRecord, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, SignOutcome, SignPairsRecord,
-    SignPathRecord, SingularitiesAnswer,
+    PoseConventionRecord, PoseFiguresRecord, PoseInFrames, PoseQuaternionRecord, SignOutcome,
+    SignPairsRecord, SignPathRecord, SingularitiesAnswer,
 };
 use synthesis::singularity::RegularityWord;
 
@@ -120,7 +120,7 @@ fn judged(r: &SingularitiesAnswer, convention: &Convention<'_>) -> Table {
     let title = format!("{} [{}]", convention.names(), convention.record.angles);
     let columns = [left("", 8), right("det J", 8).gap(2), right("conditioning", 0).gap(2)];
     let mut table = Table::new(columns.into_iter().chain([left(title, 0).gap(2)]));
-    let mut row = |name: String, j: &JudgedPoseRecord| {
+    let mut row = |name: String, j: &PoseFiguresRecord| {
         table.row([name, figure(j.determinant.0), figure(j.inverse_condition.0), convention.pose(&j.pose)]);
     };
     row("pose".into(), &r.pose);

@@ -17,7 +17,7 @@ pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
     }
     out.add(frames(&v.frames));
     say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name().replace('_', " "), v.explanation);
-    if let Some(polynomial) = &v.map.det_of_shares {
+    if let Some(polynomial) = &v.map.det_of_offsets {
         say!(
             out,
             "singular offsets: det A = {polynomial} for offsets t of the leg ends of B along their edges; B is singular where it is zero"

@@ -109,11 +109,11 @@ pub struct CrankLimits {
     /// Greatest speed of a crank, degrees per second.
     pub max_speed_deg: Option<f64>,
     /// Least transmission angle, degrees.
-    pub least_transmission_deg: Option<f64>,
+    pub min_transmission_angle_deg: Option<f64>,
     /// Cone angle of the joint at the tip, out of the plane in which the crank turns, degrees.
-    pub tip_swing_deg: Option<f64>,
+    pub tip_angle_deg: Option<f64>,
     /// Cone angle of the joint at the platform, from the direction of the rod at home, degrees.
-    pub platform_swing_deg: Option<f64>,
+    pub platform_cone_angle_deg: Option<f64>,
 }
 
 /// `[cranks]`, as written, with the resulting numbers.

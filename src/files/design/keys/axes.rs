@@ -26,8 +26,8 @@ pub(super) fn turn_to_normals(report: &mut Findings<'_>, top: &[Entry], design: 
             }
         };
         let h = &mut design.hardware;
-        let swing = body.of((&mut h.base_swing, &mut h.platform_swing));
-        swing.as_mut().map(|s| &mut s.axes).map(turned);
+        let cone_angle = body.of((&mut h.base_cone_angle, &mut h.platform_cone_angle));
+        cone_angle.as_mut().map(|s| &mut s.axes).map(turned);
         let universal = body.of((&mut h.base_universal, &mut h.platform_universal));
         if let Some(joint) = universal {
             turned(&mut joint.axes);

@@ -93,11 +93,11 @@ static LIMITS: KeyTable<CrankLimits> = KeyTable {
             "greatest torque of a crank, force units times design units"),
         key!("max_speed_deg": positive(unit::DEGREES), max_speed_deg;
             "greatest speed of a crank, degrees per second"),
-        key!("least_transmission_deg": angle(Range::Below(90)), least_transmission_deg;
+        key!("min_transmission_angle_deg" { old = "least_transmission_deg" }: angle(Range::Below(90)), min_transmission_angle_deg;
             "least transmission angle of a crank, degrees: its sine is the share of a force along the rod that drives the crank; 0 when absent"),
-        key!("tip_swing_deg": angle(Range::Below(90)), tip_swing_deg;
+        key!("tip_angle_deg" { old = "tip_swing_deg" }: angle(Range::Below(90)), tip_angle_deg;
             "greatest angle between a rod and the plane of its crank, degrees"),
-        key!("platform_swing_deg": angle(Range::Below(180)), platform_swing_deg;
+        key!("platform_cone_angle_deg" { old = "platform_swing_deg" }: angle(Range::Below(180)), platform_cone_angle_deg;
             "greatest angle between a rod and its direction at home, degrees"),
     ],
     ..KeyTable::EMPTY

@@ -14,7 +14,7 @@ use super::hardware::{HARDWARE, HardwareKeys, hardware};
 use super::holes::{HOLES, HOLES_SHAPE, holes};
 use super::joints::{self, Legs, NamedJoints};
 use super::kind::{list, list_of, not_negative, own, table, unit, word};
-use super::limits::{LIMITS, reserves};
+use super::limits::{LIMITS, safety_margins};
 use super::loads::{KEEP_OUT, LOAD, SPEED, STIFFNESS, keep_outs, loads, speed, stiffness};
 use super::optimize::{OPTIMIZE, OptimizeKeys, optimize};
 use super::payload::{PAYLOAD, payload};
@@ -92,7 +92,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
             "grids of holes for the joints, in both plates or in one"),
         key!("plates": table(&PLATES), |_, _| (), |of| PLATES.put(&of.plates);
             "the plates that carry the joints: sizes, material, holes and bolts"),
-        key!("limits": table(&LIMITS), |_, _| (), |of| LIMITS.put(&of.reserves);
+        key!("limits": table(&LIMITS), |_, _| (), |of| LIMITS.put(&of.safety_margins);
             "safety margins to each limit"),
         key!("calibration": table(&CALIBRATION), |_, _| (), |of| CALIBRATION.put(&CalibrationKeys::of(of, of.calibration.as_ref()?));
             "results of `equipod calibrate` beside the joints"),
@@ -178,7 +178,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     design.stiffness = stiffness(report, entries, &design.hardware, units.as_deref());
     (design.loads, design.keep_outs) = (loads(report, entries), keep_outs(report, entries));
     design.payload = payload(report, entries);
-    (design.envelopes, design.reserves) = (envelopes(report, entries), reserves(report, entries));
+    (design.envelopes, design.safety_margins) = (envelopes(report, entries), safety_margins(report, entries));
     design.holes = holes(report, entries);
     design.plates = plates::plates(report, entries, &design.hardware, units.as_deref());
     design.calibration = calibration(report, entries, bodies);

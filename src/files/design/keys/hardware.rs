@@ -10,7 +10,9 @@ use super::stored::{Stored, StoredValue};
 use super::{Code, FoundKey, KeyTable, TEXT, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
-use machine::requirements::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
+use machine::requirements::{
+    ConeLimits, Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits,
+};
 use platform::manipulator::Body;
 
 /// The table, as it is written.
@@ -20,8 +22,8 @@ pub(super) struct HardwareKeys {
     leg_length: Option<[f64; 2]>,
     dead_length: Option<f64>,
     stroke: Option<f64>,
-    base_swing_deg: Option<f64>,
-    platform_swing_deg: Option<f64>,
+    base_cone_angle_deg: Option<f64>,
+    platform_cone_angle_deg: Option<f64>,
     base_axes: Option<JointAxes>,
     platform_axes: Option<JointAxes>,
     base_joint: JointModel,
@@ -82,9 +84,9 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
             "with `stroke` instead of `leg_length`: lengths from `dead_length` + `stroke` to `dead_length` + 2 `stroke`"),
         key!("stroke" { needs = &["dead_length"] }: positive(unit::LENGTH), stroke;
             "travel of a leg, with `dead_length`"),
-        key!("base_swing_deg": angle(Range::HalfTurn), base_swing_deg;
+        key!("base_cone_angle_deg" { old = "base_swing_deg" }: angle(Range::HalfTurn), base_cone_angle_deg;
             "greatest angle between a leg and the axis of its base joint"),
-        key!("platform_swing_deg": angle(Range::HalfTurn), platform_swing_deg;
+        key!("platform_cone_angle_deg" { old = "platform_swing_deg" }: angle(Range::HalfTurn), platform_cone_angle_deg;
             "greatest angle between a leg and the axis of its platform joint"),
         key!("base_axes" { default = r#""home""# }: AXES,
             |found, to| to.base_axes = joint_axes(found), |of| axes_json(of.base_axes?);
@@ -128,8 +130,8 @@ pub(super) static HARDWARE: KeyTable<HardwareKeys> = KeyTable {
     rules: r#"{
         "dependentSchemas": {
             "screw_lead": {"required": ["base_joint", "platform_joint"]},
-            "base_axes": {"anyOf": [{"required": ["base_swing_deg"]}, {"required": ["base_joint"]}]},
-            "platform_axes": {"anyOf": [{"required": ["platform_swing_deg"]}, {"required": ["platform_joint"]}]}
+            "base_axes": {"anyOf": [{"required": ["base_cone_angle_deg"]}, {"required": ["base_joint"]}]},
+            "platform_axes": {"anyOf": [{"required": ["platform_cone_angle_deg"]}, {"required": ["platform_joint"]}]}
         },
         "not": {"required": ["leg_length", "stroke"]}
     }"#,
@@ -154,15 +156,19 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> (Hardware, O
         report.refuse(Code::ConflictingKeys, &entry.key_span, "leg lengths are limited twice", help);
     }
     let travel = || Some(LengthLimits::Stroke { dead: keys.dead_length?, stroke: keys.stroke? });
-    let swing = |of_body: Option<f64>, axes: Option<JointAxes>, own: [Option<f64>; 6]| {
+    let cone_angle = |of_body: Option<f64>, axes: Option<JointAxes>, own: [Option<f64>; 6]| {
         let is_limited = of_body.is_some() || own.iter().any(Option::is_some);
         let limits_deg = own.map(|deg| deg.or(of_body).unwrap_or(180.0));
-        is_limited.then(|| Swing { limits_deg, axes: axes.unwrap_or_default() })
+        is_limited.then(|| ConeLimits { limits_deg, axes: axes.unwrap_or_default() })
     };
     let hardware = Hardware {
         leg_length: keys.leg_length.map(|[least, most]| LengthLimits::Range(least, most)).or_else(travel),
-        base_swing: swing(keys.base_swing_deg, keys.base_axes, base.swing_deg),
-        platform_swing: swing(keys.platform_swing_deg, keys.platform_axes, platform.swing_deg),
+        base_cone_angle: cone_angle(keys.base_cone_angle_deg, keys.base_axes, base.cone_angle_deg),
+        platform_cone_angle: cone_angle(
+            keys.platform_cone_angle_deg,
+            keys.platform_axes,
+            platform.cone_angle_deg,
+        ),
         base_joint_housing: base.housing,
         platform_joint_housing: platform.housing,
         base_universal: base.universal,
@@ -199,8 +205,8 @@ impl HardwareKeys {
             leg_length,
             dead_length,
             stroke: stroke_length,
-            base_swing_deg: h.base_swing.and_then(|s| s.common_deg()),
-            platform_swing_deg: h.platform_swing.and_then(|s| s.common_deg()),
+            base_cone_angle_deg: h.base_cone_angle.and_then(|s| s.common_deg()),
+            platform_cone_angle_deg: h.platform_cone_angle.and_then(|s| s.common_deg()),
             base_axes: h.axes(Body::Base),
             platform_axes: h.axes(Body::Platform),
             base_joint: JointModel::default(),

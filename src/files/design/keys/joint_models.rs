@@ -23,7 +23,7 @@ pub(super) struct JointModel {
     pub(super) universal: Option<UniversalJoint>,
     pub(super) bending: [Option<f64>; 6],
     /// Greatest angles of the joints whose tables state one.
-    pub(super) swing_deg: [Option<f64>; 6],
+    pub(super) cone_angle_deg: [Option<f64>; 6],
     /// Housings of the joints whose tables state one.
     pub(super) housing: [Option<Housing>; 6],
 }
@@ -39,7 +39,7 @@ struct JointKeys {
     limits_deg: Option<[f64; 2]>,
     offset: f64,
     bending: Option<f64>,
-    swing_deg: Option<f64>,
+    cone_angle_deg: Option<f64>,
     housing: Option<Housing>,
 }
 
@@ -80,8 +80,8 @@ static JOINT: KeyTable<JointKeys> = KeyTable {
             "universal: distance of the two axes, which meet when it is 0"),
         key!("housing": HOUSING, housing;
             "space that the joint occupies, in place of the housing of the body: a diameter, or edge lengths of a box along the axes of the body"),
-        key!("swing_deg": angle(Range::HalfTurn), swing_deg;
-            "greatest angle between the leg and the axis of the joint, in place of the angle of the body (`base_swing_deg`, `platform_swing_deg`)"),
+        key!("cone_angle_deg" { old = "swing_deg" }: angle(Range::HalfTurn), cone_angle_deg;
+            "greatest angle between the leg and the axis of the joint, in place of the angle of the body (`base_cone_angle_deg`, `platform_cone_angle_deg`)"),
         key!("bending_stiffness": positive(unit::TORQUE), bending;
             "flexure: torque over angle, force units times design units per radian; required"),
     ],
@@ -91,7 +91,7 @@ static JOINT: KeyTable<JointKeys> = KeyTable {
 /// Whether joints of a model have a key.
 fn has_key(model: JointType, key: &str) -> bool {
     match key {
-        "model" | "housing" | "swing_deg" => true,
+        "model" | "housing" | "cone_angle_deg" => true,
         "bending_stiffness" => model == JointType::Flexure,
         _ => model == JointType::Universal,
     }
@@ -104,24 +104,24 @@ pub(super) fn with_axes(
     body: Body,
     (found, given): (JointModel, Option<JointAxes>),
 ) -> JointModel {
-    let [table_key, axes_key, swing_key] = body.of((
-        ["base_joint", "base_axes", "base_swing_deg"],
-        ["platform_joint", "platform_axes", "platform_swing_deg"],
+    let [table_key, axes_key, cone_angle_key] = body.of((
+        ["base_joint", "base_axes", "base_cone_angle_deg"],
+        ["platform_joint", "platform_axes", "platform_cone_angle_deg"],
     ));
     let joint = find(entries, table_key);
     let axes = find(entries, axes_key);
-    let swing = find(entries, swing_key);
-    let own_swing = found.swing_deg.iter().any(Option::is_some);
-    if let (Some(e), None, None, false) = (axes, swing, found.universal, own_swing) {
-        let message = format!("`{axes_key}` without `{swing_key}`");
-        let help = format!("add `{swing_key}` or universal joints, or remove `{axes_key}`");
+    let cone_angle = find(entries, cone_angle_key);
+    let own_cone_angle = found.cone_angle_deg.iter().any(Option::is_some);
+    if let (Some(e), None, None, false) = (axes, cone_angle, found.universal, own_cone_angle) {
+        let message = format!("`{axes_key}` without `{cone_angle_key}`");
+        let help = format!("add `{cone_angle_key}` or universal joints, or remove `{axes_key}`");
         report.refuse(Code::MissingKey, &e.key_span, message, help);
     }
-    if let (Some(e), None) = (joint, swing)
-        && found.bending.iter().zip(&found.swing_deg).any(|(k, deg)| k.is_some() && deg.is_none())
+    if let (Some(e), None) = (joint, cone_angle)
+        && found.bending.iter().zip(&found.cone_angle_deg).any(|(k, deg)| k.is_some() && deg.is_none())
     {
-        let message = format!("flexures have a greatest angle, and `{swing_key}` is missing");
-        let help = format!("add `{swing_key}` to [hardware], or `swing_deg` to the joint");
+        let message = format!("flexures have a greatest angle, and `{cone_angle_key}` is missing");
+        let help = format!("add `{cone_angle_key}` to [hardware], or `cone_angle_deg` to the joint");
         report.refuse(Code::MissingKey, &e.key_span, message, help);
     }
     let Some(universal) = found.universal else { return found };
@@ -147,7 +147,7 @@ pub(super) fn models(found: &mut FoundKey<'_, '_>) -> Option<JointModel> {
                 offset: one.offset,
             }),
             bending: [one.bending; 6],
-            swing_deg: [one.swing_deg; 6],
+            cone_angle_deg: [one.cone_angle_deg; 6],
             housing: [one.housing; 6],
         });
     };
@@ -181,7 +181,7 @@ pub(super) fn models(found: &mut FoundKey<'_, '_>) -> Option<JointModel> {
             offset: all.iter().map(|joint| joint.offset).fold(0.0, f64::max),
         }),
         bending: all.map(|joint| joint.bending),
-        swing_deg: all.map(|joint| joint.swing_deg),
+        cone_angle_deg: all.map(|joint| joint.cone_angle_deg),
         housing: all.map(|joint| joint.housing),
     })
 }
@@ -326,7 +326,7 @@ pub(super) fn refuse_coupled(report: &mut Findings<'_>, top: &[Entry], hardware:
 /// The joints of a body; nothing if all are balls with one limit and the housing of the body.
 pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
     let universal = h.universal(body);
-    let swing = body.of((h.base_swing, h.platform_swing));
+    let cone_angle = body.of((h.base_cone_angle, h.platform_cone_angle));
     let (bending, housings) =
         body.of(((h.base_bending, h.base_joint_housing), (h.platform_bending, h.platform_joint_housing)));
     let joint = |leg: usize, first_axes: Option<[Unit<Vector3<f64>>; 6]>| {
@@ -340,7 +340,7 @@ pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
             offset: own.map_or(0.0, |joint| joint.offset),
             bending: bending[leg],
             // the limit of all legs is a separate key
-            swing_deg: swing
+            cone_angle_deg: cone_angle
                 .filter(|s| s.common_deg().is_none())
                 .map(|s| s.limits_deg[leg])
                 .filter(|deg| *deg < 180.0),
@@ -354,7 +354,7 @@ pub(super) fn written(h: &Hardware, body: Body) -> Option<Json> {
     alike.iter_mut().filter_map(Json::as_object_mut).for_each(|keys| {
         keys.shift_remove("first_axis");
     });
-    if alike.iter().any(|joint| *joint != alike[0]) || swing.is_some_and(|s| s.common_deg().is_none()) {
+    if alike.iter().any(|joint| *joint != alike[0]) || cone_angle.is_some_and(|s| s.common_deg().is_none()) {
         return Some(six.to_vec().into());
     }
     if h.joint_kind(body, 0) == JointType::Ball && housings[0].is_none() {

@@ -1,4 +1,4 @@
-//! `[limits]`: the reserves of the limits.
+//! `[limits]`: the safety margins of the limits.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -9,9 +9,9 @@ use super::stored::StoredValue;
 use super::{Code, FoundKey, KeyTable, key};
 use crate::design::tree::{Entry, Value, find};
 use crate::design::violation::Findings;
-use machine::requirements::{Quantity, Reserve, Reserves, TermKind};
+use machine::requirements::{Quantity, SafetyMargin, SafetyMargins, TermKind};
 
-/// The reserve of every limit without its own.
+/// The safety margin of every limit without its own.
 const ALL: &str = "all";
 
 const PERCENT: KeyKind = own(r##"{"$ref": "#/$defs/percent"}"##, unit::NONE);
@@ -48,35 +48,36 @@ impl KeyShape for ByKind {
     }
 
     fn schema(&self, _: &mut Map<String, Json>) -> Json {
-        let reserve = |kind: TermKind| (kind.code().to_owned(), json!({"$ref": "#/$defs/reserve"}));
+        let safety_margin =
+            |kind: TermKind| (kind.code().to_owned(), json!({"$ref": "#/$defs/safety_margin"}));
         let mut properties = Map::from_iter([(ALL.to_owned(), json!({"$ref": "#/$defs/percent"}))]);
-        properties.extend(TermKind::ALL.map(reserve));
+        properties.extend(TermKind::ALL.map(safety_margin));
         json!({"type": "object", "properties": properties, "additionalProperties": false})
     }
 }
 
-pub(super) static LIMITS: KeyTable<Reserves> = KeyTable {
-    keys: &[key!("reserve": either(&[PERCENT, table_of(&BY_KIND)]),
-        reserve, written;
+pub(super) static LIMITS: KeyTable<SafetyMargins> = KeyTable {
+    keys: &[key!("safety_margin" { old = "reserve" }: either(&[PERCENT, table_of(&BY_KIND)]),
+        safety_margin, written;
         "one percentage for all limits, or amounts and percentages by the names of the rows of assess")],
     ..KeyTable::EMPTY
 };
 
 /// `[limits]`.
-pub(super) fn reserves(report: &mut Findings<'_>, top: &[Entry]) -> Reserves {
-    let mut reserves = Reserves::default();
+pub(super) fn safety_margins(report: &mut Findings<'_>, top: &[Entry]) -> SafetyMargins {
+    let mut safety_margins = SafetyMargins::default();
     if let Some(entry) = find(top, "limits") {
-        LIMITS.read(report, &entry.node, "[limits]", &mut reserves);
+        LIMITS.read(report, &entry.node, "[limits]", &mut safety_margins);
     }
-    reserves
+    safety_margins
 }
 
-fn reserve(found: &mut FoundKey<'_, '_>, to: &mut Reserves) {
+fn safety_margin(found: &mut FoundKey<'_, '_>, to: &mut SafetyMargins) {
     if !matches!(found.entry.node.value, Value::Table(_)) {
         to.all = percent(found);
         return;
     }
-    let place = "`reserve`";
+    let place = "`safety_margin`";
     let own = table(found.report, &found.entry.node, place).unwrap_or_default();
     let known: Vec<&str> = TermKind::ALL.map(TermKind::code).into_iter().chain([ALL]).collect();
     check_keys(found.report, own, &known, place);
@@ -87,12 +88,12 @@ fn reserve(found: &mut FoundKey<'_, '_>, to: &mut Reserves) {
             to.all = percent(&mut found);
         }
         let Some(kind) = row(&entry.key) else { continue };
-        let reserve = if matches!(entry.node.value, Value::Text(_)) {
-            percent(&mut found).map(Reserve::Percent)
+        let safety_margin = if matches!(entry.node.value, Value::Text(_)) {
+            percent(&mut found).map(SafetyMargin::Percent)
         } else {
-            found.number().map(Reserve::Amount)
+            found.number().map(SafetyMargin::Amount)
         };
-        to.kinds.extend(reserve.map(|reserve| (kind, reserve)));
+        to.kinds.extend(safety_margin.map(|safety_margin| (kind, safety_margin)));
     }
 }
 
@@ -115,16 +116,16 @@ fn percent(found: &mut FoundKey<'_, '_>) -> Option<f64> {
 }
 
 /// A single percentage if nothing else is stated, otherwise a table in the order of the names.
-fn written(reserves: &Reserves) -> Option<Json> {
+fn written(safety_margins: &SafetyMargins) -> Option<Json> {
     let percent = |x: f64| json!(format!("{x}%"));
-    if reserves.kinds.is_empty() {
-        return reserves.all.map(percent);
+    if safety_margins.kinds.is_empty() {
+        return safety_margins.all.map(percent);
     }
-    let own = reserves.kinds.iter().map(|(kind, reserve)| match reserve {
-        Reserve::Percent(x) => (kind.code(), percent(*x)),
-        Reserve::Amount(x) => (kind.code(), x.json()),
+    let own = safety_margins.kinds.iter().map(|(kind, safety_margin)| match safety_margin {
+        SafetyMargin::Percent(x) => (kind.code(), percent(*x)),
+        SafetyMargin::Amount(x) => (kind.code(), x.json()),
     });
-    let mut all: Vec<_> = own.chain(reserves.all.map(|x| (ALL, percent(x)))).collect();
+    let mut all: Vec<_> = own.chain(safety_margins.all.map(|x| (ALL, percent(x)))).collect();
     all.sort_by_key(|(name, _)| *name);
     Some(all.into_iter().map(|(name, value)| (name.to_owned(), value)).collect::<Map<_, _>>().into())
 }

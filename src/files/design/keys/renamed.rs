@@ -7,7 +7,15 @@ use crate::design::violation::Findings;
 use machine::requirements::TermKind;
 
 /// Rows of `assess` by their names in the last release.
-pub(super) const OLD_ROWS: &[(&str, TermKind)] = &[];
+pub(super) const OLD_ROWS: &[(&str, TermKind)] = &[
+    ("leg_too_short", TermKind::MinLegLength),
+    ("leg_too_long", TermKind::MaxLegLength),
+    ("base_swing", TermKind::BaseConeAngle),
+    ("platform_swing", TermKind::PlatformConeAngle),
+    ("rod_too_short", TermKind::MinRodLength),
+    ("rod_too_long", TermKind::MaxRodLength),
+    ("tip_swing", TermKind::TipAngle),
+];
 
 /// Renames the old keys of a table and of the tables in it, so that all later steps see new names alone. An old key
 /// beside its new one is refused.
@@ -101,5 +109,30 @@ mod tests {
         let violations = report.into_violations();
         assert_eq!((violations.len(), violations[0].code, violations[0].line), (1, Code::ConflictingKeys, 2));
         assert!(violations[0].message.contains("old name of `width`"), "{}", violations[0]);
+    }
+
+    /// The keys that have new names in 0.2.
+    #[test]
+    fn a_design_with_old_keys_is_the_design_with_their_new_names() {
+        let renamed = [
+            ("base_swing_deg", "base_cone_angle_deg"),
+            ("platform_swing_deg", "platform_cone_angle_deg"),
+            (" swing_deg", " cone_angle_deg"),
+            ("reserve", "safety_margin"),
+            ("leg_too_long", "max_leg_length"),
+        ];
+        let old = format!(
+            "{}\n[hardware]\nleg_length = [1, 90]\nbase_swing_deg = 50 # cone\nplatform_swing_deg = 60\n\
+             platform_joint = {{ model = \"ball\", swing_deg = 40 }}\n[limits.reserve]\nleg_too_long = 1 # at least\n",
+            include_str!("../../../../designs/rbt-octahedral.toml").trim_end()
+        );
+        let new = renamed.iter().fold(old.clone(), |text, (old, new)| text.replace(old, new));
+        let (design, warnings) = crate::design::parse(&old, Format::Toml).unwrap();
+        assert_eq!(warnings.len(), renamed.len(), "{warnings:?}");
+        assert_eq!(design, crate::design::parse(&new, Format::Toml).unwrap().0);
+        assert_eq!(design.text(), new);
+        let both = old.replace("[limits.reserve]", "[limits]\nsafety_margin = \"5%\"\n[limits.reserve]");
+        let refused = crate::design::parse(&both, Format::Toml).unwrap_err();
+        assert_eq!((refused.len(), refused[0].code), (1, Code::ConflictingKeys), "{refused:?}");
     }
 }

@@ -29,7 +29,7 @@ const DEFINITIONS: &str = r##"{
         "description": "a decimal, or an expression such as \"6*sqrt(3)\": numbers, names of parameters, + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg(); a length may have a unit behind it, \"12/5 mm\""
     },
     "percent": {"type": "string", "pattern": "^ *[0-9.]+ *% *$"},
-    "reserve": {"oneOf": [{"$ref": "#/$defs/not_negative"}, {"$ref": "#/$defs/percent"}]},
+    "safety_margin": {"oneOf": [{"$ref": "#/$defs/not_negative"}, {"$ref": "#/$defs/percent"}]},
     "housing": {"oneOf": [{"$ref": "#/$defs/positive"}, {"$ref": "#/$defs/edges"}]},
     "axes": {
         "oneOf": [

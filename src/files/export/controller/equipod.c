@@ -1103,13 +1103,13 @@ static real_t angle_degrees(const real_t u[3], const real_t v[3])
 
 void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *pose, equipod_margins *margins)
 {
-    real_t nearest_length = R(INFINITY), nearest_swing = R(INFINITY);
+    real_t nearest_length = R(INFINITY), nearest_cone_angle = R(INFINITY);
     int i, k;
     margins->met = 1;
     margins->length_binds = EQUIPOD_TOO_SHORT;
-    margins->swing_binds = EQUIPOD_BASE_SWING;
+    margins->cone_angle_binds = EQUIPOD_BASE_CONE_ANGLE;
     margins->length_leg = -1;
-    margins->swing_leg = -1;
+    margins->cone_angle_leg = -1;
     for (i = 0; i < 6; i++) {
         real_t arm[3], line[3], back[3], length;
         leg_line(legs, pose, i, arm, line);
@@ -1119,10 +1119,10 @@ void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *leg
         }
         margins->too_short[i] = limits->has_length ? length - limits->least : R(INFINITY);
         margins->too_long[i] = limits->has_length ? limits->greatest - length : R(INFINITY);
-        margins->base_swing_degrees[i] =
-            limits->has_base_swing ? limits->base_swing_degrees - angle_degrees(line, limits->base_axis[i]) : R(INFINITY);
-        margins->platform_swing_degrees[i] =
-            limits->has_platform_swing ? limits->platform_swing_degrees - angle_degrees(back, limits->platform_axis[i]) : R(INFINITY);
+        margins->base_cone_angle_degrees[i] =
+            limits->has_base_cone_angle ? limits->base_cone_angle_degrees - angle_degrees(line, limits->base_axis[i]) : R(INFINITY);
+        margins->platform_cone_angle_degrees[i] =
+            limits->has_platform_cone_angle ? limits->platform_cone_angle_degrees - angle_degrees(back, limits->platform_axis[i]) : R(INFINITY);
         if (margins->too_short[i] < nearest_length) {
             nearest_length = margins->too_short[i];
             margins->length_binds = EQUIPOD_TOO_SHORT;
@@ -1133,19 +1133,19 @@ void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *leg
             margins->length_binds = EQUIPOD_TOO_LONG;
             margins->length_leg = i;
         }
-        if (margins->base_swing_degrees[i] < nearest_swing) {
-            nearest_swing = margins->base_swing_degrees[i];
-            margins->swing_binds = EQUIPOD_BASE_SWING;
-            margins->swing_leg = i;
+        if (margins->base_cone_angle_degrees[i] < nearest_cone_angle) {
+            nearest_cone_angle = margins->base_cone_angle_degrees[i];
+            margins->cone_angle_binds = EQUIPOD_BASE_CONE_ANGLE;
+            margins->cone_angle_leg = i;
         }
-        if (margins->platform_swing_degrees[i] < nearest_swing) {
-            nearest_swing = margins->platform_swing_degrees[i];
-            margins->swing_binds = EQUIPOD_PLATFORM_SWING;
-            margins->swing_leg = i;
+        if (margins->platform_cone_angle_degrees[i] < nearest_cone_angle) {
+            nearest_cone_angle = margins->platform_cone_angle_degrees[i];
+            margins->cone_angle_binds = EQUIPOD_PLATFORM_CONE_ANGLE;
+            margins->cone_angle_leg = i;
         }
         /* what is not a number is not met */
         margins->met = margins->met && margins->too_short[i] >= R(0) && margins->too_long[i] >= R(0)
-                       && margins->base_swing_degrees[i] >= R(0) && margins->platform_swing_degrees[i] >= R(0);
+                       && margins->base_cone_angle_degrees[i] >= R(0) && margins->platform_cone_angle_degrees[i] >= R(0);
     }
 }
 
@@ -1199,7 +1199,7 @@ static real_t cap_of(real_t length, real_t speed)
 }
 
 /* The step that the angle between the leg and an axis allows, both in the base frame. */
-static real_t swing_step(const line_motion *motion, const real_t u[3], real_t length, const real_t axis[3], real_t limit_degrees)
+static real_t cone_angle_step(const line_motion *motion, const real_t u[3], real_t length, const real_t axis[3], real_t limit_degrees)
 {
     const real_t kept = R(KEPT) * length, along = dot(u, motion->velocity), speed = motion->speed / kept;
     real_t across[3];
@@ -1215,7 +1215,7 @@ static real_t swing_step(const line_motion *motion, const real_t u[3], real_t le
                    motion->cap);
 }
 
-/* A step over which no limit of lengths and swing can be reached; docs/theory/reach.md has the bounds. */
+/* A step over which no limit of lengths and cone angles can be reached; docs/theory/reach.md has the bounds. */
 static real_t free_step(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *pose, const real_t velocity[3], const real_t turn[3])
 {
     const real_t v = norm(velocity), w = norm(turn);
@@ -1241,10 +1241,10 @@ static real_t free_step(const equipod_limits *limits, const equipod_legs *legs, 
             least = smaller(first_root(length - limits->least, rate, base.acceleration), least);
             least = smaller(smaller(first_root(limits->greatest - length, -rate, bend), base.cap), least);
         }
-        if (limits->has_base_swing) {
-            least = smaller(swing_step(&base, u, length, limits->base_axis[i], limits->base_swing_degrees), least);
+        if (limits->has_base_cone_angle) {
+            least = smaller(cone_angle_step(&base, u, length, limits->base_axis[i], limits->base_cone_angle_degrees), least);
         }
-        if (limits->has_platform_swing) {
+        if (limits->has_platform_cone_angle) {
             cross(turn, q, turned);
             size = norm(turned);
             first = cap_of(length, v + size);
@@ -1256,7 +1256,7 @@ static real_t free_step(const equipod_limits *limits, const equipod_legs *legs, 
             platform.speed = v + size + grown;
             platform.acceleration = w * (size + grown) + R(2) * v * w;
             platform.cap = smaller(cap_of(length, platform.speed), first);
-            least = smaller(swing_step(&platform, u, length, axis, limits->platform_swing_degrees), least);
+            least = smaller(cone_angle_step(&platform, u, length, axis, limits->platform_cone_angle_degrees), least);
         }
     }
     return least;
@@ -1269,7 +1269,7 @@ static void name_binding(const equipod_legs *legs, const equipod_margins *margin
     int i, k;
     for (i = 0; i < 6; i++) {
         const real_t shares[4] = {margins->too_short[i] / legs->unit, margins->too_long[i] / legs->unit,
-                                  margins->base_swing_degrees[i] / R(90), margins->platform_swing_degrees[i] / R(90)};
+                                  margins->base_cone_angle_degrees[i] / R(90), margins->platform_cone_angle_degrees[i] / R(90)};
         for (k = 0; k < 4; k++) {
             if (shares[k] < worst) {
                 worst = shares[k];

@@ -17,7 +17,7 @@ typedef double real_t;
 extern "C" {
 #endif
 
-/* Most segments of a tracked pose where a caller has no other wish: the bound on the iterations. */
+/* Most segments of a tracked pose where a caller states no other number: the bound on the iterations. */
 #define EQUIPOD_SEGMENTS 8u
 /* Newton corrections in a segment at most. */
 #define EQUIPOD_CORRECTIONS 12u
@@ -79,10 +79,10 @@ typedef struct {
 
 /* Limits of the legs; what is absent limits nothing. */
 typedef struct {
-    int has_length, has_base_swing, has_platform_swing;
+    int has_length, has_base_cone_angle, has_platform_cone_angle;
     real_t least, greatest;           /* leg lengths */
-    real_t base_swing_degrees;        /* greatest angle between leg and axis at the base */
-    real_t platform_swing_degrees;    /* the same at the platform */
+    real_t base_cone_angle_degrees;        /* greatest angle between leg and axis at the base */
+    real_t platform_cone_angle_degrees;    /* the same at the platform */
     real_t base_axis[6][3];           /* unit vectors, base frame */
     real_t platform_axis[6][3];       /* unit vectors, platform frame */
 } equipod_limits;
@@ -90,19 +90,19 @@ typedef struct {
 typedef enum {
     EQUIPOD_TOO_SHORT,
     EQUIPOD_TOO_LONG,
-    EQUIPOD_BASE_SWING,
-    EQUIPOD_PLATFORM_SWING
+    EQUIPOD_BASE_CONE_ANGLE,
+    EQUIPOD_PLATFORM_CONE_ANGLE
 } equipod_limit;
 
 /* What remains of each limit, leg by leg: positive where it is met, infinite where nothing limits. */
 typedef struct {
     real_t too_short[6], too_long[6];                   /* lengths */
-    real_t base_swing_degrees[6], platform_swing_degrees[6];
+    real_t base_cone_angle_degrees[6], platform_cone_angle_degrees[6];
     int met;                 /* 1: every limit is met */
     equipod_limit length_binds; /* which limit of the lengths is nearest, and of which leg */
     int length_leg;
-    equipod_limit swing_binds;  /* which swing is nearest to its limit, and of which leg */
-    int swing_leg;
+    equipod_limit cone_angle_binds;  /* which cone angle is nearest to its limit, and of which leg */
+    int cone_angle_leg;
 } equipod_margins;
 
 /* How far a way is free. */
@@ -164,7 +164,7 @@ equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *
 void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *pose, equipod_margins *margins);
 
 /* How far the way p(t) = p + t velocity, R(t) = exp(t [turn]) R is free of violated limits, t from 0 to `most`: unit vectors as velocity or turn move one
- * axis. Steps are such that neither lengths nor swing can be violated between two poses, but for steps of a hundred-thousandth (float: a
+ * axis. Steps are such that neither lengths nor cone angles can be violated between two poses, but for steps of a hundred-thousandth (float: a
  * thousandth) of the unit where one of them is nearly zero. `poses` bounds the poses looked at: what is free of the way up to there is the
  * answer then. 0 where a limit is violated at the start. */
 int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],

@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
     pose_numbers pose;
     double squares[6], lengths[6], jacobian[6][6];
-    double too_short[6], too_long[6], base_swing[6], platform_swing[6];
+    double too_short[6], too_long[6], base_cone_angle[6], platform_cone_angle[6];
 } inverse_vector;
 
 /* A tracked pose and its evidence. */
@@ -199,8 +199,8 @@ static void check_margins(const inverse_vector *v, const equipod_pose *pose, uns
         const double angle = 57.3 * (4 * bound / length + 1e2 * EPSILON);
         check(near(m.too_short[i], v->too_short[i], bound), "margin of the least length", number);
         check(near(m.too_long[i], v->too_long[i], bound), "margin of the greatest length", number);
-        check(near(m.base_swing_degrees[i], v->base_swing[i], angle), "swing at the base", number);
-        check(near(m.platform_swing_degrees[i], v->platform_swing[i], angle), "swing at the platform", number);
+        check(near(m.base_cone_angle_degrees[i], v->base_cone_angle[i], angle), "cone angle at the base", number);
+        check(near(m.platform_cone_angle_degrees[i], v->platform_cone_angle[i], angle), "cone angle at the platform", number);
     }
 }
 

@@ -15,7 +15,7 @@ use nalgebra::{Point3, Vector3};
 use super::text::{ascii, commented};
 use super::{Export, ExportedFile, Unsupported, Writer};
 use fk::{NearNumbers, NearSolver};
-use machine::requirements::{Hardware, JointAxes, Swing};
+use machine::requirements::{ConeLimits, Hardware, JointAxes};
 use platform::geom::{Pose, any_across};
 use platform::manipulator::{Body, Manipulator};
 
@@ -33,7 +33,7 @@ impl Writer for C {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "limits other than leg lengths, swing and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker"
+        "limits other than leg lengths, cone angles and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker"
     }
 
     fn takes_cranks(&self) -> bool {
@@ -51,7 +51,7 @@ impl Writer for C {
         if let Some(cranks) = &export.cranks {
             return Ok(cranks::files(export, cranks));
         }
-        one_swing_a_body(export)?;
+        one_cone_angle_a_body(export)?;
         let mut files = vec![
             ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
             ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
@@ -82,14 +82,15 @@ fn kinematics_modules() -> [ExportedFile; 4] {
 }
 
 /// Refuses joints of one body with different greatest angles.
-fn one_swing_a_body(export: &Export) -> Result<(), Unsupported> {
+fn one_cone_angle_a_body(export: &Export) -> Result<(), Unsupported> {
     let h = &export.hardware;
-    let differs =
-        |body: Body| body.of((h.base_swing, h.platform_swing)).is_some_and(|s| s.common_deg().is_none());
+    let differs = |body: Body| {
+        body.of((h.base_cone_angle, h.platform_cone_angle)).is_some_and(|s| s.common_deg().is_none())
+    };
     Body::BOTH
         .into_iter()
         .find(|body| differs(*body))
-        .map_or(Ok(()), |body| Err(Unsupported::SwingOfLegs(body)))
+        .map_or(Ok(()), |body| Err(Unsupported::ConeOfLegs(body)))
 }
 
 /// The octahedral platform equivalent to a design, for controllers that compute its poses.
@@ -178,7 +179,7 @@ fn header(export: &Export) -> String {
         "#ifndef EQUIPOD_DESIGN_H\n#define EQUIPOD_DESIGN_H\n\n#include \"equipod.h\"\n\n\
          #ifdef __cplusplus\nextern \"C\" {\n#endif\n\n\
          /* The design. */\nextern const equipod_legs equipod_nominal;\n\
-         /* Limits of lengths and swing. */\nextern const equipod_limits equipod_design_limits;\n\
+         /* Limits of lengths and cone angles. */\nextern const equipod_limits equipod_design_limits;\n\
          /* The home pose. */\nextern const equipod_pose equipod_home;\n\
          /* Directions across each leg at home, one for both ends: in the base frame, and in the platform frame. */\n\
          extern const real_t equipod_across_base[6][3], equipod_across_platform[6][3];\n",
@@ -214,7 +215,7 @@ fn source(export: &Export) -> String {
     let mut out = heading(export);
     out.push_str("#include \"equipod_design.h\"\n\n#include <math.h>\n\n#define R(x) ((real_t)(x))\n\n");
     legs(&mut out, "equipod_nominal", &export.manipulator);
-    limits(&mut out, &export.hardware, &SwingAxes::of(export));
+    limits(&mut out, &export.hardware, &ConeAxes::of(export));
     let home = &export.home;
     let r = home.rotation.matrix();
     let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
@@ -272,12 +273,12 @@ fn legs(out: &mut String, name: &str, m: &Manipulator) {
 }
 
 /// Axes of joint angles, unit vectors in leg order: at the base in its frame, at the platform in its own.
-pub(super) struct SwingAxes {
+pub(super) struct ConeAxes {
     base: [Vector3<f64>; 6],
     platform: [Vector3<f64>; 6],
 }
 
-impl SwingAxes {
+impl ConeAxes {
     /// The axes; those not given are along the legs at home.
     fn of(export: &Export) -> Self {
         let home: &Pose = &export.home;
@@ -286,14 +287,14 @@ impl SwingAxes {
         if let Some(Ok(states)) = export.coupled.as_ref().map(|legs| legs.states(home)) {
             at_home = states.map(|state| state.line.normalize());
         }
-        let given = |swing: Option<Swing>| match swing.map(|s| s.axes) {
+        let given = |cone_angle: Option<ConeLimits>| match cone_angle.map(|s| s.axes) {
             Some(JointAxes::Given(axes)) => Some(axes.map(nalgebra::Unit::into_inner)),
             _ => None,
         };
         let hardware = &export.hardware;
         Self {
-            base: given(hardware.base_swing).unwrap_or(at_home),
-            platform: given(hardware.platform_swing)
+            base: given(hardware.base_cone_angle).unwrap_or(at_home),
+            platform: given(hardware.platform_cone_angle)
                 .unwrap_or_else(|| at_home.map(|u| home.rotation.inverse() * u)),
         }
     }
@@ -305,19 +306,22 @@ fn across_at_home(export: &Export) -> [Vector3<f64>; 6] {
     export.manipulator.legs().map(|l| any_across(&(home.transform(&l.platform) - l.base).normalize()))
 }
 
-fn limits(out: &mut String, hardware: &Hardware, axes: &SwingAxes) {
+fn limits(out: &mut String, hardware: &Hardware, axes: &ConeAxes) {
     let (least, greatest) = hardware.leg_length.map_or((0.0, f64::INFINITY), |l| l.range());
-    let swing = |s: Option<Swing>| s.map_or(180.0, |s| s.least_deg());
-    let flags =
-        [hardware.leg_length.is_some(), hardware.base_swing.is_some(), hardware.platform_swing.is_some()];
+    let cone_angle = |s: Option<ConeLimits>| s.map_or(180.0, |s| s.least_deg());
+    let flags = [
+        hardware.leg_length.is_some(),
+        hardware.base_cone_angle.is_some(),
+        hardware.platform_cone_angle.is_some(),
+    ];
     let _ = writeln!(
         out,
         "const equipod_limits equipod_design_limits = {{\n    {},\n    {}, {}, {}, {},\n    {},\n    {}\n}};\n",
         flags.map(|f| u8::from(f).to_string()).join(", "),
         format_args!("R({})", number(least)),
         format_args!("R({})", number(greatest)),
-        format_args!("R({})", number(swing(hardware.base_swing))),
-        format_args!("R({})", number(swing(hardware.platform_swing))),
+        format_args!("R({})", number(cone_angle(hardware.base_cone_angle))),
+        format_args!("R({})", number(cone_angle(hardware.platform_cone_angle))),
         matrix(&axes.base.map(Into::into)),
         matrix(&axes.platform.map(Into::into))
     );

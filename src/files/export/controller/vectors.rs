@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 use super::{EquivalentOctahedral, braces, heading, number};
 use crate::export::Export;
 use fk::{NearOptions, NearOutcome, NearSolver, WhyLost};
-use machine::reach::{PoseAxis, Reach, StraightWay};
+use machine::reach::{PoseAxis, Reach, StraightPath};
 use machine::requirements::{Hardware, Limit, Requirements, TermKind, Terms};
 use num::Rng;
 use num::double_double::DoubleDouble;
@@ -94,7 +94,12 @@ fn inverse(export: &Export, pose: &Pose) -> Option<String> {
     let rows = (0..6).map(|i| row(&std::array::from_fn::<f64, 6, _>(|k| j[(i, k)])));
     let required = Requirements { hardware: export.hardware, ..Requirements::default() };
     let margins = Terms::new(m, &required, &export.home).at(pose);
-    let kinds = [TermKind::LegTooShort, TermKind::LegTooLong, TermKind::BaseSwing, TermKind::PlatformSwing];
+    let kinds = [
+        TermKind::MinLegLength,
+        TermKind::MaxLegLength,
+        TermKind::BaseConeAngle,
+        TermKind::PlatformConeAngle,
+    ];
     let margins = kinds.map(|kind| {
         let of_leg = |leg: usize| margins.iter().find(|(t, _)| t.kind == kind && t.first == leg);
         row(&std::array::from_fn::<f64, 6, _>(|leg| of_leg(leg).map_or(f64::INFINITY, |m| m.1)))
@@ -228,8 +233,8 @@ fn newton(export: &Export, about: &[Pose], rng: &mut Rng) -> Vec<String> {
 fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
     let hardware = Hardware {
         leg_length: export.hardware.leg_length,
-        base_swing: export.hardware.base_swing,
-        platform_swing: export.hardware.platform_swing,
+        base_cone_angle: export.hardware.base_cone_angle,
+        platform_cone_angle: export.hardware.platform_cone_angle,
         ..Hardware::default()
     };
     let required = Requirements { hardware, ..Requirements::default() };
@@ -241,14 +246,14 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
             continue;
         }
         let mut vector = |far: f64| Vector3::from_fn(|_, _| rng.uniform(-far, far));
-        let mixed = StraightWay {
+        let mixed = StraightPath {
             start,
             velocity: vector(export.size),
             turn: vector(1.0),
             pivot: nalgebra::Vector3::zeros(),
         };
         let far = |axis: PoseAxis| if axis.is_turn() { 1.0 } else { export.size };
-        let axes = PoseAxis::ALL.map(|axis| (StraightWay::axis(&start, axis), far(axis)));
+        let axes = PoseAxis::ALL.map(|axis| (StraightPath::axis(&start, axis), far(axis)));
         for (way, mut most) in axes.into_iter().chain([(mixed, 1.0)]) {
             let found = reach.along(&way, most);
             let mut travel = (found.amount, found.binding.is_some());

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::swing::{self, SwingTendon};
+use super::swing::{self, ConeTendon};
 use super::{Export, ModelMasses, Scale, Unsupported, inertial, opening, platform, quat, shape};
 use crate::export::model::ExportCranks;
 use crate::export::text::{real, reals};
@@ -44,7 +44,7 @@ fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose
 /// The first hinge rotates about the axis of the crank and keeps that angle. The second is across both; its rotation
 /// `b` increases the angle by `b` relative to home.
 fn lean_range(cranks: &ExportCranks, at_home: f64) -> String {
-    cranks.tip_swing.map_or_else(String::new, |most| {
+    cranks.tip_angle.map_or_else(String::new, |most| {
         format!(" range=\"{} {}\"", real(-most - at_home), real(most - at_home))
     })
 }
@@ -95,7 +95,7 @@ fn leg(
         capsule(&Vector3::zeros(), &(z * leg.rod), thin),
         damp = real(1e-4 * damping),
     );
-    if let Some(tendon) = SwingTendon::of(export, &export.legs[i])? {
+    if let Some(tendon) = ConeTendon::of(export, &export.legs[i])? {
         tendon.at_rod(out, scale);
     }
     if i == 0 {
@@ -118,7 +118,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
          so that models of all sizes behave alike. Rod 1 carries the platform in the tree; rods 2 to 6 are closed by connect.\n",
         masses.words(export),
     );
-    if cranks.tip_swing.is_some() {
+    if cranks.tip_angle.is_some() {
         text.push_str("  Range of hinge swingNy: how far rod N may lean out of the plane in which crank N turns, less how far it does at home.\n");
     }
     if swing::is_limited(export) {

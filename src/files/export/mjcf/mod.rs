@@ -15,7 +15,7 @@ use crate::plot::escape;
 use machine::requirements::{JointAxes, KeepOutShape};
 use platform::geom::Pose;
 
-use self::swing::SwingTendon;
+use self::swing::ConeTendon;
 use super::masses::{ModelMasses, Solid};
 use super::model::frame_along;
 
@@ -153,7 +153,7 @@ fn range_of(export: &Export, leg: &ExportLeg, name: &str) -> String {
 /// `cos t = cos a cos b`. So neither exceeds `t`. A leg within `s` of its joint axis is within `s` plus the angle
 /// between axis and leg at home. The hinges therefore allow every position within the cone angle.
 fn swing_of(export: &Export, leg: &ExportLeg) -> Result<Option<f64>, Unsupported> {
-    let Some(swing) = export.hardware.base_swing else { return Ok(None) };
+    let Some(swing) = export.hardware.base_cone_angle else { return Ok(None) };
     let home = leg.direction()?;
     let off = match swing.axes {
         JointAxes::Given(axes) => home.angle(&axes[leg.number - 1]),
@@ -208,7 +208,7 @@ fn leg(
         inertial(&masses.rod(0.0)),
         capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin, ROD),
     );
-    if let Some(tendon) = SwingTendon::of(export, leg)? {
+    if let Some(tendon) = ConeTendon::of(export, leg)? {
         tendon.at_rod(out, scale);
     }
     if i == 1 {
@@ -244,7 +244,7 @@ fn platform(
         real(0.01 * scale.size),
     );
     for leg in &export.legs {
-        if let Ok(Some(tendon)) = SwingTendon::of(export, leg) {
+        if let Ok(Some(tendon)) = ConeTendon::of(export, leg) {
             tendon.at_platform(out, scale);
         }
     }
@@ -394,7 +394,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
             "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
         );
     }
-    if export.hardware.base_swing.is_some() {
+    if export.hardware.base_cone_angle.is_some() {
         text.push_str("  Ranges of the hinges at the base: boxes around the cones in which the design lets legs swing.\n");
     }
     if swing::is_limited(export) {

@@ -24,8 +24,8 @@ pub(super) const COMMENT: &str = "  Tendon swingN limits the swing at the platfo
 /// The greatest angle of a leg or a rod (from 0) at the platform, radians, if the design limits it.
 fn limit(export: &Export, leg: usize) -> Option<f64> {
     let most = match &export.cranks {
-        Some(cranks) => cranks.platform_swing,
-        None => export.hardware.platform_swing.map(|swing| swing.limits_deg[leg].to_radians()),
+        Some(cranks) => cranks.platform_cone_angle,
+        None => export.hardware.platform_cone_angle.map(|swing| swing.limits_deg[leg].to_radians()),
     };
     most.filter(|most| *most < std::f64::consts::PI)
 }
@@ -36,7 +36,7 @@ pub(super) fn is_limited(export: &Export) -> bool {
 }
 
 /// The tendon of a leg or of a rod.
-pub(super) struct SwingTendon {
+pub(super) struct ConeTendon {
     number: usize,
     /// Distance of its ends from the joint, design units.
     away: f64,
@@ -48,7 +48,7 @@ pub(super) struct SwingTendon {
     longest: f64,
 }
 
-impl SwingTendon {
+impl ConeTendon {
     /// `None` without a limit.
     pub(super) fn of(export: &Export, leg: &ExportLeg) -> Result<Option<Self>, Unsupported> {
         let Some(most) = limit(export, leg.number - 1) else { return Ok(None) };
@@ -62,7 +62,7 @@ impl SwingTendon {
             let rod = cranks.platform.legs()[i].rod;
             (to_platform * along, rod, rod)
         } else {
-            let axis = match export.hardware.platform_swing.map(|swing| swing.axes) {
+            let axis = match export.hardware.platform_cone_angle.map(|swing| swing.axes) {
                 Some(JointAxes::Given(axes)) => axes[leg.number - 1].into_inner(),
                 _ => to_platform * leg.direction()?,
             };
@@ -102,7 +102,7 @@ pub(super) fn tendons(out: &mut String, scale: &Scale, export: &Export) -> Resul
     }
     out.push_str("  <tendon>\n");
     for leg in &export.legs {
-        let Some(tendon) = SwingTendon::of(export, leg)? else { continue };
+        let Some(tendon) = ConeTendon::of(export, leg)? else { continue };
         let _ = writeln!(
             out,
             "    <spatial name=\"swing{0}\" limited=\"true\" range=\"0 {1}\" width=\"{2}\">\n      \

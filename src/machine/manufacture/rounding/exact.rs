@@ -6,7 +6,7 @@ use super::grid::{
     BodyGrid, GridHole, GridTriangle, POOL, TrianglePool, Wanted, length, pool, three_fold_pool,
 };
 use super::{
-    Grid, Judgement, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
+    Evaluation, Grid, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
     objective_above, on_cells, place, plate_of, sample_plan,
 };
 use crate::manufacture::correction::octahedral_of;
@@ -98,8 +98,8 @@ pub struct ExactRounding {
     pub fractions: Option<[(i64, i64); 6]>,
     /// Every joint, in the order of [`joints`].
     pub joints: Vec<RoundedJoint>,
-    /// The judgement of the rounded design.
-    pub judgement: Judgement,
+    /// The evaluation of the rounded design.
+    pub evaluation: Evaluation,
     /// Whether exact rational arithmetic on the holes shows: six independent legs in the span of six independent
     /// octahedral legs.
     pub proved: bool,
@@ -337,11 +337,12 @@ fn search(
         plates: laying.bodies,
         roles,
         list: joints(m),
-        least: Keeping::Reserve,
+        least: Keeping::SafetyMargin,
         hint: 0,
     };
     let mut found = None;
-    let wanted = if problem.requirements.reserves.is_empty() { &Keeping::ALL[1..] } else { &Keeping::ALL };
+    let wanted =
+        if problem.requirements.safety_margins.is_empty() { &Keeping::ALL[1..] } else { &Keeping::ALL };
     for least in wanted {
         search.least = *least;
         found = search.run(&pools, count).map(|(best, replacements)| (best, replacements, *least));
@@ -395,7 +396,7 @@ fn finish(
         grids: found.laying.grids,
         fractions: roles.inner.is_some().then(|| std::array::from_fn(fraction)),
         joints: rounded_joints(m, &rounded, roles, plates, &cells),
-        judgement: judge(&rounded, problem, Some(roles.determinant(&rounded))),
+        evaluation: judge(&rounded, problem, Some(roles.determinant(&rounded))),
         proved: proved(m, &list, &cells, &[best.triangles[0].corners, best.triangles[1].corners]),
         three_fold: found.three_fold,
         pool: [0, 1].map(|k| pools[k].triangles.len()),

@@ -28,7 +28,7 @@ use platform::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 /// Sets of leg lengths for the comparison of a rounded design with its equivalent.
 const SAMPLES: usize = 3;
 
-/// A design to put on a grid, and the criteria of its judgement.
+/// A design to put on a grid, and the criteria of its evaluation.
 #[derive(Debug, Clone, Copy)]
 pub struct RoundingProblem<'a> {
     /// The design as wanted.
@@ -172,7 +172,7 @@ pub struct RoundedJoint {
 #[derive(Debug, Clone)]
 pub struct Rounding {
     /// The design as wanted, judged in the same way.
-    pub wanted: Judgement,
+    pub wanted: Evaluation,
     /// All joints on the grid and exactly on the lines of two triangles.
     pub exact: Result<ExactRounding, NoRounding>,
     /// All joints on grid points next to their wanted places.
@@ -184,9 +184,9 @@ impl Rounding {
     /// objective. Otherwise the nearest one is chosen if it meets them, then the exact one if it meets them.
     #[must_use]
     pub fn choice(&self, keep: f64) -> Option<&Manipulator> {
-        let exact = self.exact.as_ref().ok().filter(|e| e.judgement.met);
-        let nearest = self.nearest.as_ref().ok().filter(|n| n.judgement.met);
-        let kept = exact.filter(|e| e.judgement.objective >= keep * self.wanted.objective);
+        let exact = self.exact.as_ref().ok().filter(|e| e.evaluation.met);
+        let nearest = self.nearest.as_ref().ok().filter(|n| n.evaluation.met);
+        let kept = exact.filter(|e| e.evaluation.objective >= keep * self.wanted.objective);
         kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
     }
 
@@ -196,9 +196,9 @@ impl Rounding {
     /// the size of the design.
     pub fn least_missed(&self, required: &Requirements, size: f64) -> Option<&Manipulator> {
         let exact =
-            self.exact.as_ref().ok().map(|e| (&e.manipulator, e.judgement.missed_share(required, size)));
+            self.exact.as_ref().ok().map(|e| (&e.manipulator, e.evaluation.missed_share(required, size)));
         let nearest =
-            self.nearest.as_ref().ok().map(|n| (&n.manipulator, n.judgement.missed_share(required, size)));
+            self.nearest.as_ref().ok().map(|n| (&n.manipulator, n.evaluation.missed_share(required, size)));
         let better = |a: (_, f64), b: (_, f64)| if b.1 < a.1 { b } else { a };
         exact.into_iter().chain(nearest).reduce(better).map(|(m, _)| m)
     }
@@ -343,8 +343,8 @@ fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
 
 /// The quality of a design.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "JudgementRecord", transform = num::nullable))]
-pub struct Judgement {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "EvaluationRecord", transform = num::nullable))]
+pub struct Evaluation {
     /// The worst inverse condition number over the poses.
     pub objective: f64,
     /// The pose of this value.
@@ -361,8 +361,8 @@ pub struct Judgement {
     /// No requirement is violated.
     // by more than rounding, and `|det A|` is as large as required
     pub met: bool,
-    /// Every margin keeps its reserve too.
-    pub reserve_kept: bool,
+    /// Every margin is at least its safety margin.
+    pub safety_margin_kept: bool,
 }
 
 /// The least margin of a requirement.
@@ -377,7 +377,7 @@ pub struct LeastMargin {
     pub value: f64,
 }
 
-impl Judgement {
+impl Evaluation {
     /// The greatest miss of a requirement, as a share of its limit or of the size of the design; 0 if none is missed.
     fn missed_share(&self, required: &Requirements, size: f64) -> f64 {
         let share = |margin: &LeastMargin| {
@@ -393,18 +393,18 @@ impl Judgement {
 enum Keeping {
     Nothing,
     Limits,
-    Reserve,
+    SafetyMargin,
 }
 
 impl Keeping {
     /// From the strictest to the weakest.
-    const ALL: [Self; 3] = [Self::Reserve, Self::Limits, Self::Nothing];
+    const ALL: [Self; 3] = [Self::SafetyMargin, Self::Limits, Self::Nothing];
 }
 
-impl Judgement {
+impl Evaluation {
     fn keeping(&self) -> Keeping {
-        match (self.met, self.reserve_kept) {
-            (true, true) => Keeping::Reserve,
+        match (self.met, self.safety_margin_kept) {
+            (true, true) => Keeping::SafetyMargin,
             (true, false) => Keeping::Limits,
             (false, _) => Keeping::Nothing,
         }
@@ -433,7 +433,7 @@ fn objective_above(
     Some(worst)
 }
 
-/// Least margins at the poses, whether none is violated, and whether none is below its reserve.
+/// Least margins at the poses, whether none is violated, and whether none is below its safety margin.
 fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<LeastMargin>, [bool; 2]) {
     let terms = Terms::new(m, problem.requirements, &problem.space.home);
     let mut least: BTreeMap<TermKind, (f64, Option<&Pose>)> = BTreeMap::new();
@@ -445,28 +445,28 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<LeastMargin>,
             *entry = (margin, pose);
         }
     }
-    let all = |reserve: &dyn Fn(TermKind) -> f64| {
-        least
-            .iter()
-            .all(|(kind, (margin, pose))| terms.standing(*kind, margin - reserve(*kind), *pose).is_met())
+    let all = |safety_margin: &dyn Fn(TermKind) -> f64| {
+        least.iter().all(|(kind, (margin, pose))| {
+            terms.standing(*kind, margin - safety_margin(*kind), *pose).is_met()
+        })
     };
-    let met = [all(&|_| 0.0), all(&|kind| problem.requirements.reserve(kind))];
+    let met = [all(&|_| 0.0), all(&|kind| problem.requirements.safety_margin(kind))];
     (least.into_iter().map(|(kind, (value, _))| LeastMargin { kind, value }).collect(), met)
 }
 
-/// The judgement of a design.
-fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
+/// The evaluation of a design.
+fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Evaluation {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
-    let (requirements, [requirements_met, reserve_kept]) = margins(m, problem);
+    let (requirements, [requirements_met, safety_margin_kept]) = margins(m, problem);
     let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
-    Judgement {
+    Evaluation {
         objective,
         worst_pose: problem.poses[hint],
         least_distances: Body::BOTH.map(|body| m.nearest_joints(body).map_or(f64::INFINITY, |n| n.0)),
         det,
         met: det_met && requirements_met,
-        reserve_kept: det_met && reserve_kept,
+        safety_margin_kept: det_met && safety_margin_kept,
         requirements,
     }
 }

@@ -6,8 +6,8 @@ use super::exact::TrianglesOfBodies;
 use super::grid::GridHole;
 use super::plate::ThreeFold;
 use super::{
-    Grid, Judgement, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge, on_cells,
-    place, places, plate_of, sample_plan,
+    Evaluation, Grid, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
+    on_cells, place, places, plate_of, sample_plan,
 };
 use crate::manufacture::joint::{Joint, joints};
 use crate::manufacture::sensitivity::Sensitivity;
@@ -26,8 +26,8 @@ pub struct NearestRounding {
     pub manipulator: Manipulator,
     /// Every joint, in the order of [`joints`].
     pub joints: Vec<RoundedJoint>,
-    /// The judgement of the rounded design.
-    pub judgement: Judgement,
+    /// The evaluation of the rounded design.
+    pub evaluation: Evaluation,
     /// Greatest pose error over the poses of the problem with the formula of the wanted design, to first order. The
     /// parts are the tool point (design units) and the orientation (degrees).
     pub first_order: (f64, f64),
@@ -143,7 +143,7 @@ struct NearestHoles {
     not_nearest: usize,
     three_fold: bool,
     rounded: Manipulator,
-    judgement: Judgement,
+    evaluation: Evaluation,
     errors: (f64, f64),
     nearest_errors: (f64, f64),
 }
@@ -225,7 +225,7 @@ fn search(
         laying: *laying,
         not_nearest: orbits.iter().filter(off_nearest).map(|orbit| orbit.members.len()).sum(),
         three_fold: base_turns && platform_turns,
-        judgement: judge(&rounded, problem, None),
+        evaluation: judge(&rounded, problem, None),
         errors: state.errors(),
         nearest_errors,
         cells: state.cells,
@@ -246,7 +246,7 @@ pub(super) fn round(
     let sensitivities = sensitivities.ok_or(NoRounding::SingularPose)?;
     let length = problem.characteristic_length;
     let better = |a: &NearestHoles, b: &NearestHoles| {
-        (a.judgement.met, -a.cost(length)) > (b.judgement.met, -b.cost(length))
+        (a.evaluation.met, -a.cost(length)) > (b.evaluation.met, -b.cost(length))
     };
     let all = layings.iter().map(|laying| search(problem, laying, &sensitivities));
     let found = best_of(all, better).unwrap_or(Err(NoRounding::Singular))?;
@@ -262,7 +262,7 @@ pub(super) fn round(
     Ok(NearestRounding {
         grids: found.laying.grids,
         joints: joints(m).iter().enumerate().map(one).collect(),
-        judgement: found.judgement,
+        evaluation: found.evaluation,
         first_order: degrees(found.errors),
         first_order_nearest: degrees(found.nearest_errors),
         solved: solved(problem, &found.moved),

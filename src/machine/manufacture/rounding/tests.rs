@@ -8,7 +8,7 @@ use super::exact::{proved, rank};
 use super::grid::{BodyGrid, Wanted, pool};
 use super::*;
 use crate::manufacture::tests::{free, octahedral, space};
-use crate::requirements::{HoleCircle, HoleCircles, Reserves, TermKind};
+use crate::requirements::{HoleCircle, HoleCircles, SafetyMargins, TermKind};
 use platform::manipulator::{Leg, Octahedral, inverse_condition, jacobian};
 use synthesis::joint_free;
 use verify::{InconclusiveReason, Verdict};
@@ -68,7 +68,7 @@ fn the_exact_rounding_is_on_the_grid_on_its_lines_and_proved_equivalent() {
     // det A from the fractions
     let t = e.fractions.unwrap().map(|(k, n)| k as f64 / n as f64);
     let det = synthesis::offset_determinant(&t);
-    assert!((det - e.judgement.det.unwrap()).abs() < 1e-12 * det.abs().max(1.0));
+    assert!((det - e.evaluation.det.unwrap()).abs() < 1e-12 * det.abs().max(1.0));
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn no_other_triangle_of_one_body_is_better() {
             let at = |pose| inverse_condition(&jacobian(m, pose, problem.characteristic_length));
             problem.poses.iter().map(at).fold(f64::INFINITY, f64::min)
         };
-        assert!((value(&found.manipulator) - found.judgement.objective).abs() < 1e-15);
+        assert!((value(&found.manipulator) - found.evaluation.objective).abs() < 1e-15);
         let m = problem.manipulator;
         let roles = TrianglesOfBodies::of(m).unwrap();
         let list = joints(m);
@@ -104,7 +104,7 @@ fn no_other_triangle_of_one_body_is_better() {
                 }
                 let [a, b] = joints;
                 let other = Manipulator::try_new(a, b, m.pairs()).unwrap();
-                assert!(value(&other) <= found.judgement.objective * (1.0 + 1e-12));
+                assert!(value(&other) <= found.evaluation.objective * (1.0 + 1e-12));
                 tried += 1;
             }
         }
@@ -171,20 +171,20 @@ fn the_nearest_rounding_errs_as_the_first_order_says_and_in_proportion_to_the_pi
 #[test]
 fn requirements_are_respected_or_the_violation_is_told() {
     let distance = |d: f64| Requirements { min_joint_distance: Some(d), ..Requirements::default() };
-    let plain = round(&free(), [GRID; 2]).unwrap().exact.unwrap().judgement.least_distances;
+    let plain = round(&free(), [GRID; 2]).unwrap().exact.unwrap().evaluation.least_distances;
     let apart = plain[0].min(plain[1]) + 0.05;
     let found = with(&free(), [GRID; 2], &distance(apart), round_to_grid).unwrap();
-    let j = found.exact.unwrap().judgement;
+    let j = found.exact.unwrap().evaluation;
     assert!(j.met && j.least_distances.iter().all(|d| *d >= apart), "{j:?}");
     // more than any triangle near the wanted one allows
     let found = with(&free(), [GRID; 2], &distance(30.0), round_to_grid).unwrap();
     assert!(found.choice(0.9).is_none());
-    let j = &found.exact.as_ref().unwrap().judgement;
+    let j = &found.exact.as_ref().unwrap().evaluation;
     assert!(!j.met && j.requirements.iter().any(|m| m.kind == TermKind::BaseSpacing && m.value < 0.0));
     // the search names the rounding with the smaller miss of the distance
-    let missed = |j: &Judgement| j.requirements.iter().map(|m| -m.value / 30.0).fold(0.0, f64::max);
-    let of_exact = found.exact.as_ref().map(|e| (&e.manipulator, missed(&e.judgement))).unwrap();
-    let of_nearest = found.nearest.as_ref().map(|n| (&n.manipulator, missed(&n.judgement))).unwrap();
+    let missed = |j: &Evaluation| j.requirements.iter().map(|m| -m.value / 30.0).fold(0.0, f64::max);
+    let of_exact = found.exact.as_ref().map(|e| (&e.manipulator, missed(&e.evaluation))).unwrap();
+    let of_nearest = found.nearest.as_ref().map(|n| (&n.manipulator, missed(&n.evaluation))).unwrap();
     let less = if of_nearest.1 < of_exact.1 { of_nearest.0 } else { of_exact.0 };
     let named = found.least_missed(&distance(30.0), free().size()).unwrap();
     assert!(std::ptr::eq(named, less), "{} {}", of_exact.1, of_nearest.1);
@@ -267,7 +267,7 @@ fn free_grids_are_never_worse_than_the_given_ones() {
                 .all(|(found, given)| (found.unwrap().pitch - given.pitch).abs() <= 0.0)
         );
         if let (Ok(a), Ok(b)) = (fixed.exact, chosen.exact) {
-            assert!(b.judgement.objective >= a.judgement.objective && b.proved, "{:?}", b.grids);
+            assert!(b.evaluation.objective >= a.evaluation.objective && b.proved, "{:?}", b.grids);
             assert!(equivalent_to_rounding(&b.verification.unwrap().verdict));
         }
     }
@@ -447,20 +447,20 @@ fn joints_that_are_fixed_stay_and_the_others_are_rounded() {
 }
 
 #[test]
-fn a_reserve_is_kept_where_a_rounding_keeps_it() {
-    let reserve = |percent: f64| Requirements {
+fn a_safety_margin_is_kept_where_a_rounding_keeps_it() {
+    let safety_margin = |percent: f64| Requirements {
         min_joint_distance: Some(0.9),
-        reserves: Reserves { all: Some(percent), ..Reserves::default() },
+        safety_margins: SafetyMargins { all: Some(percent), ..SafetyMargins::default() },
         ..Requirements::default()
     };
     let least = |percent: f64| {
-        let e = with(&free(), [GRID; 2], &reserve(percent), round_to_grid).unwrap().exact.unwrap();
-        let least = e.judgement.least_distances;
-        (e.judgement.met, e.judgement.reserve_kept, least[0].min(least[1]))
+        let e = with(&free(), [GRID; 2], &safety_margin(percent), round_to_grid).unwrap().exact.unwrap();
+        let least = e.evaluation.least_distances;
+        (e.evaluation.met, e.evaluation.safety_margin_kept, least[0].min(least[1]))
     };
     let (met, kept, spacing) = least(30.0);
     assert!(met && kept && spacing >= 0.9 * 1.3, "{spacing}");
-    // a reserve above that of any rounding: the limit itself still holds
+    // a safety margin above that of any rounding: the limit itself still holds
     let (met, kept, spacing) = least(99.0);
     assert!(met && spacing >= 0.9, "{spacing}");
     assert_eq!(kept, spacing >= 0.9 * 1.99);

@@ -131,9 +131,15 @@ impl CellJudge<'_> {
         all.filter(|(t, _)| function.has(t)).map(|(_, v)| v).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least margin of a kind over all charts, decided against `reserve`; the lower bound is that of the margin
-    /// minus the reserve.
-    pub(super) fn bound(&self, mut found: Margin, cells: usize, seed: u64, reserve: f64) -> MarginBound {
+    /// The least margin of a kind over all charts, decided against `safety_margin`; the lower bound is that of the
+    /// margin minus the safety margin.
+    pub(super) fn bound(
+        &self,
+        mut found: Margin,
+        cells: usize,
+        seed: u64,
+        safety_margin: f64,
+    ) -> MarginBound {
         let kind = found.term.kind;
         let functions = self.functions(kind);
         // the worst pose found so far, for a proof that it is one
@@ -163,8 +169,8 @@ impl CellJudge<'_> {
         let (most, enough) = (state.cells + cells, state.cells + cells.min(WORSE));
         let mut below = f64::INFINITY;
         while let Some(first) = state.heap.pop() {
-            below = first.below - reserve;
-            let upper = state.upper - reserve;
+            below = first.below - safety_margin;
+            let upper = state.upper - safety_margin;
             // whether a cell with this bound is settled without halving
             let settles = |below: f64| {
                 let close = !self.close || below >= CLOSE * upper.abs() || below >= upper - slack;
@@ -176,7 +182,7 @@ impl CellJudge<'_> {
             let Some(mut jobs) = halves_of(&first).filter(|_| !decided && !over) else { break };
             let mut places = vec![(first.function, first.chart)];
             for _ in 1..BATCH {
-                let next = state.heap.peek().filter(|next| !settles(next.below - reserve));
+                let next = state.heap.peek().filter(|next| !settles(next.below - safety_margin));
                 let Some(halves) = next.and_then(halves_of) else { break };
                 jobs.extend(halves);
                 places.extend(state.heap.pop().map(|next| (next.function, next.chart)));
@@ -194,8 +200,8 @@ impl CellJudge<'_> {
                 found = Margin { term, value, pose: Some(pose), standing };
             }
         }
-        let verdict = verdict(below, state.upper - reserve, slack);
-        MarginBound { found, below, verdict, cells: state.cells, reserve: None }
+        let verdict = verdict(below, state.upper - safety_margin, slack);
+        MarginBound { found, below, verdict, cells: state.cells, safety_margin: None }
     }
 
     /// The whole charts, for every function.

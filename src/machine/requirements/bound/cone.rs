@@ -65,7 +65,7 @@ impl Sector {
 }
 
 /// The allowed cone of directions of a leg.
-pub(super) struct SwingCone<'a> {
+pub(super) struct AllowedCone<'a> {
     m: &'a Manipulator,
     leg: usize,
     /// Whether the axis is that of a joint of the platform and moves with it.
@@ -89,7 +89,7 @@ pub(super) struct Leaning {
     pub(super) loose: f64,
 }
 
-impl<'a> SwingCone<'a> {
+impl<'a> AllowedCone<'a> {
     /// `None` for limits of 90 degrees and more, whose allowed directions are not a convex cone.
     pub(super) fn new(
         m: &'a Manipulator,
@@ -195,7 +195,7 @@ mod tests {
             let enclosed: IntervalVector = std::array::from_fn(|k| Interval::from(axis[k]));
             let length = (enclosed[0].square() + enclosed[1].square() + enclosed[2].square()).sqrt().unwrap();
             let limit = rng.uniform(10.0, 85.0);
-            let cone = SwingCone::new(&m, 2, false, &enclosed, length, limit).unwrap();
+            let cone = AllowedCone::new(&m, 2, false, &enclosed, length, limit).unwrap();
             let chart = Chart::of_pose(&pose);
             let frame = CellFrame::over(&chart, &ChartCell::point([0.0; 6]), false);
             let mut sectors = Sector::all(true);
@@ -222,7 +222,7 @@ mod tests {
             [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)],
         );
         assert!(
-            SwingCone::new(&m.unwrap(), 0, false, &k, Interval::from(1.0), 120.0).is_none(),
+            AllowedCone::new(&m.unwrap(), 0, false, &k, Interval::from(1.0), 120.0).is_none(),
             "no convex cone"
         );
     }

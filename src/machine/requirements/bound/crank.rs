@@ -168,8 +168,8 @@ impl<'a> CrankFrames<'a> {
             Some(crank.leg.square + frame.constant(r.square()) + both)
         };
         match kind {
-            TermKind::RodTooShort => Some(-apart(-1.0)?),
-            TermKind::RodTooLong => apart(1.0),
+            TermKind::MinRodLength => Some(-apart(-1.0)?),
+            TermKind::MaxRodLength => apart(1.0),
             TermKind::CrankTransmission => {
                 Some(crank.left.times(Interval::from(1.0).checked_div(l.square())?))
             }
@@ -181,8 +181,8 @@ impl<'a> CrankFrames<'a> {
                 let [cos, sin] = crank.turned()?;
                 Some(cos.times(cosine(middle)) + sin.times(sine(middle)))
             }
-            TermKind::TipSwing => Some(-crank.along.square()),
-            TermKind::PlatformSwing => crank.rod(frame)?.cosine(&frame.turned(axis), *length),
+            TermKind::TipAngle => Some(-crank.along.square()),
+            TermKind::PlatformConeAngle => crank.rod(frame)?.cosine(&frame.turned(axis), *length),
             TermKind::CrankSpeed => {
                 let turn = if speed.angular_deg == 0.0 {
                     frame.constant(Interval::ZERO)
@@ -206,20 +206,22 @@ impl<'a> CrankFrames<'a> {
         };
         let limit = |deg: Option<f64>| Interval::from(deg.unwrap_or(f64::INFINITY));
         match kind {
-            TermKind::RodTooShort => crank.rod - root(-value),
-            TermKind::RodTooLong => root(value) - crank.rod,
+            TermKind::MinRodLength => crank.rod - root(-value),
+            TermKind::MaxRodLength => root(value) - crank.rod,
             TermKind::CrankTransmission => {
-                signed_arc_sine(value) - Interval::from(self.cranks.least_transmission_deg)
+                signed_arc_sine(value) - Interval::from(self.cranks.min_transmission_angle_deg)
             }
             TermKind::CrankAngle => {
                 let half = crank.range.map_or(Interval::WHOLE, |[_, half]| half);
                 half - degrees(arc_cosine(value))
             }
-            TermKind::TipSwing => {
+            TermKind::TipAngle => {
                 let sine = root(-value).checked_div(crank.rod).unwrap_or(Interval::WHOLE);
-                limit(self.cranks.tip_swing_deg) - Interval::from(90.0) + degrees(arc_cosine(sine))
+                limit(self.cranks.tip_angle_deg) - Interval::from(90.0) + degrees(arc_cosine(sine))
             }
-            TermKind::PlatformSwing => limit(self.cranks.platform_swing_deg) - degrees(arc_cosine(value)),
+            TermKind::PlatformConeAngle => {
+                limit(self.cranks.platform_cone_angle_deg) - degrees(arc_cosine(value))
+            }
             TermKind::CrankSpeed => limit(self.cranks.max_speed_deg) + degrees(value),
             _ => Interval::WHOLE,
         }
@@ -316,7 +318,7 @@ impl RodsOverChart<'_> {
         Err((0..n).fold(0, |best, k| if weight(k) > weight(best) { k } else { best }))
     }
 
-    /// Whether the rods are proved to close on the straight way from one point to another.
+    /// Whether the rods are proved to close on the straight path from one point to another.
     fn closes_between(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
         let at = |j: usize, k: usize| {
             if j == WAY { to[k] } else { from[k] + (to[k] - from[k]) * (j as f64 / WAY as f64) }

@@ -22,7 +22,7 @@ impl CellJudge<'_> {
             Standing::AtLimit => MarginVerdict::AtLimit,
             Standing::Violated => MarginVerdict::Violated,
         };
-        MarginBound { found, below: found.value - rounding, verdict, cells: 0, reserve: None }
+        MarginBound { found, below: found.value - rounding, verdict, cells: 0, safety_margin: None }
     }
 
     /// Joints in the envelope of their body.
@@ -45,7 +45,7 @@ impl CellJudge<'_> {
             }
         }
         let verdict = verdict(below, upper, self.terms.rounding(kind, None));
-        MarginBound { found, below, verdict, cells: 0, reserve: None }
+        MarginBound { found, below, verdict, cells: 0, safety_margin: None }
     }
 
     /// Distances of joints, which are independent of the pose.
@@ -75,6 +75,6 @@ impl CellJudge<'_> {
             }
         }
         let verdict = verdict(below, upper, self.terms.rounding(kind, None));
-        MarginBound { found, below, verdict, cells: 0, reserve: None }
+        MarginBound { found, below, verdict, cells: 0, safety_margin: None }
     }
 }

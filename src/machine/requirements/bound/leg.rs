@@ -2,13 +2,13 @@
 //! space in the envelope.
 
 use super::CellJudge;
-use super::cone::{Sector, SwingCone};
+use super::cone::{AllowedCone, Sector};
 use super::frame::CellFrame;
 use super::function::{BoundedFunction, Side};
 use super::hinge::{HingeFrame, HingeLimit};
 use super::joint_offsets::JointOffsets;
 use crate::requirements::envelope::{self, Envelope};
-use crate::requirements::{LengthLimits, PlatformSpeed, Swing, TermKind};
+use crate::requirements::{ConeLimits, LengthLimits, PlatformSpeed, TermKind};
 use num::interval::Interval;
 use num::jet::{Jet, JetVector, norm_squared};
 use platform::geom::enclosed::IntervalVector;
@@ -39,18 +39,18 @@ impl CellJudge<'_> {
 
     /// The allowed cone of a leg, for limits below 90 degrees and regions; for single poses and steps the cosine is as
     /// good.
-    pub(super) fn cone(&self, function: BoundedFunction, chart: &Chart) -> Option<SwingCone<'_>> {
+    pub(super) fn cone(&self, function: BoundedFunction, chart: &Chart) -> Option<AllowedCone<'_>> {
         let BoundedFunction::Leg(kind, leg) = function else { return None };
         if chart.coordinates() < 2 {
             return None;
         }
-        let (body, swing) = match kind {
-            TermKind::BaseSwing => (0, self.required.hardware.base_swing?),
-            TermKind::PlatformSwing => (1, self.required.hardware.platform_swing?),
+        let (body, cone_angle) = match kind {
+            TermKind::BaseConeAngle => (0, self.required.hardware.base_cone_angle?),
+            TermKind::PlatformConeAngle => (1, self.required.hardware.platform_cone_angle?),
             _ => return None,
         };
         let (axis, length) = &self.axes[body][leg];
-        SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limits_deg[leg])
+        AllowedCone::new(self.m, leg, body == 1, axis, *length, cone_angle.limits_deg[leg])
     }
 
     /// A function of a joint that increases with its distance inside a side of the envelope. For a cylinder it is the
@@ -100,21 +100,21 @@ impl CellJudge<'_> {
         }
         if let Some(joints) = self.joints.filter(|joints| joints.have_lead()) {
             match kind {
-                TermKind::LegTooShort => return joints.drive(frame, self.m, i),
-                TermKind::LegTooLong => return Some(-joints.drive(frame, self.m, i)?),
+                TermKind::MinLegLength => return joints.drive(frame, self.m, i),
+                TermKind::MaxLegLength => return Some(-joints.drive(frame, self.m, i)?),
                 TermKind::LegSpeed => return self.screw_speed(joints, i, frame),
                 _ => {}
             }
         }
         let leg = frame.leg(self.m, i);
         Some(match kind {
-            TermKind::LegTooShort => leg.square,
-            TermKind::LegTooLong => -leg.square,
-            TermKind::BaseSwing => {
+            TermKind::MinLegLength => leg.square,
+            TermKind::MaxLegLength => -leg.square,
+            TermKind::BaseConeAngle => {
                 let (axis, length) = &self.axes[0][i];
                 leg.cosine(&frame.fixed(axis), *length)?
             }
-            TermKind::PlatformSwing => {
+            TermKind::PlatformConeAngle => {
                 let (axis, length) = &self.axes[1][i];
                 leg.cosine(&frame.turned(axis), *length)?
             }
@@ -151,21 +151,24 @@ impl CellJudge<'_> {
                 (once, once + Interval::from(stroke))
             }
         });
-        let swing = |s: Option<Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limits_deg[leg]));
+        let cone_angle =
+            |s: Option<ConeLimits>| Interval::from(s.map_or(f64::INFINITY, |s| s.limits_deg[leg]));
         if self.joints.is_some_and(JointOffsets::have_lead) {
             let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
             match kind {
-                TermKind::LegTooShort => return value - limits.0,
-                TermKind::LegTooLong => return limits.1 + value,
+                TermKind::MinLegLength => return value - limits.0,
+                TermKind::MaxLegLength => return limits.1 + value,
                 TermKind::LegSpeed => return greatest + value,
                 _ => {}
             }
         }
         match kind {
-            TermKind::LegTooShort => root(value) - limits.0,
-            TermKind::LegTooLong => limits.1 - root(-value),
-            TermKind::BaseSwing => swing(hardware.base_swing) - degrees(arc_cosine(value)),
-            TermKind::PlatformSwing => swing(hardware.platform_swing) - degrees(arc_cosine(value)),
+            TermKind::MinLegLength => root(value) - limits.0,
+            TermKind::MaxLegLength => limits.1 - root(-value),
+            TermKind::BaseConeAngle => cone_angle(hardware.base_cone_angle) - degrees(arc_cosine(value)),
+            TermKind::PlatformConeAngle => {
+                cone_angle(hardware.platform_cone_angle) - degrees(arc_cosine(value))
+            }
             TermKind::LegSpeed => {
                 let speed = self.required.platform_speed.unwrap_or_default();
                 let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));

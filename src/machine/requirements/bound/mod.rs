@@ -36,7 +36,7 @@ use std::num::NonZeroUsize;
 use self::crank::CrankFrames;
 use self::frame::CellFrame;
 use self::joint_offsets::JointOffsets;
-use self::verdict::ReserveBound;
+use self::verdict::SafetyMarginBound;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::term::{TermKind, Terms};
@@ -142,7 +142,8 @@ pub fn prove_telling(
         bounds.push(judge.proved(*margin, cells, o.seed));
     }
     // once a design misses a requirement, the rest need not be known
-    let missed = |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_reserve() == Some(false);
+    let missed =
+        |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_safety_margin() == Some(false);
     if o.patient_cells > cells && !bounds.iter().any(missed) {
         for (number, bound) in (1..).zip(&mut bounds) {
             let kind = bound.found.term.kind;
@@ -219,57 +220,57 @@ struct CellJudge<'a> {
 }
 
 impl CellJudge<'_> {
-    /// Bounds of a margin and its reserve, by at most this many cells each.
+    /// Bounds of a margin and its safety margin, by at most this many cells each.
     fn proved(&self, found: Margin, cells: usize, seed: u64) -> MarginBound {
-        let reserve = self.required.reserve(found.term.kind);
+        let safety_margin = self.required.safety_margin(found.term.kind);
         // the enclosure alone decides requirements that are independent of the pose
         if found.term.kind.is_fixed() {
-            return self.with_reserve(self.fixed(found), reserve);
+            return self.with_safety_margin(self.fixed(found), safety_margin);
         }
-        // if bounds need not be close, a kept reserve decides both at once
-        let may_be_kept = found.value >= reserve - self.rounding(&found);
-        if self.close || reserve == 0.0 || !may_be_kept {
+        // if bounds need not be close, a kept safety margin decides both at once
+        let may_be_kept = found.value >= safety_margin - self.rounding(&found);
+        if self.close || safety_margin == 0.0 || !may_be_kept {
             let bound = self.bound(found, cells, seed, 0.0);
-            let bound = self.with_reserve(bound, reserve);
-            if bound.keeps_reserve().is_some() {
+            let bound = self.with_safety_margin(bound, safety_margin);
+            if bound.keeps_safety_margin().is_some() {
                 return bound;
             }
-            let more = self.bound(bound.found, cells, seed, reserve);
+            let more = self.bound(bound.found, cells, seed, safety_margin);
             let kept = (more.below >= -self.rounding(&more.found)).then_some(true);
-            return MarginBound { reserve: Some(ReserveBound { reserve, kept }), ..bound };
+            return MarginBound { safety_margin: Some(SafetyMarginBound { safety_margin, kept }), ..bound };
         }
-        let more = self.bound(found, cells, seed, reserve);
+        let more = self.bound(found, cells, seed, safety_margin);
         let rounding = self.rounding(&more.found);
         if more.below >= -rounding {
-            let below = (more.below + reserve).next_down();
-            let kept = Some(ReserveBound { reserve, kept: Some(true) });
+            let below = (more.below + safety_margin).next_down();
+            let kept = Some(SafetyMarginBound { safety_margin, kept: Some(true) });
             return MarginBound {
                 below,
                 verdict: verdict::verdict(below, f64::INFINITY, rounding),
-                reserve: kept,
+                safety_margin: kept,
                 ..more
             };
         }
         let bound = self.bound(more.found, cells, seed, 0.0);
         let cells = bound.cells + more.cells;
-        self.with_reserve(MarginBound { cells, ..bound }, reserve)
+        self.with_safety_margin(MarginBound { cells, ..bound }, safety_margin)
     }
 
     fn rounding(&self, found: &Margin) -> f64 {
         self.terms.rounding(found.term.kind, found.pose.as_ref())
     }
 
-    /// The same bound with the decision about a reserve by its own bounds.
-    fn with_reserve(&self, bound: MarginBound, reserve: f64) -> MarginBound {
-        if reserve == 0.0 {
+    /// The same bound with the decision about a safety margin by its own bounds.
+    fn with_safety_margin(&self, bound: MarginBound, safety_margin: f64) -> MarginBound {
+        if safety_margin == 0.0 {
             return bound;
         }
         let rounding = self.rounding(&bound.found);
-        let kept = if bound.found.value < reserve - rounding {
+        let kept = if bound.found.value < safety_margin - rounding {
             Some(false)
         } else {
-            (bound.below >= reserve - rounding).then_some(true)
+            (bound.below >= safety_margin - rounding).then_some(true)
         };
-        MarginBound { reserve: Some(ReserveBound { reserve, kept }), ..bound }
+        MarginBound { safety_margin: Some(SafetyMarginBound { safety_margin, kept }), ..bound }
     }
 }

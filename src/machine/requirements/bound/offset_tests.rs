@@ -9,7 +9,7 @@ use super::*;
 use crate::requirements::coupled::CoupledLegs;
 use crate::requirements::term::TermKind;
 use crate::requirements::{
-    Hardware, JointAxes, LengthLimits, PlatformSpeed, PlatformStiffness, Swing, UniversalJoint,
+    ConeLimits, Hardware, JointAxes, LengthLimits, PlatformSpeed, PlatformStiffness, UniversalJoint,
 };
 use num::Rng;
 use platform::geom::{ChartCell, Pose, PoseSpace, Region};
@@ -115,8 +115,8 @@ fn all_of(hardware: Hardware) -> Requirements {
         platform_universal: hardware.platform_universal,
         screw_lead: hardware.screw_lead,
         leg_stiffness: Some(1e4),
-        base_swing: None,
-        platform_swing: None,
+        base_cone_angle: None,
+        platform_cone_angle: None,
         ..all.hardware
     };
     let platform_stiffness = Some(PlatformStiffness { linear: Some(1.0), ..PlatformStiffness::default() });
@@ -187,7 +187,7 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
         let found = prove(&m, &wide, &space, &quick().points(300).searches(2), 100);
         let worst =
             |kind| 1000.0 - found.bounds.iter().find(|b| b.found.term.kind == kind).unwrap().found.value;
-        let (longest, fastest) = (worst(TermKind::LegTooLong), worst(TermKind::LegSpeed));
+        let (longest, fastest) = (worst(TermKind::MaxLegLength), worst(TermKind::LegSpeed));
         let judged = |factor: f64| {
             prove(&m, &with(longest * factor, fastest * factor), &space, &quick(), 600).all_met()
         };
@@ -200,7 +200,7 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
         };
         let ideal = prove(&m, &ideal, &space, &quick(), 100);
         let ideal = 1000.0
-            - ideal.bounds.iter().find(|b| b.found.term.kind == TermKind::LegTooLong).unwrap().found.value;
+            - ideal.bounds.iter().find(|b| b.found.term.kind == TermKind::MaxLegLength).unwrap().found.value;
         assert!((ideal - longest).abs() > 1e-3 * longest, "{sort:?} {ideal} {longest}");
     }
 }
@@ -224,7 +224,7 @@ fn upright_legs_with_offsets_are_those_by_hand() {
     let mut required = Requirements {
         hardware: Hardware {
             base_universal: Some(joint(1.0)),
-            platform_swing: Some(Swing::of_all(30.0, JointAxes::Home)),
+            platform_cone_angle: Some(ConeLimits::of_all(30.0, JointAxes::Home)),
             leg_length: Some(LengthLimits::Range(8.0, 12.0)),
             ..Hardware::default()
         },
@@ -237,11 +237,11 @@ fn upright_legs_with_offsets_are_those_by_hand() {
     let longest = 90.0_f64.sqrt();
     let lean = (3.0_f64 / 9.0).atan().to_degrees();
     for (kind, meant) in [
-        (TermKind::LegTooLong, 12.0 - longest),
-        (TermKind::LegTooShort, 1.0),
+        (TermKind::MaxLegLength, 12.0 - longest),
+        (TermKind::MinLegLength, 1.0),
         (TermKind::BaseSecondAngle, 30.0 - lean),
         (TermKind::BaseFirstAngle, 30.0),
-        (TermKind::PlatformSwing, 30.0 - lean),
+        (TermKind::PlatformConeAngle, 30.0 - lean),
     ] {
         let bound = of(kind);
         assert!((bound.found.value - meant).abs() < 1e-9, "{kind:?}: {bound:?} {meant}");

@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 use crate::requirements::hardware::Housing;
 use crate::requirements::term::TermKind;
 use crate::requirements::{
-    Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
-    LegsWeight, LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
-    UniversalJoint, VibratingMasses,
+    ConeLimits, Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody,
+    LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness,
+    SafetyMargin, SafetyMargins, UniversalJoint, VibratingMasses,
 };
 use num::Rng;
 use platform::geom::{ChartCell, Pose, Region};
@@ -70,8 +70,8 @@ pub(super) fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Po
 pub(super) fn everything() -> Requirements {
     let hardware = Hardware {
         leg_length: Some(LengthLimits::Range(0.5, 60.0)),
-        base_swing: Some(Swing::of_all(100.0, JointAxes::Home)),
-        platform_swing: Some(Swing::of_all(100.0, JointAxes::Home)),
+        base_cone_angle: Some(ConeLimits::of_all(100.0, JointAxes::Home)),
+        platform_cone_angle: Some(ConeLimits::of_all(100.0, JointAxes::Home)),
         leg_body: Some(LegBody { diameter: 0.3, rod: Some((6.0, 0.2)) }),
         leg_clearance: Some(0.05),
         joint_diameter: Some(0.4),
@@ -193,17 +193,17 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
         let (m, home) = random_platform(&mut rng);
         let region = if k % 2 == 0 { Region::Box } else { Region::Ellipsoid };
         let space = random_space(home, &mut rng, region);
-        let with = |length: f64, swing: f64, speed: f64| {
+        let with = |length: f64, cone_angle: f64, speed: f64| {
             let hardware = Hardware {
                 leg_length: Some(LengthLimits::Range(0.1, length)),
-                platform_swing: Some(Swing::of_all(swing, JointAxes::Home)),
+                platform_cone_angle: Some(ConeLimits::of_all(cone_angle, JointAxes::Home)),
                 max_leg_speed: Some(speed),
                 ..Hardware::default()
             };
             let platform_speed = Some(PlatformSpeed { linear: 1.0, angular_deg: 40.0 });
             Requirements { hardware, platform_speed, ..Requirements::default() }
         };
-        let kinds = [TermKind::LegTooLong, TermKind::PlatformSwing, TermKind::LegSpeed];
+        let kinds = [TermKind::MaxLegLength, TermKind::PlatformConeAngle, TermKind::LegSpeed];
         let wide = [100.0, 170.0, 100.0];
         let first = prove(&m, &with(wide[0], wide[1], wide[2]), &space, &quick().points(400), 60);
         let worst: [f64; 3] = std::array::from_fn(|i| {
@@ -238,7 +238,7 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
     assert!(proved >= 24 && found * 10 >= planted * 9, "{proved} of 48 proved, {found} of {planted} found");
 }
 
-/// More cells decide the requirements and reserves that a few cells leave undecided, and change nothing else.
+/// More cells decide the requirements and safety margins that a few cells leave undecided, and change nothing else.
 #[test]
 fn patient_cells_are_for_what_is_undecided() {
     let mut rng = Rng::new(33);
@@ -253,7 +253,7 @@ fn patient_cells_are_for_what_is_undecided() {
         ..Requirements::default()
     };
     let longest = |p: &MarginProof| {
-        p.bounds.iter().find(|b| b.found.term.kind == TermKind::LegTooLong).cloned().unwrap()
+        p.bounds.iter().find(|b| b.found.term.kind == TermKind::MaxLegLength).cloned().unwrap()
     };
     let sampled = prove(&m, &with(100.0), &space, &quick(), 1);
     let worst = 100.0 - longest(&sampled).found.value;
@@ -263,11 +263,11 @@ fn patient_cells_are_for_what_is_undecided() {
     let more = longest(&prove(&m, &beyond, &space, &patient, 1));
     assert_eq!((few.verdict, more.verdict), (MarginVerdict::Searched, MarginVerdict::Met));
     assert!(more.cells > few.cells && more.below >= few.below);
-    // a margin that is met keeps its reserve only where that is proved
-    let reserve = (TermKind::LegTooLong, Reserve::Amount(0.00005 * worst));
-    let reserves = Reserves { kinds: BTreeMap::from([reserve]), ..Reserves::default() };
-    let reserved = Requirements { reserves, ..with(1.0001 * worst) };
-    assert_eq!(longest(&prove(&m, &reserved, &space, &patient, 1)).keeps_reserve(), Some(true));
+    // a margin that is met keeps its safety margin only where that is proved
+    let safety_margin = (TermKind::MaxLegLength, SafetyMargin::Amount(0.00005 * worst));
+    let safety_margins = SafetyMargins { kinds: BTreeMap::from([safety_margin]), ..SafetyMargins::default() };
+    let reserved = Requirements { safety_margins, ..with(1.0001 * worst) };
+    assert_eq!(longest(&prove(&m, &reserved, &space, &patient, 1)).keeps_safety_margin(), Some(true));
     // and no number of cells proves a false statement
     let short = longest(&prove(&m, &with(0.999 * worst), &space, &patient, 1));
     assert_eq!(short.verdict, MarginVerdict::Violated);
@@ -288,12 +288,12 @@ fn bounds_of_upright_legs_are_those_by_hand() {
     let space = PoseSpace { translation: Vector3::new(3.0, 4.0, 2.0), ..PoseSpace::at(home) };
     let proof = prove(&m, &r, &space, &quick(), 4000);
     let of = |kind: TermKind| proof.bounds.iter().find(|b| b.found.term.kind == kind).unwrap();
-    let short = of(TermKind::LegTooShort);
+    let short = of(TermKind::MinLegLength);
     assert!(
         short.verdict == MarginVerdict::Met && short.below > 0.4 && short.below <= 0.5 + 1e-12,
         "{short:?}"
     );
-    let long = of(TermKind::LegTooLong);
+    let long = of(TermKind::MaxLegLength);
     assert!(long.verdict == MarginVerdict::Met && (long.found.value - 0.5).abs() < 1e-12, "{long:?}");
     // parallel legs, 4 apart along x or 4 at 60 degrees: translation by (3, 4, z) leans them over
     let gap = of(TermKind::LegClearance);
@@ -323,7 +323,7 @@ fn a_trajectory_is_proved_between_its_poses() {
         Requirements { hardware, ..Requirements::default() }
     };
     let many = space.listed(20_000);
-    let shortest = sampled(&Terms::new(&m, &with(0.0), &home), &many)[&TermKind::LegTooShort];
+    let shortest = sampled(&Terms::new(&m, &with(0.0), &home), &many)[&TermKind::MinLegLength];
     let one_step = quick().steps(1);
     assert_eq!(prove(&m, &with(shortest * (1.0 - 1e-6)), &space, &one_step, 2000).all_met(), Some(true));
     assert_eq!(prove(&m, &with(shortest * (1.0 + 1e-6)), &space, &one_step, 2000).all_met(), Some(false));
@@ -348,9 +348,9 @@ fn gaps_of_housings_are_enclosed() {
     }
 }
 
-/// Six vertical legs: their platform joints sweep a box, and reserves move the limits.
+/// Six vertical legs: their platform joints sweep a box, and safety margins move the limits.
 #[test]
-fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
+fn envelopes_and_safety_margins_of_upright_legs_are_those_by_hand() {
     let ring = || -> Vec<Point3<f64>> {
         let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
         (0..6).map(|i| Point3::new(4.0 * at(i).1, 4.0 * at(i).0, 0.0)).collect()
@@ -386,13 +386,17 @@ fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
     // lengths from 8 to sqrt(12^2 + 3^2)
     let longest = 153f64.sqrt();
     r.hardware.leg_length = Some(LengthLimits::Range(7.0, longest + 1.0));
-    let kept = |r: &Requirements, kind| of(r, kind).keeps_reserve();
-    assert_eq!(kept(&r, TermKind::LegTooLong), Some(true), "none is asked for");
+    let kept = |r: &Requirements, kind| of(r, kind).keeps_safety_margin();
+    assert_eq!(kept(&r, TermKind::MaxLegLength), Some(true), "none is asked for");
     for (amount, expected) in [(0.9, Some(true)), (1.1, Some(false))] {
-        for kind in [TermKind::LegTooShort, TermKind::LegTooLong] {
-            r.reserves.kinds.insert(kind, crate::requirements::Reserve::Amount(amount));
+        for kind in [TermKind::MinLegLength, TermKind::MaxLegLength] {
+            r.safety_margins.kinds.insert(kind, crate::requirements::SafetyMargin::Amount(amount));
             let bound = of(&r, kind);
-            assert_eq!((bound.verdict, bound.keeps_reserve()), (MarginVerdict::Met, expected), "{bound:?}");
+            assert_eq!(
+                (bound.verdict, bound.keeps_safety_margin()),
+                (MarginVerdict::Met, expected),
+                "{bound:?}"
+            );
         }
     }
 }
@@ -442,9 +446,9 @@ fn the_housing_of_a_single_joint_counts_for_that_joint() {
     }
     let reaches: [f64; 6] = std::array::from_fn(|leg| r.hardware.joint_reach(Body::Base, leg));
     assert_eq!(reaches.map(f64::to_bits), [0.5, 0.5, 1.0, 0.5, 0.5, 0.5].map(f64::to_bits));
-    assert!(r.reserve(TermKind::BaseSpacing).abs() < 1e-15);
-    r.reserves.all = Some(10.0);
-    assert!((r.reserve(TermKind::BaseSpacing) - 0.2).abs() < 1e-15, "of the widest");
+    assert!(r.safety_margin(TermKind::BaseSpacing).abs() < 1e-15);
+    r.safety_margins.all = Some(10.0);
+    assert!((r.safety_margin(TermKind::BaseSpacing) - 0.2).abs() < 1e-15, "of the widest");
 }
 
 /// Distances of joints inside round and square envelopes, enclosed.
@@ -556,12 +560,12 @@ fn stiffness_and_frequency_are_bounded_and_decided() {
         assert_eq!(met.all_met(), Some(true), "{k}: {met:?}");
         let missed = prove(&m, &limits(&worst, 1.02), &space, &none, 1500);
         assert!(missed.bounds.iter().all(|b| b.verdict == MarginVerdict::Violated), "{k}: {missed:?}");
-        // a reserve that only just remains, and one that does not
+        // a safety margin that only just remains, and one that does not
         let mut reserved = limits(&worst, 0.8);
-        reserved.reserves.all = Some(18.0);
-        assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_reserved(), Some(true), "{k}");
-        reserved.reserves.all = Some(30.0);
-        assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_reserved(), Some(false), "{k}");
+        reserved.safety_margins.all = Some(18.0);
+        assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_keep_safety_margin(), Some(true), "{k}");
+        reserved.safety_margins.all = Some(30.0);
+        assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_keep_safety_margin(), Some(false), "{k}");
     }
 }
 

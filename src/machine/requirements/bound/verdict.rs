@@ -61,29 +61,29 @@ pub struct MarginBound {
     pub verdict: MarginVerdict,
     /// Cells bounded.
     pub cells: usize,
-    /// The reserve on this limit and its state; `None` if the design requires none.
-    pub reserve: Option<ReserveBound>,
+    /// The safety margin on this limit and its state; `None` if the design requires none.
+    pub safety_margin: Option<SafetyMarginBound>,
 }
 
-/// A reserve, and whether the margin keeps it.
+/// A safety margin, and whether the margin keeps it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ReserveBound {
-    /// The required reserve, in the unit of the margin.
-    pub reserve: f64,
+pub struct SafetyMarginBound {
+    /// The required safety margin, in the unit of the margin.
+    pub safety_margin: f64,
     /// Proved either way, or `None`.
     pub kept: Option<bool>,
 }
 
 impl MarginBound {
-    /// Whether both the margin and its reserve are decided.
+    /// Whether both the margin and its safety margin are decided.
     pub(super) fn is_decided(&self) -> bool {
-        self.verdict.is_met().is_some() && self.keeps_reserve().is_some()
+        self.verdict.is_met().is_some() && self.keeps_safety_margin().is_some()
     }
 
-    /// Whether the reserve is kept; `Some(true)` without a reserve.
+    /// Whether the safety margin is kept; `Some(true)` without a safety margin.
     #[must_use]
-    pub fn keeps_reserve(&self) -> Option<bool> {
-        self.reserve.map_or(Some(true), |r| r.kept)
+    pub fn keeps_safety_margin(&self) -> Option<bool> {
+        self.safety_margin.map_or(Some(true), |r| r.kept)
     }
 }
 
@@ -107,10 +107,10 @@ impl MarginProof {
         each().all(|x| x == Some(true)).then_some(true)
     }
 
-    /// The same decision for the reserves.
+    /// The same decision for the safety margins.
     #[must_use]
-    pub fn all_reserved(&self) -> Option<bool> {
-        let each = || self.bounds.iter().map(MarginBound::keeps_reserve);
+    pub fn all_keep_safety_margin(&self) -> Option<bool> {
+        let each = || self.bounds.iter().map(MarginBound::keeps_safety_margin);
         if each().any(|x| x == Some(false)) {
             return Some(false);
         }

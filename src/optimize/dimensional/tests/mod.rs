@@ -12,9 +12,9 @@ use super::outcome::smallest_cap;
 use super::*;
 use crate::climb::{ConstraintGroup, LinearBound, LinearItem, Task};
 use machine::requirements::{
-    AssessOptions, BoltPattern, BoltsFrom, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape,
-    LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, Objective, PlateDesign,
-    Plates, PlatformSpeed, PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms,
+    AssessOptions, BoltPattern, BoltsFrom, ConeLimits, Envelope, Envelopes, Housing, JointAxes, KeepOut,
+    KeepOutShape, LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, Objective,
+    PlateDesign, Plates, PlatformSpeed, PlatformStiffness, PoseSpace, Requirements, TermKind, Terms,
     UniversalJoint, VariableKind, VibratingMasses, assess,
 };
 use num::Rng;
@@ -64,8 +64,8 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
     h.platform_joint_housing[4] = Some(Housing::Sphere(26.0));
     h.leg_body = Some(LegBody { diameter: 24.0, rod: Some((150.0, 10.0)) });
     h.leg_clearance = Some(3.0);
-    h.base_swing = Some(Swing::of_all(25.0, axes));
-    h.platform_swing = Some(Swing::of_all(35.0, axes));
+    h.base_cone_angle = Some(ConeLimits::of_all(25.0, axes));
+    h.platform_cone_angle = Some(ConeLimits::of_all(35.0, axes));
     h.max_leg_force = Some(90.0);
     h.max_leg_speed = Some(150.0);
     h.leg_stiffness = Some(12.0);
@@ -94,7 +94,7 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
         platform: Some(Envelope::Cylinder { radius: 190.0, center: [2.0, 1.0] }),
         machine: Some(Envelope::Box { min: Point3::from(-corner.coords), max: corner }),
     };
-    p.requirements.reserves.all = Some(3.0);
+    p.requirements.safety_margins.all = Some(3.0);
     p.requirements.platform_stiffness =
         Some(PlatformStiffness { linear: Some(5.0), angular: Some(9e4), natural_frequency: Some(6.0) });
     let part = |mass, center| LegPart { mass, center, inertia: 3e4 * mass };
@@ -185,7 +185,7 @@ fn holes_and_plates_are_those_of_the_margins() {
         let margins: Vec<_> = terms.fixed().into_iter().chain(terms.at(&at.pose)).collect();
         for kind in kinds {
             let own = margins.iter().filter(|(t, _)| t.kind == kind).map(|(_, x)| *x);
-            let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.reserve(kind);
+            let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.safety_margin(kind);
             let value = found[&kind] * size;
             // a leg whose line runs into a plate has distance zero, and the search gives its depth
             let meets = kind == TermKind::PlateClearance && margin < 0.0;
@@ -317,7 +317,7 @@ fn stiffness_and_frequency_are_those_of_the_margins() {
     for kind in [TermKind::LinearStiffness, TermKind::AngularStiffness, TermKind::NaturalFrequency] {
         let asked = p.requirements.least_stiffness_of(kind).unwrap();
         let margin = margins.iter().find(|(t, _)| t.kind == kind).unwrap().1;
-        let (share, kept) = (1.0 + margin / asked, 1.0 + p.requirements.reserve(kind) / asked);
+        let (share, kept) = (1.0 + margin / asked, 1.0 + p.requirements.safety_margin(kind) / asked);
         let wanted = match kind {
             TermKind::NaturalFrequency => 0.5 * (share * share - kept * kept),
             _ => share - kept,
@@ -407,7 +407,7 @@ fn convex_forms_are_exact_far_from_the_point() {
             assert!((slack - (b.value - model.backoff)).abs() < 1e-12, "{:?}", a.id);
             seen += 1;
         }
-        assert_eq!(seen, 18, "greatest lengths and both swings of six legs");
+        assert_eq!(seen, 18, "greatest lengths and both cone angles of six legs");
     }
 }
 
@@ -469,7 +469,7 @@ fn height_of_least_stroke_is_the_one_on_paper() {
 fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
     let mut p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     p.requirements.hardware.leg_body = Some(LegBody { diameter: 20.0, rod: None });
-    p.requirements.hardware.base_swing = Some(Swing::of_all(45.0, JointAxes::Home));
+    p.requirements.hardware.base_cone_angle = Some(ConeLimits::of_all(45.0, JointAxes::Home));
     let found =
         optimize(&p, &[], &ShapeSearchOptions { populations: 4, generations: 60, ..quick() }, &mut |_| {
             ControlFlow::Continue(())
@@ -631,7 +631,7 @@ fn housings_of_single_joints_are_those_of_the_margins() {
         let size = p.manipulator.size();
         for kind in kinds {
             let own = margins.iter().filter(|(t, _)| t.kind == kind).map(|(_, x)| *x);
-            let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.reserve(kind);
+            let margin = own.fold(f64::INFINITY, f64::min) - p.requirements.safety_margin(kind);
             assert!((least[&kind] * size - margin).abs() < 1e-9 * size, "{trial} {kind:?}: {margin}");
         }
     }

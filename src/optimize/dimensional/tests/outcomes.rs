@@ -9,7 +9,7 @@ use super::super::search::{ProgressReport, expects_no_other, refine};
 use super::super::*;
 use super::{ConstraintGroup, Model, everything, problem, quick};
 use crate::climb::Task;
-use machine::requirements::{JointAxes, LengthLimits, Objective, Swing, TermKind, VariableKind};
+use machine::requirements::{ConeLimits, JointAxes, LengthLimits, Objective, TermKind, VariableKind};
 use platform::manipulator::Manipulator;
 
 #[test]
@@ -20,11 +20,11 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     p.space.rotation_deg = Vector3::zeros();
     // a stroke of 10 for a travel of 40; joint angles have no influence
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0));
-    p.requirements.hardware.base_swing = Some(Swing::of_all(80.0, JointAxes::Home));
+    p.requirements.hardware.base_cone_angle = Some(ConeLimits::of_all(80.0, JointAxes::Home));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
-    assert_eq!(kinds, [TermKind::LegTooShort, TermKind::LegTooLong].map(Demand::Requirement));
+    assert_eq!(kinds, [TermKind::MinLegLength, TermKind::MaxLegLength].map(Demand::Requirement));
     // least length 250: the height is fixed, and the greatest length follows
     let reach = (200.0f64.powi(2) + 120.0 * 120.0 - 200.0 * 120.0).sqrt();
     let low = (250.0f64.powi(2) - reach * reach).sqrt();
@@ -52,13 +52,13 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     p.requirements.hardware.leg_length = None;
     // no leg of any offset points along the base axis within a degree at all poses
     let axis = Unit::new_normalize(Vector3::new(1.0, 0.0, 0.3));
-    p.requirements.hardware.base_swing = Some(Swing::of_all(1.0, JointAxes::Given([axis; 6])));
+    p.requirements.hardware.base_cone_angle = Some(ConeLimits::of_all(1.0, JointAxes::Given([axis; 6])));
     let proved = |p: &DimensionalProblem, group: ConstraintGroup| {
         let model = Model::new(p).unwrap();
         let x = [0.4; 6];
         crate::dimensional::conflict::proved_empty(&model, &model.first_poses(), &x, &[group], &everything(1))
     };
-    assert!(proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
+    assert!(proved(&p, ConstraintGroup::Term(TermKind::BaseConeAngle)));
     // spacing is not convex, so nothing is proved about it
     assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseSpacing)));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
@@ -66,8 +66,8 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     assert!(conflict.proved && conflict.demands.len() == 1, "{conflict:?}");
     // negative control: the legs can be within 70 degrees of the vertical
     let axes = JointAxes::Given([Vector3::z_axis(); 6]);
-    p.requirements.hardware.base_swing = Some(Swing::of_all(70.0, axes));
-    assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
+    p.requirements.hardware.base_cone_angle = Some(ConeLimits::of_all(70.0, axes));
+    assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseConeAngle)));
 }
 
 #[test]
@@ -144,8 +144,8 @@ fn what_cannot_be_asked_is_refused() {
     let p = problem(&[], Objective::WorstConditioning);
     assert_eq!(refused(&p), InvalidProblem::NoVariables);
     let mut p = problem(&[VariableKind::JointAxes], Objective::WorstConditioning);
-    p.requirements.hardware.base_swing = Some(Swing::of_all(120.0, JointAxes::Optimize));
-    assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
+    p.requirements.hardware.base_cone_angle = Some(ConeLimits::of_all(120.0, JointAxes::Optimize));
+    assert_eq!(refused(&p), InvalidProblem::ConeTooWide(120.0));
 }
 
 /// An octahedral hexagon whose legs are longest with the joints near the corners, and must be longer than they are in
@@ -179,7 +179,7 @@ fn what_other_starts_can_meet_is_no_conflict() {
     // the compromise has joints in the middle of sides, where the least length has a saddle that climbs do not leave
     let model = Model::new(&p).unwrap();
     let others =
-        [TermKind::LegTooLong, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(ConstraintGroup::Term);
+        [TermKind::MaxLegLength, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(ConstraintGroup::Term);
     let dropped = others.into_iter().chain([ConstraintGroup::Determinant]).collect();
     let task = Task { weights: vec![0.0], floors: vec![None], dropped, soft: None };
     let middle = [0.5, 0.55, 0.6, 0.45, 0.3, 0.6];
@@ -192,7 +192,7 @@ fn what_other_starts_can_meet_is_no_conflict() {
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
-    assert_eq!(kinds, [TermKind::LegTooShort, TermKind::LegTooLong].map(Demand::Requirement));
+    assert_eq!(kinds, [TermKind::MinLegLength, TermKind::MaxLegLength].map(Demand::Requirement));
     // each of them alone is feasible
     for limits in [LengthLimits::Range(24.0, 100.0), LengthLimits::Range(1.0, 33.0)] {
         let found =

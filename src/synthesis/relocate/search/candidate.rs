@@ -5,7 +5,7 @@
 use nalgebra::Matrix6;
 
 use super::pool::{JointPattern, LegPool, shared};
-use super::wishes::{Wish, WishMargin, Wishes};
+use super::targets::{Target, TargetMargin, Targets};
 use crate::components::Components;
 use crate::leg_map::{LegMapOutcome, LegMapTolerances, leg_map_to_legs};
 use crate::relocate::{Assembled, assemble};
@@ -19,7 +19,7 @@ pub(super) struct Scorer<'a> {
     pub(super) pool: &'a LegPool<'a>,
     pub(super) found: &'a Components,
     pub(super) m: &'a Manipulator,
-    pub(super) wishes: &'a Wishes,
+    pub(super) targets: &'a Targets,
     pub(super) pattern: &'a JointPattern,
 }
 
@@ -31,24 +31,24 @@ impl Scorer<'_> {
     }
 
     /// All margins of six legs of the pattern, in its order.
-    pub(super) fn margins(&self, legs: &[Leg; 6]) -> Vec<WishMargin> {
-        let (w, size) = (self.wishes, self.m.size());
-        let above = |wish, value: f64, required: f64, unit: f64| WishMargin {
-            wish,
+    pub(super) fn margins(&self, legs: &[Leg; 6]) -> Vec<TargetMargin> {
+        let (w, size) = (self.targets, self.m.size());
+        let above = |target, value: f64, required: f64, unit: f64| TargetMargin {
+            target,
             value,
             required,
             slack: if value.is_finite() { (value - required) / unit } else { f64::NEG_INFINITY },
         };
         let mut out = vec![
-            above(Wish::Spacing, self.spacing(legs), w.spacing, size),
-            above(Wish::Conditioning, self.conditioning(legs), w.conditioning, 1.0),
+            above(Target::Spacing, self.spacing(legs), w.spacing, size),
+            above(Target::Conditioning, self.conditioning(legs), w.conditioning, 1.0),
         ];
         if let Some(d) = w.clearance {
-            out.push(above(Wish::Clearance, self.clearance(legs), d, size));
+            out.push(above(Target::Clearance, self.clearance(legs), d, size));
         }
         let reach = self.reach(legs);
         let slack = (w.reach - reach) / size;
-        out.push(WishMargin { wish: Wish::Reach, value: reach, required: w.reach, slack });
+        out.push(TargetMargin { target: Target::Reach, value: reach, required: w.reach, slack });
         out
     }
 
@@ -59,7 +59,7 @@ impl Scorer<'_> {
     /// Smallest distance of two joints of one body. Joints shared in the whole pattern are left out unless sharing is
     /// forbidden.
     fn spacing(&self, legs: &[Leg; 6]) -> f64 {
-        let all = self.wishes.no_shared_joints && self.pattern.shared == 0;
+        let all = self.targets.no_shared_joints && self.pattern.shared == 0;
         let mut least = f64::MAX;
         for (i, j) in Self::pairs() {
             if all || !self.pattern.same_base[i][j] {
@@ -75,7 +75,7 @@ impl Scorer<'_> {
     /// Smallest distance of two legs without a shared joint, at all poses.
     fn clearance(&self, legs: &[Leg; 6]) -> f64 {
         let mut least = f64::MAX;
-        for pose in &self.wishes.poses {
+        for pose in &self.targets.poses {
             let segments = legs.map(|l| [l.base, pose.transform(&l.platform)]);
             for (i, j) in Self::pairs() {
                 if !self.pattern.same_base[i][j] && !self.pattern.same_platform[i][j] {
@@ -88,10 +88,10 @@ impl Scorer<'_> {
 
     fn conditioning(&self, legs: &[Leg; 6]) -> f64 {
         let at = |pose: &Pose| -> f64 {
-            let j: Matrix6<f64> = jacobian_of_legs(legs, pose, self.wishes.characteristic_length);
+            let j: Matrix6<f64> = jacobian_of_legs(legs, pose, self.targets.characteristic_length);
             inverse_condition(&j)
         };
-        self.wishes.poses.iter().map(at).fold(f64::MAX, f64::min)
+        self.targets.poses.iter().map(at).fold(f64::MAX, f64::min)
     }
 
     fn reach(&self, legs: &[Leg; 6]) -> f64 {
@@ -102,8 +102,8 @@ impl Scorer<'_> {
 }
 
 /// The smallest slack. The reach is a limit and not an objective: it counts only if it is exceeded.
-pub(super) fn worst(margins: &[WishMargin]) -> f64 {
-    let counts = |m: &&WishMargin| m.wish != Wish::Reach || m.slack < 0.0;
+pub(super) fn worst(margins: &[TargetMargin]) -> f64 {
+    let counts = |m: &&TargetMargin| m.target != Target::Reach || m.slack < 0.0;
     margins.iter().filter(counts).map(|m| m.slack).fold(f64::INFINITY, f64::min)
 }
 
@@ -184,7 +184,7 @@ pub struct Candidate {
     /// The legs at other places.
     pub placements: Vec<Placement>,
     /// Every requirement with its number, recomputed on the joints as written.
-    pub margins: Vec<WishMargin>,
+    pub margins: Vec<TargetMargin>,
     /// The smallest slack.
     pub worst: f64,
     /// Whether every requirement is met.
@@ -197,14 +197,14 @@ impl Candidate {
     /// Whether the other platform repeats this one: it has the same legs within a thousandth of the size. Without holes
     /// that distinguish the places of a body, equal distances between joints and equal home lengths suffice (a symmetry
     /// of the design).
-    pub(super) fn repeats(&self, other: &Self, wishes: &Wishes, size: f64) -> bool {
+    pub(super) fn repeats(&self, other: &Self, targets: &Targets, size: f64) -> bool {
         let limit = 1e-3 * size;
         let near = |a: &Leg, b: &Leg| (a.base - b.base).norm().max((a.platform - b.platform).norm()) <= limit;
         let same_legs = self.assembled.legs.iter().all(|a| other.assembled.legs.iter().any(|b| near(a, b)));
-        let distances = |c: &Self| distances(&c.assembled.legs, &wishes.poses[0]);
+        let distances = |c: &Self| distances(&c.assembled.legs, &targets.poses[0]);
         let congruent =
             || distances(self).into_iter().zip(distances(other)).all(|(x, y)| (x - y).abs() <= limit);
-        same_legs || (wishes.holes.is_empty() && congruent())
+        same_legs || (targets.holes.is_empty() && congruent())
     }
 }
 
@@ -256,7 +256,7 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
     let final_legs: [Leg; 6] = std::array::from_fn(|row| assembled.legs[order[row].get()]);
     let margins = scorer.margins(&final_legs);
     let least = worst(&margins);
-    let fulfilled = least >= 0.0 && !(scorer.wishes.no_shared_joints && shared_joints > 0);
+    let fulfilled = least >= 0.0 && !(scorer.targets.no_shared_joints && shared_joints > 0);
     Ok(Some(Candidate { assembled, map, placements, margins, worst: least, fulfilled, shared_joints }))
 }
 
@@ -294,6 +294,6 @@ fn numbering(scorer: &Scorer, a: &Matrix6<f64>) -> Option<[LegIndex; 6]> {
 }
 
 fn allows(scorer: &Scorer, hole: usize, leg: LegIndex) -> bool {
-    let legs = &scorer.wishes.holes[hole].legs;
+    let legs = &scorer.targets.holes[hole].legs;
     legs.is_empty() || legs.contains(&leg)
 }

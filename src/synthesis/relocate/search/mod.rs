@@ -13,15 +13,15 @@
 
 mod candidate;
 mod pool;
+mod targets;
 #[cfg(test)]
 mod tests;
-mod wishes;
 
 use thiserror::Error;
 
-pub use self::wishes::{HoleAnswer, HoleWord, JudgedHole};
+pub use self::targets::{HoleAnswer, HoleWord, JudgedHole};
 pub use candidate::{Candidate, LegSource, Placement};
-pub use wishes::{Hole, Wish, WishMargin, Wishes};
+pub use targets::{Hole, Target, TargetMargin, Targets};
 
 use self::candidate::Scorer;
 use self::pool::{JointPattern, patterns};
@@ -141,7 +141,7 @@ pub struct SearchOutcome {
     /// Whether every replaceable leg is known, so that counts over the patterns are proofs.
     pub complete: bool,
     /// The requirements with the limits used.
-    pub wishes: Wishes,
+    pub targets: Targets,
 }
 
 /// Searches for platforms equivalent to `m` that meet the requirements; `found` are its families.
@@ -151,7 +151,7 @@ pub struct SearchOutcome {
 pub fn search(
     m: &Manipulator,
     found: &Components,
-    wishes: &Wishes,
+    targets: &Targets,
     options: &MoveSearchOptions,
 ) -> Result<SearchOutcome, SearchError> {
     if found.leg_rank.value < 6 {
@@ -160,24 +160,24 @@ pub fn search(
     if found.span.rank() < 6 {
         return Err(SearchError::NearlyDependent(found.span.rank()));
     }
-    wishes.validate()?;
+    targets.validate()?;
     let mut outcome = SearchOutcome {
         verdict: SearchVerdict::Undecided,
         candidates: Vec::new(),
-        holes: wishes::records(m, found, &wishes.holes)?,
+        holes: targets::records(m, found, &targets.holes)?,
         patterns: 0,
         searched: 0,
         least_shared: None,
         complete: all_legs_known(found),
-        wishes: wishes.clone(),
+        targets: targets.clone(),
     };
     if let Some(reason) = outcome.holes.iter().enumerate().find_map(|(k, h)| h.impossible(k)) {
         outcome.verdict = SearchVerdict::Impossible(reason);
         return Ok(outcome);
     }
     let mut rng = Rng::stream(options.seed, 0x5ea);
-    let pool = LegPool::new(m, found, wishes, &outcome.holes, &mut rng)?;
-    if let Some(k) = pool.not_by_those_legs(&wishes.holes) {
+    let pool = LegPool::new(m, found, targets, &outcome.holes, &mut rng)?;
+    if let Some(k) = pool.not_by_those_legs(&targets.holes) {
         if outcome.holes[k].exactly_by_others {
             outcome.verdict = SearchVerdict::Impossible(Impossibility::NotByThoseLegs(k));
         }
@@ -185,22 +185,22 @@ pub fn search(
     }
     // if no leg of a family could be drawn, for instance of a distant one, the patterns lack it
     outcome.complete &= pool.drawn;
-    let pool::Patterns { mut list, exhaustive } = patterns(&pool, wishes, m.size());
+    let pool::Patterns { mut list, exhaustive } = patterns(&pool, targets, m.size());
     outcome.complete &= exhaustive;
     outcome.patterns = list.len();
     outcome.least_shared = list.iter().map(|p| p.shared).min();
     let Some(least) = outcome.least_shared else {
-        if outcome.complete && !wishes.holes.is_empty() {
+        if outcome.complete && !targets.holes.is_empty() {
             outcome.verdict = SearchVerdict::Impossible(Impossibility::HolesTogether);
         }
         return Ok(outcome);
     };
-    if wishes.no_shared_joints {
+    if targets.no_shared_joints {
         list.retain(|p| p.shared == least);
     }
     outcome.searched = list.len();
-    outcome.candidates = climb_all(&pool, found, m, wishes, options, &list, &mut rng)?;
-    if wishes.no_shared_joints && least > 0 {
+    outcome.candidates = climb_all(&pool, found, m, targets, options, &list, &mut rng)?;
+    if targets.no_shared_joints && least > 0 {
         if outcome.complete {
             outcome.verdict = SearchVerdict::Impossible(Impossibility::SharedJoints(least));
         }
@@ -215,14 +215,14 @@ fn climb_all(
     pool: &LegPool,
     found: &Components,
     m: &Manipulator,
-    wishes: &Wishes,
+    targets: &Targets,
     options: &MoveSearchOptions,
     list: &[JointPattern],
     rng: &mut Rng,
 ) -> Result<Vec<Candidate>, SearchError> {
     let mut starts: Vec<(f64, usize, Vec<f64>)> = Vec::new();
     for (k, pattern) in list.iter().enumerate() {
-        let scorer = Scorer { pool, found, m, wishes, pattern };
+        let scorer = Scorer { pool, found, m, targets, pattern };
         let mut best: Vec<(f64, usize, Vec<f64>)> = Vec::new();
         for _ in 0..options.samples.max(1) {
             let x = pool.draw(pattern, rng)?;
@@ -240,14 +240,14 @@ fn climb_all(
     starts.truncate(options.starts.max(1));
     let mut out: Vec<Candidate> = Vec::new();
     for (_, k, x) in starts {
-        let scorer = Scorer { pool, found, m, wishes, pattern: &list[k] };
+        let scorer = Scorer { pool, found, m, targets, pattern: &list[k] };
         let (_, x) = candidate::climb(&scorer, x, options.evaluations, rng)?;
         if let Some(candidate) = candidate::candidate(&scorer, &x)? {
             out.push(candidate);
         }
     }
     out.sort_by(|a, b| {
-        let key = |c: &Candidate| (!c.fulfilled, c.shared_joints * usize::from(wishes.no_shared_joints));
+        let key = |c: &Candidate| (!c.fulfilled, c.shared_joints * usize::from(targets.no_shared_joints));
         key(a)
             .cmp(&key(b))
             .then(b.worst.total_cmp(&a.worst))
@@ -256,7 +256,7 @@ fn climb_all(
     let size = m.size();
     let mut kept: Vec<Candidate> = Vec::new();
     for c in out {
-        if kept.len() < options.count && !kept.iter().any(|k| k.repeats(&c, wishes, size)) {
+        if kept.len() < options.count && !kept.iter().any(|k| k.repeats(&c, targets, size)) {
             kept.push(c);
         }
     }

@@ -2,7 +2,7 @@
 //! six generic legs are independent.
 
 use super::candidate::LegSource;
-use super::wishes::{Hole, HoleAnswer, JudgedHole, Wishes};
+use super::targets::{Hole, HoleAnswer, JudgedHole, Targets};
 use crate::components::{Component, Components, MovingPoint, Parametrisation};
 use num::Rng;
 use num::linalg::LinalgError;
@@ -57,7 +57,7 @@ impl<'a> LegPool<'a> {
     pub(super) fn new(
         m: &Manipulator,
         found: &'a Components,
-        wishes: &Wishes,
+        targets: &Targets,
         records: &[JudgedHole],
         rng: &mut Rng,
     ) -> Result<Self, LinalgError> {
@@ -69,7 +69,7 @@ impl<'a> LegPool<'a> {
             let fits = |(_, h): &(usize, &Hole)| {
                 (ends.end(h.body) - h.point).norm() <= limit && (h.legs.is_empty() || h.legs.contains(&leg))
             };
-            let fills = wishes.holes.iter().enumerate().filter(fits).map(|(k, _)| k).collect();
+            let fills = targets.holes.iter().enumerate().filter(fits).map(|(k, _)| k).collect();
             pool.add(LegSource::Kept(leg), fixed(&ends), fills, 1, rng)?;
         }
         for (k, hole) in records.iter().enumerate() {
@@ -79,7 +79,7 @@ impl<'a> LegPool<'a> {
         }
         // one leg with both ends in holes
         for (k, l) in (0..records.len()).flat_map(|k| (0..records.len()).map(move |l| (k, l))) {
-            let (a, b) = (&wishes.holes[k], &wishes.holes[l]);
+            let (a, b) = (&targets.holes[k], &targets.holes[l]);
             if a.body != Body::Base || b.body != Body::Platform {
                 continue;
             }
@@ -220,10 +220,10 @@ struct Growing<'a> {
 }
 
 /// All patterns that fill every hole.
-pub(super) fn patterns(pool: &LegPool, wishes: &Wishes, size: f64) -> Patterns {
+pub(super) fn patterns(pool: &LegPool, targets: &Targets, size: f64) -> Patterns {
     let mut growing = Growing { pool, list: Vec::new(), size, exhaustive: true };
     growing.grow(0, &mut Vec::new(), &mut Vec::new());
-    let all = wishes.holes.len();
+    let all = targets.holes.len();
     growing.list.retain(|p| (0..all).all(|h| p.places.iter().any(|k| pool.places[*k].fills.contains(&h))));
     Patterns { list: growing.list, exhaustive: growing.exhaustive }
 }

@@ -26,8 +26,8 @@ fn six_four() -> Manipulator {
         .unwrap()
 }
 
-fn wishes(m: &Manipulator) -> Wishes {
-    Wishes {
+fn targets(m: &Manipulator) -> Targets {
+    Targets {
         no_shared_joints: false,
         spacing: 0.01 * m.size(),
         clearance: None,
@@ -47,9 +47,9 @@ fn quick() -> MoveSearchOptions {
     MoveSearchOptions { samples: 6, starts: 6, evaluations: 200, ..MoveSearchOptions::default() }
 }
 
-fn asked(m: &Manipulator, wishes: &Wishes) -> SearchOutcome {
+fn asked(m: &Manipulator, targets: &Targets) -> SearchOutcome {
     let found = components(m, ComponentOptions::default()).unwrap();
-    search(m, &found, wishes, &quick()).unwrap()
+    search(m, &found, targets, &quick()).unwrap()
 }
 
 /// Every candidate is equivalent, by the leg map of the platforms as written.
@@ -59,7 +59,7 @@ fn equivalent(m: &Manipulator, outcome: &SearchOutcome) {
         let new = c.assembled.platform.as_ref().unwrap();
         let map = leg_map(m, new, LegMapTolerances::default()).unwrap();
         assert!(map.is_regular_within_rounding());
-        assert_eq!(c.fulfilled, c.worst >= 0.0 && !(outcome.wishes.no_shared_joints && c.shared_joints > 0));
+        assert_eq!(c.fulfilled, c.worst >= 0.0 && !(outcome.targets.no_shared_joints && c.shared_joints > 0));
         for p in &c.placements {
             // its number is that of a leg it can replace
             assert!(map.closest.a[(p.leg.get(), p.leg.get())].abs() > 1e-9);
@@ -70,7 +70,7 @@ fn equivalent(m: &Manipulator, outcome: &SearchOutcome) {
 #[test]
 fn a_joint_free_platform_is_found_and_has_what_it_says() {
     let m = octahedral();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     w.no_shared_joints = true;
     w.clearance = Some(0.01 * m.size());
     let outcome = asked(&m, &w);
@@ -90,7 +90,7 @@ fn a_joint_free_platform_is_found_and_has_what_it_says() {
             }
         }
     }
-    let spacing = best.margins.iter().find(|x| x.wish == Wish::Spacing).unwrap();
+    let spacing = best.margins.iter().find(|x| x.target == Target::Spacing).unwrap();
     assert!((spacing.value - least).abs() < 1e-12 && least >= w.spacing);
     // the ascent is effective: the worst margin of a random platform is a fraction of it
     assert!(best.worst > 0.02, "{}", best.worst);
@@ -99,7 +99,7 @@ fn a_joint_free_platform_is_found_and_has_what_it_says() {
 #[test]
 fn where_joints_have_to_be_shared_the_least_number_is_proved() {
     let m = six_four();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     w.no_shared_joints = true;
     let outcome = asked(&m, &w);
     assert!(outcome.complete);
@@ -111,7 +111,7 @@ fn where_joints_have_to_be_shared_the_least_number_is_proved() {
 #[test]
 fn a_hole_on_an_edge_is_filled_exactly_and_one_off_it_is_proved_impossible() {
     let m = octahedral();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     let edge = corner(2.0, 0) + (corner(2.0, 1) - corner(2.0, 0)) * 0.3;
     let other = corner(1.0, 1) + (corner(1.0, 2) - corner(1.0, 1)) * 0.6;
     w.holes = vec![hole(Body::Base, edge), hole(Body::Platform, other)];
@@ -144,7 +144,7 @@ fn a_hole_on_an_edge_is_filled_exactly_and_one_off_it_is_proved_impossible() {
 #[test]
 fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
     let m = octahedral();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     let edge = corner(2.0, 0) + (corner(2.0, 1) - corner(2.0, 0)) * 0.3;
     // legs 1 and 2 belong to the edge: the new leg can replace leg 1 or leg 2
     for leg in [0, 1] {
@@ -160,7 +160,7 @@ fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
     let whole = |size: f64| vec![Point3::origin(), Point3::new(size, 0.0, 0.0), Point3::new(0.0, size, 1.0)];
     let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
     let m = Manipulator::try_new(whole(8.0), whole(4.0), pairs).unwrap();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     w.holes = vec![Hole {
         body: Body::Base,
         point: Point3::new(2.0, 0.0, 0.0),
@@ -178,7 +178,7 @@ fn nothing_is_impossible_by_a_tolerance() {
         let turn = platform::geom::random_rotation(&mut rng);
         let legs = six_four().legs().map(|l| Leg { base: turn * l.base, platform: turn * l.platform });
         let m = Manipulator::from_legs(legs).unwrap();
-        let mut w = wishes(&m);
+        let mut w = targets(&m);
         w.no_shared_joints = true;
         let outcome = asked(&m, &w);
         assert!(
@@ -200,7 +200,7 @@ fn a_hole_on_a_cubic_has_one_leg() {
     let m = Manipulator::from_legs(legs).unwrap();
     let found = components(&m, ComponentOptions::default()).unwrap();
     let leg = found.components[0].parametrisation.leg_at(&[0.37]).unwrap().unwrap();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     (w.reach, w.conditioning) = (20.0 * m.size(), 0.0);
     w.holes = vec![hole(Body::Base, leg.base)];
     let outcome = asked(&m, &w);
@@ -223,14 +223,14 @@ fn legs_that_cross_are_moved_apart() {
     // legs 1 and 4 of a platform without shared joints move along the edges until they meet at home; the search starts
     // there
     let m = octahedral();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     w.clearance = Some(0.05 * m.size());
     let flat = Pose { position: nalgebra::Vector3::new(0.0, 0.0, 0.2), ..default_home(&m) };
     w.poses = vec![flat];
     let outcome = asked(&m, &w);
     equivalent(&m, &outcome);
     let best = &outcome.candidates[0];
-    let clearance = best.margins.iter().find(|x| x.wish == Wish::Clearance).unwrap();
+    let clearance = best.margins.iter().find(|x| x.target == Target::Clearance).unwrap();
     assert!(clearance.value >= w.clearance.unwrap() || outcome.verdict == SearchVerdict::Undecided);
     // more than there is space for: no claim is made
     w.clearance = Some(100.0 * m.size());
@@ -242,7 +242,7 @@ fn legs_that_cross_are_moved_apart() {
 #[test]
 fn same_seed_same_answer_and_bad_questions_are_refused() {
     let m = octahedral();
-    let mut w = wishes(&m);
+    let mut w = targets(&m);
     w.no_shared_joints = true;
     let key = |o: &SearchOutcome| o.candidates.iter().map(|c| c.assembled.legs).collect::<Vec<_>>();
     assert_eq!(key(&asked(&m, &w)), key(&asked(&m, &w)));

@@ -3,7 +3,7 @@
 use super::{ExploreOptions, ExploreVerdict, NoExploration, OwnPoses};
 use crate::equivalents::NearestDesigns;
 use crate::{
-    AssessReport, ComparedDesigns, Design, MoveSearchReport, MoveWishes, MovedPlatform, ReplaceableLegs,
+    AssessReport, ComparedDesigns, Design, MoveSearchReport, MoveTargets, MovedPlatform, ReplaceableLegs,
     ReplaceableOptions, SearchWord,
 };
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
@@ -51,9 +51,9 @@ impl ExploredDesign {
         options.stage(2, "equivalent platforms");
         let found = &families.found;
         let moves = (found.leg_rank.value == 6 && !found.components.is_empty()).then(|| {
-            let wishes = MoveWishes { no_shared_joints: true, ..MoveWishes::default() };
+            let targets = MoveTargets { no_shared_joints: true, ..MoveTargets::default() };
             let options = MoveSearchOptions { seed, ..MoveSearchOptions::default() };
-            design.search_moves(found, &wishes, &options)
+            design.search_moves(found, &targets, &options)
         });
         let moves = moves.transpose()?;
 

@@ -1,7 +1,7 @@
 //! Octahedral designs.
 
 use super::{ExploreOptions, ExploreProgress, ExploreVerdict, NoExploration, OwnPoses};
-use crate::optimizing::with_default_reserve;
+use crate::optimizing::with_default_safety_margin;
 use crate::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::{
     Checked, ComparedDesigns, Design, FoundOffsets, OptimizeEvidence, OptimizeProgress, OptimizeReport,
@@ -29,7 +29,7 @@ pub struct ExploredClass {
     /// The platform on the holes that the design states; `None` if it states none, or no platform was found.
     pub holes: Option<Result<DesignOnHoles, NoRounding>>,
     /// Whether the best platform keeps the default safety margin; `None` if the design states its own.
-    pub keeps_reserve: Option<bool>,
+    pub keeps_safety_margin: Option<bool>,
     /// The comparison of the design with the best platform; `None` if there is none, or it has other triangles.
     pub compared: Option<ComparedDesigns>,
     /// Poses of the design.
@@ -67,7 +67,7 @@ impl ExploredClass {
         let family = Family::octahedral();
 
         options.stage(2, "the best platform");
-        let (mut search, holes, keeps_reserve) = searched_carefully(design, &mut options)?;
+        let (mut search, holes, keeps_safety_margin) = searched_carefully(design, &mut options)?;
         search.take_lengths_of(design);
         search.open_freedoms(&mut options.optimize(true)).map_err(NoExploration::Search)?;
 
@@ -78,7 +78,7 @@ impl ExploredClass {
 
         options.stage(4, "forward kinematics");
         let poses = design.own_poses(&options.fk())?;
-        Ok(Self { octahedral, family, search, holes, keeps_reserve, compared, poses })
+        Ok(Self { octahedral, family, search, holes, keeps_safety_margin, compared, poses })
     }
 
     /// The platform to build: on the holes, if the design states them.
@@ -147,7 +147,7 @@ fn searched_carefully(
     design: &Design,
     options: &mut ExploreOptions<'_>,
 ) -> Result<(OptimizeReport, OnHoles, Option<bool>), NoExploration> {
-    let Some(careful) = with_default_reserve(design) else {
+    let Some(careful) = with_default_safety_margin(design) else {
         let (found, holes) = searched(design, true, options)?;
         return Ok((found, holes, None));
     };

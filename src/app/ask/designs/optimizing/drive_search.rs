@@ -114,11 +114,12 @@ impl DriveRange {
         let driven = design.with_drive(drive);
         let (required, hardware) = (driven.requirements(), &driven.hardware);
         let (least, greatest) = drive.lengths.range();
-        let limit = |x: Option<f64>, kind: TermKind| x.map_or(f64::INFINITY, |x| x - required.reserve(kind));
+        let limit =
+            |x: Option<f64>, kind: TermKind| x.map_or(f64::INFINITY, |x| x - required.safety_margin(kind));
         Self {
             legs: [
-                least + required.reserve(TermKind::LegTooShort),
-                greatest - required.reserve(TermKind::LegTooLong),
+                least + required.safety_margin(TermKind::MinLegLength),
+                greatest - required.safety_margin(TermKind::MaxLegLength),
             ],
             most: [
                 limit(hardware.max_leg_force, TermKind::LegForce),
@@ -269,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drive_covers_another_with_tighter_limits_and_reserves_count() {
+    fn a_drive_covers_another_with_tighter_limits_and_safety_margins_count() {
         let wide = drive("wide", (200.0, 100.0), Some(60.0), None);
         let short = drive("short", (200.0, 60.0), Some(60.0), None);
         let free = drive("free", (200.0, 100.0), None, None);
@@ -284,7 +285,7 @@ mod tests {
         assert_eq!(covers(&plain, &wide, &free), own <= 60.0);
         assert_eq!(covers(&plain, &free, &wide), own >= 60.0);
         // a tenth of the travel is kept free at either end: the short drive starts 4 lower than the wide one
-        let reserved = bench("[limits]\nreserve = \"10%\"\n");
+        let reserved = bench("[limits]\nsafety_margin = \"10%\"\n");
         assert!(!covers(&reserved, &wide, &short) && covers(&reserved, &wide, &wide));
     }
 

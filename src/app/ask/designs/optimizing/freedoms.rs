@@ -98,7 +98,7 @@ impl ConflictFreedom {
     /// The requirements that it eases.
     fn kinds(self) -> &'static [TermKind] {
         match self {
-            Self::Stroke => &[TermKind::LegTooShort, TermKind::LegTooLong],
+            Self::Stroke => &[TermKind::MinLegLength, TermKind::MaxLegLength],
             Self::BaseEnvelope => &[TermKind::BaseEnvelope],
             Self::PlatformEnvelope => &[TermKind::PlatformEnvelope],
             Self::MachineEnvelope => &[TermKind::MachineEnvelope],
@@ -170,7 +170,7 @@ pub struct OpenedFreedom {
     /// The outcome of the search.
     pub outcome: FreedomOutcome,
     /// The demands of the conflict that need less relaxation with this freedom, with both amounts.
-    pub eased: Vec<EasedDemand>,
+    pub eased: Vec<RelaxedRequirement>,
 }
 
 impl OpenedFreedom {
@@ -183,7 +183,7 @@ impl OpenedFreedom {
 
 /// A demand of a conflict that needs less relaxation without a default limit of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EasedDemand {
+pub struct RelaxedRequirement {
     /// The demand.
     pub demand: Demand,
     /// The amount of relaxation with the default limit.
@@ -229,10 +229,10 @@ fn given(g: &Give) -> f64 {
 }
 
 /// The demands that need less relaxation in the second conflict.
-fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<EasedDemand> {
+fn eased(before: &ConstraintConflict, after: &ConstraintConflict) -> Vec<RelaxedRequirement> {
     let less = |g: &Give| {
         let other = after.demands.iter().find(|other| other.demand == g.demand)?;
-        let found = EasedDemand { demand: g.demand, from: given(g), to: given(other) };
+        let found = RelaxedRequirement { demand: g.demand, from: given(g), to: given(other) };
         (found.to < (1.0 - EASED) * found.from).then_some(found)
     };
     before.demands.iter().filter_map(less).collect()
@@ -332,7 +332,8 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFr
         }
         ConflictFreedom::Stroke => {
             let range = design.hardware.leg_length.map_or((0.0, 0.0), |l| l.range());
-            let [short, long] = [TermKind::LegTooShort, TermKind::LegTooLong].map(|kind| gives(report, kind));
+            let [short, long] =
+                [TermKind::MinLegLength, TermKind::MaxLegLength].map(|kind| gives(report, kind));
             match design.hardware.leg_length {
                 // the longest leg grows by twice the stroke
                 Some(LengthLimits::Stroke { .. }) => {

@@ -59,7 +59,7 @@ fn missed(met: Option<bool>) -> OptimizeStatus {
 
 /// Whether the requirements are met with their safety margins; `Some(true)` without requirements.
 pub fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> {
-    assessed.map_or(Some(true), AssessReport::met_with_reserve)
+    assessed.map_or(Some(true), AssessReport::met_with_safety_margin)
 }
 
 /// The optimised platform as a design, with the tables of its original.
@@ -250,11 +250,11 @@ fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolut
     if design.home.is_some() || problem.variables.home_height {
         out.home = Some(s.home);
     }
-    for (swing, axes) in
-        [(&mut out.hardware.base_swing, s.axes[0]), (&mut out.hardware.platform_swing, s.axes[1])]
+    for (cone_angle, axes) in
+        [(&mut out.hardware.base_cone_angle, s.axes[0]), (&mut out.hardware.platform_cone_angle, s.axes[1])]
     {
-        if let (Some(swing), Some(axes)) = (swing, axes) {
-            swing.axes = JointAxes::Given(axes);
+        if let (Some(cone_angle), Some(axes)) = (cone_angle, axes) {
+            cone_angle.axes = JointAxes::Given(axes);
         }
     }
     out.into()

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use self::drive_search::search_drives;
 pub use self::drive_search::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
 use self::freedoms::FreedomSearch;
-pub use self::freedoms::{ConflictFreedom, EasedDemand, FreedomOutcome, FreedomWord, OpenedFreedom};
+pub use self::freedoms::{ConflictFreedom, FreedomOutcome, FreedomWord, OpenedFreedom, RelaxedRequirement};
 pub use self::judged::Checked;
 pub(crate) use self::judged::checked;
 pub use self::judged::{Judging, met_or_nothing_required};
@@ -20,8 +20,8 @@ use self::judged::{checked_offsets, offset_status};
 pub use self::platform_search::{FoundFront, FoundPlatform};
 use self::platform_search::{find_front, find_platform};
 pub use self::problem::{
-    EXTENSION, RESERVE_PERCENT, SearchKind, dimensional_problem, hopeless_home, offset_reserves,
-    with_default_reserve,
+    EXTENSION, SAFETY_MARGIN_PERCENT, SearchKind, dimensional_problem, hopeless_home, offset_safety_margins,
+    with_default_safety_margin,
 };
 use self::problem::{offset_problem, with_sizes_to_choose};
 use super::Error;
@@ -64,7 +64,7 @@ impl std::fmt::Display for OptimizeProgress {
             Self::Dimensions(p) => p.fmt(f),
             Self::Drive(name, p) => write!(f, "{name}: {p}"),
             Self::Freedom(freedom, p) => write!(f, "with {} open: {p}", freedom.name()),
-            Self::Judging => f.write_str("other local optima are judged"),
+            Self::Judging => f.write_str("other local optima are assessed"),
         }
     }
 }

@@ -13,7 +13,7 @@ use platform::manipulator::{Body, Octahedral};
 /// a body at most half as wide again.
 pub const EXTENSION: f64 = 0.3;
 /// The default safety margin on every limit in `explore`, percent.
-pub const RESERVE_PERCENT: f64 = 5.0;
+pub const SAFETY_MARGIN_PERCENT: f64 = 5.0;
 
 /// The kind of search for a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ pub fn hopeless_home(design: &Design, extension: f64) -> Option<SingularHome> {
 fn asks_for_more(design: &Design) -> bool {
     let plain = Requirements {
         min_joint_distance: design.optimize.min_joint_distance,
-        reserves: design.reserves.clone(),
+        safety_margins: design.safety_margins.clone(),
         ..Requirements::default()
     };
     design.search != SearchTable::default()
@@ -59,10 +59,10 @@ fn asks_for_more(design: &Design) -> bool {
 }
 
 /// The design with a safety margin on every limit; `None` if it states one.
-pub fn with_default_reserve(design: &Design) -> Option<Design> {
+pub fn with_default_safety_margin(design: &Design) -> Option<Design> {
     let mut careful = design.clone();
-    careful.reserves.all = Some(RESERVE_PERCENT);
-    design.reserves.is_empty().then_some(careful)
+    careful.safety_margins.all = Some(SAFETY_MARGIN_PERCENT);
+    design.safety_margins.is_empty().then_some(careful)
 }
 
 /// The limits of a search for offsets without and with the safety margins of the design: the least distance of joints
@@ -73,13 +73,14 @@ fn offset_limits(design: &Design, octahedral: &Octahedral) -> [[f64; 2]; 2] {
     let distance = table.min_joint_distance.unwrap_or(default.min_joint_distance);
     let det = table.min_abs_det.unwrap_or(default.min_abs_det);
     let required = Requirements { min_joint_distance: Some(distance), ..design.requirements() };
-    let reserve = [TermKind::BaseSpacing, TermKind::PlatformSpacing].map(|kind| required.reserve(kind));
-    let share = design.reserves.all.unwrap_or(0.0) / 100.0;
-    [[distance, distance + reserve[0].max(reserve[1])], [det, det * (1.0 + share)]]
+    let safety_margin =
+        [TermKind::BaseSpacing, TermKind::PlatformSpacing].map(|kind| required.safety_margin(kind));
+    let share = design.safety_margins.all.unwrap_or(0.0) / 100.0;
+    [[distance, distance + safety_margin[0].max(safety_margin[1])], [det, det * (1.0 + share)]]
 }
 
 /// The safety margins on the least distance of joints and on the least `|det A|` in a search for offsets.
-pub fn offset_reserves(design: &Design, octahedral: &Octahedral) -> [f64; 2] {
+pub fn offset_safety_margins(design: &Design, octahedral: &Octahedral) -> [f64; 2] {
     offset_limits(design, octahedral).map(|[stated, held]| held - stated)
 }
 

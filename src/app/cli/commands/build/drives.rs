@@ -7,7 +7,7 @@ use crate::app::cli::context::Context;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
-use ::files::design::{Drive, DriveTable, JudgedForces};
+use ::files::design::{AssessedForces, Drive, DriveTable};
 use ask::Design;
 use ask::PlatformMotion;
 use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
@@ -158,6 +158,6 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
     }
     let at_rest = h.max_leg_force.is_some() || drives.iter().any(|d| d.force.is_some());
     let at_rest = at_rest && !design.requirements().loads.is_empty();
-    out.extend(design.assumptions_of(JudgedForces { at_rest, in_motion: with_forces }));
+    out.extend(design.assumptions_of(AssessedForces { at_rest, in_motion: with_forces }));
     out
 }

@@ -59,9 +59,9 @@ fn mapped(text: &str, designs: [&Design; 2], map: &LegMapOutcome) -> Result<Mapp
     } else {
         Err("the designs have no regular map".to_owned())
     };
-    let (to, why_not) = match taken {
+    let (to, reason) = match taken {
         Ok(lengths) => (Some(lengths.get().map(Number)), None),
         Err(why) => (None, Some(why)),
     };
-    Ok(MappedLengthsRecord { from: given.shown.map(Number), to, why_not })
+    Ok(MappedLengthsRecord { from: given.shown.map(Number), to, reason })
 }

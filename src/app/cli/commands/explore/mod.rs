@@ -27,7 +27,7 @@ use ::files::design::DriveTable;
 use ::files::export::{ExportFormat, PartLine};
 use ask::equivalents::Original;
 use ask::exporting::octahedral_of_controllers;
-use ask::optimizing::{EXTENSION, RESERVE_PERCENT};
+use ask::optimizing::{EXTENSION, SAFETY_MARGIN_PERCENT};
 use ask::rounding::DesignOnHoles;
 use ask::{
     ComparedDesigns, Design, ExploreJudgement, ExploreOptions, ExploreReport, ExploreVerdict, ExploredClass,
@@ -36,7 +36,7 @@ use ask::{
 use fk::FkOptions;
 use platform::manipulator::Octahedral;
 use records::{
-    AssessAnswer, ComparedRecord, DefaultReserveRecord, DesignRoleWord, ExploreAnswer,
+    AssessAnswer, ComparedRecord, DefaultSafetyMarginRecord, DesignRoleWord, ExploreAnswer,
     ExploreOctahedralAnswer, FamilyAnswer, FamilySizeRecord, FkRunRecord, OnHolesRecord, OptimizeAnswer,
     OptimizeFiles, OptimizedRecord, PoseTotalsRecord, PriceRecord, ProvenanceRecord, RoundAnswer,
     VerifyAnswer,
@@ -116,7 +116,7 @@ impl Results {
     fn explanation(&self) -> String {
         let judged = |design: &Design| {
             self.assessment.as_ref().map_or_else(
-                || format!("{} does not have the room that separate joints need", design.name),
+                || format!("{} does not have the space that separate joints need", design.name),
                 sheet::answers::sentence,
             )
         };
@@ -382,12 +382,13 @@ fn platforms_of_freedoms(found: &ExploredClass, folder: &mut Folder) -> Optimize
 /// The lines below the verdict: the cost of separate joints, the active bounds of the platform, and the safety margin.
 fn headline(a: &ExploreOctahedralAnswer) -> Vec<String> {
     // on holes the cost is known, but active bounds are known only before rounding
-    let riding = a.optimize.as_ref().filter(|_| a.holes.is_none()).and_then(|o| o.riding.as_ref());
+    let active_bounds =
+        a.optimize.as_ref().filter(|_| a.holes.is_none()).and_then(|o| o.active_bounds.as_ref());
     let found = a.price.is_some();
     let lines = [
         a.price.as_ref().map(|p| p.message.clone()),
-        riding.map(|r| r.message.clone()),
-        a.reserve.as_ref().filter(|_| found).map(|r| r.message.clone()),
+        active_bounds.map(|r| r.message.clone()),
+        a.safety_margin.as_ref().filter(|_| found).map(|r| r.message.clone()),
     ];
     lines.into_iter().flatten().collect()
 }
@@ -465,7 +466,9 @@ fn record(r: &Results) -> ExploreOctahedralAnswer {
         optimize: OptimizedRecord::new(&r.answer),
         conic_programs: r.answer.search.conic_programs,
         price: r.price(),
-        reserve: found.keeps_reserve.map(|kept| DefaultReserveRecord::new(RESERVE_PERCENT, kept)),
+        safety_margin: found
+            .keeps_safety_margin
+            .map(|kept| DefaultSafetyMarginRecord::new(SAFETY_MARGIN_PERCENT, kept)),
         verify: found.compared.as_ref().map(|c| ComparedRecord::from(&c.found)),
         holes: found.holes.as_ref().map(OnHolesRecord::from),
         symmetry: r.answer.symmetry.clone(),

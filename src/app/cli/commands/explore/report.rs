@@ -120,7 +120,7 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
         ),
         RoundingWay::Nearest => (
             on.rounding.nearest.as_ref().map(|n| &n.joints).ok(),
-            "All joints are on holes next to where they were wanted, and not on the lines of the triangles.",
+            "All joints are on holes next to their given places, and not on the lines of the triangles.",
         ),
     };
     let again: Vec<&str> = on.refitted.iter().map(|kind| kind.code()).collect();
@@ -131,7 +131,7 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
     };
     let rows = joints.into_iter().flatten().map(|j| {
         let name = on.wanted.joint_names(j.joint.body)[j.joint.index].clone();
-        let hole = j.cell.map_or_else(|| "as wanted".into(), |[i, k]| format!("{i}, {k}"));
+        let hole = j.cell.map_or_else(|| "as given".into(), |[i, k]| format!("{i}, {k}"));
         [j.joint.body.to_string(), name, hole, format!("{:.3}", j.moved.norm())]
     });
     let titles = ["body", "joint", "hole", &format!("moved [{units}]")].map(|title| left(title, 0));

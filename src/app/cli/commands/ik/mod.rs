@@ -119,8 +119,8 @@ fn details(record: &IkRecord, units: &str) -> Vec<(String, f64)> {
     let mut list = |name: &str, values: &[Number; 6]| {
         out.extend(values.iter().enumerate().map(|(i, x)| (format!("{name}_{}_deg", i + 1), x.0)));
     };
-    list("base_swing", &joints.base_swing_deg);
-    list("platform_swing", &joints.platform_swing_deg);
+    list("base_cone_angle", &joints.base_cone_angle_deg);
+    list("platform_cone_angle", &joints.platform_cone_angle_deg);
     for (name, pairs) in [
         ("base_universal", &joints.base_universal_deg),
         ("platform_universal", &joints.platform_universal_deg),

@@ -193,7 +193,7 @@ fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
     }
     if design.requirements() == machine::requirements::Requirements::default() {
         out.push(
-            "The design has no limits of its own: give leg_length, swing .. in the table hardware.".into(),
+            "The design has no limits of its own: give leg_length, base_cone_angle_deg .. in the table hardware.".into(),
         );
     }
     out

@@ -14,7 +14,7 @@ extern "C" {
 
 /* Angles move by at most so much from one set of tips to the next while a pose is followed, radians. */
 #define EQUIPOD_CRANK_STEP 0.05
-/* Most such parts of a step where a caller has no other wish: half a turn, and the bound on the work with EQUIPOD_SEGMENTS. */
+/* Most such parts of a step where a caller states no other number: half a turn, and the bound on the work with EQUIPOD_SEGMENTS. */
 #define EQUIPOD_CRANK_PARTS 64u
 
 typedef struct {

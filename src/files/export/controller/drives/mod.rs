@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use super::vectors::{list, moved, pose_numbers, row};
 use super::{
-    ExportedFile, OwnLibrary, SwingAxes, braces, heading, legs, limits, matrix, number, points, reals,
+    ConeAxes, ExportedFile, OwnLibrary, braces, heading, legs, limits, matrix, number, points, reals,
 };
 use crate::export::Export;
 use fk::NearOptions;
@@ -47,7 +47,7 @@ fn header(export: &Export) -> String {
          /* The joints of the design, and what makes its drives longer or shorter than their distances. */\n\
          extern const equipod_legs equipod_nominal;\nextern const equipod_drives equipod_design_drives;\n\
          /* Marks such a design for the kinematics modules. */\n#define EQUIPOD_HAS_DRIVES 1\n\
-         /* Limits of lengths, which are those of drives, and of swing. */\nextern const equipod_limits equipod_design_limits;\n\
+         /* Limits of lengths, which are those of drives, and of cone angles. */\nextern const equipod_limits equipod_design_limits;\n\
          /* The home pose, from which turns of the legs count. */\nextern const equipod_pose equipod_home;\n\
          /* Millimetres of a unit of length. */\n#define EQUIPOD_UNIT_MILLIMETRES {}\n",
         number(export.unit.millimetres)
@@ -76,7 +76,7 @@ fn source(export: &Export, drives: &CoupledLegs) -> String {
         reals(drives.turned_at_home()),
         number(export.size),
     );
-    limits(&mut out, &export.hardware, &SwingAxes::of(export));
+    limits(&mut out, &export.hardware, &ConeAxes::of(export));
     let r = export.home.rotation.matrix();
     let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
     let _ = writeln!(

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::wishes::WishArgs;
+use super::targets::TargetArgs;
 use crate::app::cli::exit::Exit;
 use crate::app::cli::failure::Failure;
 use crate::app::cli::files;
@@ -15,14 +15,14 @@ use synthesis::relocate::search::SearchError;
 /// Searches, and writes the designs found.
 pub(super) fn run(
     output: Option<&Path>,
-    args: &WishArgs,
+    args: &TargetArgs,
     design: &Design,
     options: ComponentOptions,
 ) -> Result<Answer, Failure> {
-    let wishes = args.wishes(design)?;
+    let targets = args.targets(design)?;
     let families = super::families(design, options)?;
     let found =
-        design.search_moves(&families, &wishes, &args.options(options.seed)).map_err(|e| failed(&e))?;
+        design.search_moves(&families, &targets, &args.options(options.seed)).map_err(|e| failed(&e))?;
     let mut record = MoveSearchAnswer::new(design, &found);
     if let Some(folder) = output {
         files::make_folder(folder)?;
@@ -52,6 +52,6 @@ pub(in crate::app::cli::commands) fn failed(why: &SearchError) -> Failure {
         SearchError::Linalg(_) => Failure::internal(why.to_string()),
         SearchError::Dependent(_) => Failure::refused("move::singular_design", why.to_string())
             .with_help("`equipod check DESIGN` says why"),
-        _ => Failure::refused("move::bad_wish", why.to_string()),
+        _ => Failure::refused("move::bad_target", why.to_string()),
     }
 }

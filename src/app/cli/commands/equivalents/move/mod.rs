@@ -1,7 +1,7 @@
 //! `equipod equivalents move`: moves legs along families of replaceable legs, or searches for an equivalent platform.
 
 pub(in crate::app::cli::commands) mod found;
-mod wishes;
+mod targets;
 
 use std::path::PathBuf;
 
@@ -47,7 +47,7 @@ pub(crate) struct EquivalentsMoveArgs {
     #[arg(long, conflicts_with_all = ["leg", "moves", "together"])]
     search: bool,
     #[command(flatten)]
-    wishes: wishes::WishArgs,
+    targets: targets::TargetArgs,
 }
 
 /// Moves legs, or searches for a platform.
@@ -59,11 +59,11 @@ pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<A
         if design.workspace.is_empty() {
             context.no_effect("workspace", "the design has no workspace")?;
         }
-        return found::run(args.output.as_deref(), &args.wishes, &design, options);
+        return found::run(args.output.as_deref(), &args.targets, &design, options);
     }
-    if let Some(option) = args.wishes.first_given() {
-        let message = format!("{option} is a wish for --search");
-        return Err(Failure::refused("move::wish_without_search", message).with_help("add --search"));
+    if let Some(option) = args.targets.first_given() {
+        let message = format!("{option} is a target of --search");
+        return Err(Failure::refused("move::target_without_search", message).with_help("add --search"));
     }
     let wanted = args.moves()?;
     if wanted.is_empty() {

@@ -10,7 +10,8 @@ use ::files::plot::{AlongFigure, AlongPart, sign_along};
 use ask::{Design, PoseFrames, SignPath, SignsBetween, SingularPosesReport};
 use platform::geom::Pose;
 use records::{
-    Number, PoseQuaternionRecord, SignPairRecord, SignPairsRecord, SignPartRecord, SignPathRecord, WayRecord,
+    JoiningPathRecord, Number, PoseQuaternionRecord, SignPairRecord, SignPairsRecord, SignPartRecord,
+    SignPathRecord,
 };
 use synthesis::singularity::{Sign, SignsAlong};
 
@@ -92,6 +93,6 @@ pub(super) fn pairs_record(between: &SignsBetween) -> SignPairsRecord {
         signs: between.joined.signs.iter().map(|s| (*s).into()).collect(),
         pairs: between.straight.iter().map(pair).collect(),
         groups: groups.collect(),
-        ways: between.joined.ways.iter().map(WayRecord::from).collect(),
+        paths: between.joined.ways.iter().map(JoiningPathRecord::from).collect(),
     }
 }

@@ -5,12 +5,12 @@ use crate::app::cli::output::Answer;
 use ask::{Design, PoseFigures, PoseFrames};
 use platform::geom::Pose;
 use records::{
-    JudgedPoseRecord, Number, PoseConventionRecord, PoseInFrames, RegularBoxRecord, RegularityRecord,
+    Number, PoseConventionRecord, PoseFiguresRecord, PoseInFrames, RegularBoxRecord, RegularityRecord,
     ScaledPoseRecord, SingularitiesAnswer,
 };
 
-fn judged(j: &PoseFigures) -> JudgedPoseRecord {
-    JudgedPoseRecord {
+fn judged(j: &PoseFigures) -> PoseFiguresRecord {
+    PoseFiguresRecord {
         pose: (&j.pose).into(),
         determinant: Number(j.determinant),
         inverse_condition: Number(j.inverse_condition),

@@ -4,13 +4,13 @@ use nalgebra::Point3;
 
 use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers::{self, Length};
-use ask::{Design, MoveWishes};
+use ask::{Design, MoveTargets};
 use platform::manipulator::{Body, LegIndex};
 use synthesis::relocate::search::{Hole, MoveSearchOptions};
 
 /// The requested properties of an equivalent platform.
 #[derive(Debug, Default, clap::Args)]
-pub(in crate::app::cli::commands) struct WishArgs {
+pub(in crate::app::cli::commands) struct TargetArgs {
     /// Search: every joint holds one leg
     #[arg(long)]
     no_shared_joints: bool,
@@ -44,7 +44,7 @@ pub(in crate::app::cli::commands) struct WishArgs {
     count: Option<usize>,
 }
 
-impl WishArgs {
+impl TargetArgs {
     /// The first requested property.
     pub(super) fn first_given(&self) -> Option<&'static str> {
         let given = [
@@ -62,11 +62,11 @@ impl WishArgs {
     }
 
     /// The requested properties.
-    pub(in crate::app::cli::commands) fn wishes(&self, design: &Design) -> Result<MoveWishes, Failure> {
+    pub(in crate::app::cli::commands) fn targets(&self, design: &Design) -> Result<MoveTargets, Failure> {
         let asked =
             self.no_shared_joints || self.no_crossing || !self.hole.is_empty() || !self.joint.is_empty();
         if !asked && self.spacing.is_none() && self.conditioning.is_none() && self.reach.is_none() {
-            return Err(Failure::refused("move::no_wish", "a search needs a wish").with_help(
+            return Err(Failure::refused("move::no_target", "a search needs a target").with_help(
                 "--no-shared-joints, --no-crossing, --hole, --joint, --spacing, --conditioning, --reach",
             ));
         }
@@ -77,7 +77,7 @@ impl WishArgs {
         for text in &self.joint {
             holes.push(joint(text, design)?);
         }
-        Ok(MoveWishes {
+        Ok(MoveTargets {
             no_shared_joints: self.no_shared_joints,
             no_crossing: self.no_crossing,
             clearance: Length::of_option(self.clearance.as_ref(), &design.units)?,

@@ -21,9 +21,9 @@ const GROWN: f64 = 1.2;
 
 /// The active bounds of a platform, and the growth of its bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RidingRecord {
+pub struct ActiveBoundsRecord {
     /// Active ranges of variables and active limits.
-    pub bounds: Vec<RiddenBoundRecord>,
+    pub bounds: Vec<ActiveBoundRecord>,
     /// Growth of the base as a factor: greatest distance of a base joint from the centre of the base joints, divided by
     /// its value in the design.
     pub base_growth: Number,
@@ -36,11 +36,11 @@ pub struct RidingRecord {
 
 /// An active bound.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RiddenBoundRecord {
+pub struct ActiveBoundRecord {
     /// The name of a variable or a requirement, or `abs_det`.
     pub name: String,
     /// The kind of bound.
-    pub kind: RiddenWord,
+    pub kind: ActiveBoundWord,
     /// The value of the variable or the margin of the limit.
     pub value: Number,
     /// The unit of the value; empty for a pure number.
@@ -50,13 +50,13 @@ pub struct RiddenBoundRecord {
 /// The kind of an active bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum RiddenWord {
+pub enum ActiveBoundWord {
     /// The end of the range of a variable.
-    RangeEnd,
+    Range,
     /// The limit itself.
     Limit,
     /// The safety margin on the limit, which is kept.
-    Reserve,
+    SafetyMargin,
 }
 
 /// `|det A|` of a platform beyond the least value, this least value, and the safety margin on it.
@@ -64,10 +64,10 @@ pub enum RiddenWord {
 pub(super) struct DetMargin {
     pub(super) left: f64,
     pub(super) least: f64,
-    pub(super) reserve: f64,
+    pub(super) safety_margin: f64,
 }
 
-impl RidingRecord {
+impl ActiveBoundsRecord {
     /// The active bounds of a platform found for a design; `None` if there are none and no body has grown.
     pub(super) fn new(
         design: &Design,
@@ -76,21 +76,23 @@ impl RidingRecord {
         margins: &[MarginRecord],
         det: Option<DetMargin>,
     ) -> Option<Self> {
-        let mut bounds: Vec<RiddenBoundRecord> = variables.iter().filter_map(at_end).collect();
+        let mut bounds: Vec<ActiveBoundRecord> = variables.iter().filter_map(at_end).collect();
         let required = c.design.requirements();
         for m in margins.iter().filter(|m| !m.violates()) {
             let whole = Some(required.whole(m.name)).filter(|x| *x > 0.0);
             let scale = whole.unwrap_or_else(|| c.design.manipulator().size());
-            let kind = if m.reserve.0 > 0.0 { RiddenWord::Reserve } else { RiddenWord::Limit };
-            if m.margin_with_reserve.0 <= NOTHING * scale {
+            let kind =
+                if m.safety_margin.0 > 0.0 { ActiveBoundWord::SafetyMargin } else { ActiveBoundWord::Limit };
+            if m.net_margin.0 <= NOTHING * scale {
                 let (name, unit) = (m.name.code().to_owned(), m.unit.clone());
-                bounds.push(RiddenBoundRecord { name, kind, value: m.margin, unit });
+                bounds.push(ActiveBoundRecord { name, kind, value: m.margin, unit });
             }
         }
-        if let Some(d) = det.filter(|d| d.left - d.reserve <= NOTHING * d.least) {
-            let kind = if d.reserve > 0.0 { RiddenWord::Reserve } else { RiddenWord::Limit };
+        if let Some(d) = det.filter(|d| d.left - d.safety_margin <= NOTHING * d.least) {
+            let kind =
+                if d.safety_margin > 0.0 { ActiveBoundWord::SafetyMargin } else { ActiveBoundWord::Limit };
             let (name, value) = ("abs_det".to_owned(), Number(d.left));
-            bounds.push(RiddenBoundRecord { name, kind, value, unit: String::new() });
+            bounds.push(ActiveBoundRecord { name, kind, value, unit: String::new() });
         }
         let growth = Body::BOTH.map(|body| c.design.radius(body) / design.radius(body));
         let grown: Vec<String> = Body::BOTH
@@ -108,13 +110,13 @@ impl RidingRecord {
 }
 
 /// A variable at an end of its range.
-fn at_end(v: &ChosenVariable) -> Option<RiddenBoundRecord> {
+fn at_end(v: &ChosenVariable) -> Option<ActiveBoundRecord> {
     let [low, high] = v.bounds;
     let left = (v.value - low).min(high - v.value);
     let range = high - low;
-    (range.is_finite() && range > 0.0 && left <= AT_END * range).then(|| RiddenBoundRecord {
+    (range.is_finite() && range > 0.0 && left <= AT_END * range).then(|| ActiveBoundRecord {
         name: v.name.clone(),
-        kind: RiddenWord::RangeEnd,
+        kind: ActiveBoundWord::Range,
         value: Number(v.value),
         unit: String::new(),
     })
@@ -125,9 +127,9 @@ fn said(name: &str) -> &str {
     TermKind::ALL.into_iter().find(|kind| kind.code() == name).map_or(name, |kind| kind.label())
 }
 
-fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
+fn message(bounds: &[ActiveBoundRecord], grown: &[String]) -> String {
     let mut parts: Vec<String> = Vec::new();
-    let ends: Vec<&RiddenBoundRecord> = bounds.iter().filter(|b| b.kind == RiddenWord::RangeEnd).collect();
+    let ends: Vec<&ActiveBoundRecord> = bounds.iter().filter(|b| b.kind == ActiveBoundWord::Range).collect();
     let mut values: Vec<String> = ends.iter().map(|b| short(b.value.0)).collect();
     values.sort();
     values.dedup();
@@ -137,14 +139,15 @@ fn message(bounds: &[RiddenBoundRecord], grown: &[String]) -> String {
         let their = if names.len() == 1 { "its" } else { "their" };
         parts.push(format!("{} = {value} (end of {their} range)", names.join(", ")));
     }
-    for b in bounds.iter().filter(|b| b.kind != RiddenWord::RangeEnd) {
-        let what = if b.kind == RiddenWord::Reserve { "its safety margin" } else { "no safety margin" };
+    for b in bounds.iter().filter(|b| b.kind != ActiveBoundWord::Range) {
+        let what =
+            if b.kind == ActiveBoundWord::SafetyMargin { "its safety margin" } else { "no safety margin" };
         let left = format!("{} {}", short(b.value.0), b.unit);
         parts.push(format!("{} ({} left, {what})", said(&b.name), left.trim_end()));
     }
     let active = if parts.is_empty() { None } else { Some(format!("active limits: {}", parts.join(", "))) };
     let all: Vec<String> = active.into_iter().chain(grown.iter().cloned()).collect();
-    format!("{}; `reserve` in [limits] sets safety margins, [envelope] bounds the size", all.join("; "))
+    format!("{}; `safety_margin` in [limits] sets safety margins, [envelope] bounds the size", all.join("; "))
 }
 
 #[cfg(test)]
@@ -160,11 +163,13 @@ mod tests {
     fn ends_of_ranges_are_named_together_and_what_has_room_is_not() {
         let all =
             [variable("t1", -0.3), variable("t2", 0.2), variable("t3", -0.3 + 1e-8), variable("t4", 1.3)];
-        let bounds: Vec<RiddenBoundRecord> = all.iter().filter_map(at_end).collect();
+        let bounds: Vec<ActiveBoundRecord> = all.iter().filter_map(at_end).collect();
         assert_eq!(bounds.iter().map(|b| b.name.as_str()).collect::<Vec<_>>(), ["t1", "t3", "t4"]);
         let text = message(&bounds, &["the base is 2.6 times as wide".to_owned()]);
         assert!(text.contains("t1, t3 = -0.3 (end of their range), t4 = 1.3 (end of its range)"), "{text}");
-        assert!(text.contains("2.6 times") && text.contains("`reserve`") && text.contains("[envelope]"));
+        assert!(
+            text.contains("2.6 times") && text.contains("`safety_margin`") && text.contains("[envelope]")
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Reserves of limits, which leave space for later steps (rounding, tolerances, a heavier payload).
+//! Safety margins of limits, which leave space for later steps (rounding, tolerances, a heavier payload).
 
 use std::collections::BTreeMap;
 
@@ -7,26 +7,26 @@ use super::envelope::Envelope;
 use super::term::TermKind;
 use platform::manipulator::Body;
 
-/// The required reserve of a limit.
+/// The required safety margin of a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reserve {
+pub enum SafetyMargin {
     /// An amount in the unit of the margin.
     Amount(f64),
-    /// A share of a reference value, percent ([`Requirements::reserve`] lists the reference values).
+    /// A share of a reference value, percent ([`Requirements::safety_margin`] lists the reference values).
     Percent(f64),
 }
 
-/// The reserves on all limits.
+/// The safety margins on all limits.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Reserves {
-    /// Percentage for every limit without its own reserve.
+pub struct SafetyMargins {
+    /// Percentage for every limit without its own safety margin.
     pub all: Option<f64>,
-    /// Reserves of single kinds.
-    pub kinds: BTreeMap<TermKind, Reserve>,
+    /// Safety margins of single kinds.
+    pub kinds: BTreeMap<TermKind, SafetyMargin>,
 }
 
-impl Reserves {
-    /// `true` when no limit has a reserve.
+impl SafetyMargins {
+    /// `true` when no limit has a safety margin.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.all.is_none() && self.kinds.is_empty()
@@ -34,7 +34,7 @@ impl Reserves {
 }
 
 impl Requirements {
-    /// The reserve on a kind of requirement, in the unit of its margin: 0 without a reserve.
+    /// The safety margin on a kind of requirement, in the unit of its margin: 0 without a safety margin.
     ///
     /// The reference value of a percentage depends on the kind. For lengths it is the travel (greatest minus least).
     /// For angles, forces and speeds it is the greatest value, or the least of these if legs differ. For stiffness and
@@ -44,12 +44,12 @@ impl Requirements {
     /// edge. For cranks it is the shortest rod, half the narrowest range of angles, the least transmission angle, or
     /// the greatest joint angle, torque or speed.
     #[must_use]
-    pub fn reserve(&self, kind: TermKind) -> f64 {
-        let own = self.reserves.kinds.get(&kind).copied();
-        match own.or(self.reserves.all.map(Reserve::Percent)) {
+    pub fn safety_margin(&self, kind: TermKind) -> f64 {
+        let own = self.safety_margins.kinds.get(&kind).copied();
+        match own.or(self.safety_margins.all.map(SafetyMargin::Percent)) {
             None => 0.0,
-            Some(Reserve::Amount(amount)) => amount,
-            Some(Reserve::Percent(percent)) => percent / 100.0 * self.whole(kind),
+            Some(SafetyMargin::Amount(amount)) => amount,
+            Some(SafetyMargin::Percent(percent)) => percent / 100.0 * self.whole(kind),
         }
     }
 
@@ -67,14 +67,14 @@ impl Requirements {
         };
         let envelope = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
         match kind {
-            TermKind::LegTooShort | TermKind::LegTooLong => h.leg_length.map_or(0.0, |l| {
+            TermKind::MinLegLength | TermKind::MaxLegLength => h.leg_length.map_or(0.0, |l| {
                 let (least, greatest) = l.range();
                 greatest - least
             }),
-            TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| s.least_deg()),
-            TermKind::PlatformSwing => {
-                let of_rods = self.cranks.as_ref().and_then(|cranks| cranks.platform_swing_deg);
-                h.platform_swing.map(|s| s.least_deg()).or(of_rods).unwrap_or(0.0)
+            TermKind::BaseConeAngle => h.base_cone_angle.map_or(0.0, |s| s.least_deg()),
+            TermKind::PlatformConeAngle => {
+                let of_rods = self.cranks.as_ref().and_then(|cranks| cranks.platform_cone_angle_deg);
+                h.platform_cone_angle.map(|s| s.least_deg()).or(of_rods).unwrap_or(0.0)
             }
             TermKind::BaseFirstAngle
             | TermKind::BaseSecondAngle
@@ -119,16 +119,16 @@ mod tests {
             ..Hardware::default()
         };
         let mut required = Requirements { hardware, ..Requirements::default() };
-        assert!(TermKind::ALL.iter().all(|kind| required.reserve(*kind) == 0.0));
-        required.reserves.all = Some(5.0);
-        let near = |kind, x: f64| (required.reserve(kind) - x).abs() < 1e-12;
-        assert!(near(TermKind::LegTooLong, 30.0) && near(TermKind::LegTooShort, 30.0));
+        assert!(TermKind::ALL.iter().all(|kind| required.safety_margin(*kind) == 0.0));
+        required.safety_margins.all = Some(5.0);
+        let near = |kind, x: f64| (required.safety_margin(kind) - x).abs() < 1e-12;
+        assert!(near(TermKind::MaxLegLength, 30.0) && near(TermKind::MinLegLength, 30.0));
         assert!(near(TermKind::LegForce, 200.0) && near(TermKind::BaseSpacing, 2.0));
         assert!(
             near(TermKind::LegSpeed, 0.0) && near(TermKind::MachineEnvelope, 0.0),
-            "no limit, no reserve"
+            "no limit, no safety margin"
         );
-        required.reserves.kinds.insert(TermKind::LegForce, Reserve::Amount(350.0));
-        assert_eq!(required.reserve(TermKind::LegForce).to_bits(), 350.0_f64.to_bits());
+        required.safety_margins.kinds.insert(TermKind::LegForce, SafetyMargin::Amount(350.0));
+        assert_eq!(required.safety_margin(TermKind::LegForce).to_bits(), 350.0_f64.to_bits());
     }
 }

@@ -23,7 +23,7 @@ pub struct Hole {
 
 /// The requirements of the search. Lengths are in design units.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wishes {
+pub struct Targets {
     /// Every joint carries one leg.
     pub no_shared_joints: bool,
     /// Smallest distance of two joints of one body.
@@ -42,7 +42,7 @@ pub struct Wishes {
     pub characteristic_length: f64,
 }
 
-impl Wishes {
+impl Targets {
     pub(super) fn validate(&self) -> Result<(), SearchError> {
         let limits = [
             ("spacing", self.spacing),
@@ -60,7 +60,7 @@ impl Wishes {
 
 /// A requirement of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
+pub enum Target {
     /// Distance of joints; joints shared in the pattern count only if sharing is forbidden.
     Spacing,
     /// Distance of legs.
@@ -72,9 +72,9 @@ pub enum Wish {
 }
 
 #[cfg(feature = "serde")]
-num::written_as_word!(Wish);
+num::written_as_word!(Target);
 
-impl Wish {
+impl Target {
     /// The name used in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -89,11 +89,11 @@ impl Wish {
 
 /// The margin of a requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "WishMarginRecord", transform = num::nullable))]
-pub struct WishMargin {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "TargetMarginRecord", transform = num::nullable))]
+pub struct TargetMargin {
     /// The requirement.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["spacing", "clearance", "conditioning", "reach"])))]
-    pub wish: Wish,
+    pub target: Target,
     /// The value of the platform.
     // design units, a ratio for the conditioning
     pub value: f64,
