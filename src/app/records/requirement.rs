@@ -17,8 +17,8 @@ pub struct MarginRecord {
     pub name: TermKind,
     /// The least margin over the sampled poses, negative for a violation.
     pub margin: Number,
-    /// The safety margin that the design requires for this limit, in the unit of the margin; 0: none. Programs read this
-    /// field under its first name.
+    /// The safety margin that the design requires for this limit, in the unit of the margin; 0: none. Its name in
+    /// JSON is older than the word.
     #[serde(rename = "reserve")]
     pub safety_margin: Number,
     /// The margin minus the safety margin.
