@@ -19,6 +19,10 @@ use platform::manipulator::{Body, Manipulator};
 /// Moduli up to here keep the error bounds of discs valid.
 const LARGEST: f64 = (1u128 << 100) as f64;
 
+/// Circles on which a polynomial is evaluated, about this many. A coefficient is enclosed best on the circle on which
+/// its term is largest.
+const CIRCLES: i32 = 24;
+
 /// More than the error of a root of unity: of the angle, below 2^-50 for angles up to 7, and of its sine and cosine.
 const CIRCLE: f64 = 16.0 * f64::EPSILON;
 
@@ -149,21 +153,31 @@ impl PosePolynomial {
     /// The polynomial with these roots, which are closed under conjugation.
     fn of(roots: &[Disc]) -> Result<Self, NoPosePolynomial> {
         let real_roots = real_roots(roots)?;
-        // on a circle of the size of the roots no coefficient is much larger than the others
-        let sizes = roots.iter().map(|root| root.centre.norm().log2()).filter(|size| size.is_finite());
-        let exponent = (sizes.sum::<f64>() / roots.len() as f64).round() as i32;
-        let shrunk: Vec<Disc> = roots.iter().map(|root| root.scaled(2f64.powi(-exponent))).collect();
-        let scaled = interpolated(&shrunk);
-        if !scaled.iter().all(|c| c.magnitude() < LARGEST) {
-            return Err(NoPosePolynomial::TooLarge);
+        let sizes = roots.iter().map(|root| root.centre.norm().log2().round());
+        let sizes: Vec<i32> = sizes.filter(|size| size.is_finite()).map(|size| size as i32).collect();
+        let (least, most) =
+            (sizes.iter().min().copied().unwrap_or(0), sizes.iter().max().copied().unwrap_or(0));
+        let step = usize::try_from((most - least) / CIRCLES).unwrap_or(0).max(1);
+        let mut found: Vec<Option<Interval>> = vec![None; roots.len()];
+        for exponent in (least..=most).step_by(step) {
+            // on a circle of the size of some roots
+            let shrunk: Vec<Disc> = roots.iter().map(|root| root.scaled(2f64.powi(-exponent))).collect();
+            let scaled = interpolated(&shrunk);
+            if !scaled.iter().all(|c| c.magnitude() < LARGEST) {
+                continue;
+            }
+            for (k, (best, c)) in found.iter_mut().zip(&scaled).enumerate() {
+                let below = i32::try_from(roots.len() - k).unwrap_or(i32::MAX);
+                let unit = 2f64.powi(exponent.saturating_mul(below));
+                let bounds = real_part(c) * Interval::from(unit);
+                let is_finite = unit.is_normal() && bounds.lo().is_finite() && bounds.hi().is_finite();
+                if is_finite && best.is_none_or(|b| bounds.hi() - bounds.lo() < b.hi() - b.lo()) {
+                    *best = Some(bounds);
+                }
+            }
         }
-        let degrees_below = (1..=roots.len()).rev().map(|k| i32::try_from(k).unwrap_or(i32::MAX));
-        let unit = |below: i32| Interval::from(2f64.powi(exponent.saturating_mul(below)));
-        let mut coefficients: Vec<Interval> =
-            scaled.iter().zip(degrees_below).map(|(c, below)| real_part(c) * unit(below)).collect();
-        if !coefficients.iter().all(|c| c.lo().is_finite() && c.hi().is_finite()) {
-            return Err(NoPosePolynomial::TooLarge);
-        }
+        let coefficients: Option<Vec<Interval>> = found.into_iter().collect();
+        let mut coefficients = coefficients.ok_or(NoPosePolynomial::TooLarge)?;
         coefficients.push(Interval::from(1.0));
         Ok(Self { coefficients, real_roots })
     }
