@@ -9,6 +9,7 @@ from typing import Any, Literal, Union
 
 from ._record import Record
 
+ActiveBoundWord = Literal["limit", "range", "safety_margin"]
 AlignmentUndecided = Literal["no_axes", "unclear_dimension", "within_errors"]
 AlignmentWord = Literal["found", "none", "undecided"]
 Body = Literal["base", "platform"]
@@ -122,7 +123,6 @@ RegionWord = Literal["box", "ellipsoid"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
 RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
 Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
-ActiveBoundWord = Literal["limit", "range", "safety_margin"]
 SearchMethodWord = Literal["dimensional", "offsets"]
 SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
@@ -135,13 +135,13 @@ StartName = Literal["closed_form", "nominal"]
 SymmetryWord = Literal["given_up", "kept"]
 TermKind = Literal[
     "angular_stiffness",
+    "base_cone_angle",
     "base_envelope",
     "base_first_angle",
     "base_hole_edge",
     "base_hole_gap",
     "base_second_angle",
     "base_spacing",
-    "base_cone_angle",
     "crank_angle",
     "crank_speed",
     "crank_torque",
@@ -150,22 +150,22 @@ TermKind = Literal[
     "leg_clearance",
     "leg_force",
     "leg_speed",
-    "max_leg_length",
-    "min_leg_length",
     "linear_stiffness",
     "machine_envelope",
+    "max_leg_length",
+    "max_rod_length",
+    "min_leg_length",
+    "min_rod_length",
     "natural_frequency",
     "payload_clearance",
     "plate_clearance",
+    "platform_cone_angle",
     "platform_envelope",
     "platform_first_angle",
     "platform_hole_edge",
     "platform_hole_gap",
     "platform_second_angle",
     "platform_spacing",
-    "platform_cone_angle",
-    "max_rod_length",
-    "min_rod_length",
     "tip_angle",
 ]
 VariantWord = Literal["exact", "nearest"]
@@ -180,6 +180,34 @@ class AccuracyRecord(Record):
     position: float
     #: Error of the orientation, degrees.
     rotation_deg: float
+
+
+class ActiveBoundRecord(Record):
+    """An active bound."""
+
+    #: The name of a variable or a requirement, or `abs_det`.
+    name: str
+    #: The kind of bound.
+    kind: ActiveBoundWord
+    #: The value of the variable or the margin of the limit.
+    value: Union[float, None]
+    #: The unit of the value; empty for a pure number.
+    unit: str
+
+
+class ActiveBoundsRecord(Record):
+    """The active bounds of a platform, and the growth of its bodies."""
+
+    #: Active ranges of variables and active limits.
+    bounds: tuple[ActiveBoundRecord, ...]
+    #: Growth of the base as a factor: greatest distance of a base joint from the centre of the base
+    #: joints, divided by its value in the design.
+    base_growth: Union[float, None]
+    #: Growth of the platform as a factor: greatest distance of a platform joint from the centre of the
+    #: platform joints, divided by its value in the design.
+    platform_growth: Union[float, None]
+    #: The bounds in one sentence.
+    message: str
 
 
 class AlignmentRecord(Record):
@@ -229,8 +257,8 @@ class AssessAnswer(Record):
     name: str
     #: The role of the design in this answer.
     role: DesignRoleWord
-    #: The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved. False: one
-    #: pose proves a violation or a change of sign of det J. Null: neither is proved.
+    #: The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved.
+    #: False: one pose proves a violation or a change of sign of det J. Null: neither is proved.
     met: Union[bool, None]
     #: The verdict in one sentence.
     explanation: str
@@ -267,6 +295,21 @@ class AssessAnswer(Record):
     assumptions: Union[tuple[str, ...], None]
 
 
+class AssessedPosesRecord(Record):
+    """The poses of an assessment, with home."""
+
+    #: Whether the design states a workspace; otherwise only home is assessed.
+    stated: bool
+    #: Whether every pose of a region around home is assessed.
+    region: bool
+    #: Number of single poses; the motions between them are not assessed.
+    listed: int
+    #: Number of poses of a trajectory; the straight motions between them are assessed too.
+    trajectory: int
+    #: The wording of the verdict if the requirements are met at these poses.
+    met_in_words: str
+
+
 class AtAnswer(Record):
     """One JSON document: an answer with the fields that all answers have."""
 
@@ -284,7 +327,8 @@ class AtAnswer(Record):
     pose: PoseQuaternionRecord
     #: The pose in the convention of `frames`.
     in_frames: PoseInFrames
-    #: The point of the platform that wrenches, shifts and stiffness are about, platform frame of `frames`.
+    #: The reference point on the platform, platform frame of `frames`: wrenches, shifts and stiffness are
+    #: about it.
     point: tuple[Union[float, None], ...]
     #: The body whose axes all vectors have: `base` or `platform`.
     axes: str
@@ -303,8 +347,8 @@ class AtAnswer(Record):
     held: tuple[HeldWrenchRecord, ...]
     #: The wrench that the forces of `--forces` hold; null: none were given.
     wrench: Union[WrenchRecord, None]
-    #: A six-axis load cell: rows of the matrix that maps forces of the legs (torques of the cranks) to the
-    #: wrench that they hold, force before torque; null where a rod does not reach or a crank is singular.
+    #: Rows of the matrix that maps leg forces (or crank torques) to the wrench that they hold, force
+    #: before torque, as in a six-axis load cell; null where a rod does not reach or a crank is singular.
     wrench_matrix: Union[tuple[tuple[Union[float, None], ...], ...], None]
     #: Stiffness at the point; null: the design states neither `leg_stiffness` nor, for cranks,
     #: `stiffness`.
@@ -354,13 +398,14 @@ class BoundedProof(Record):
 
     #: Certified poses listed, with multiplicity.
     poses: int
-    #: Others, certified to be different and farther out, or at infinity; null: the proof needs no others.
+    #: Number of far poses, certified to be different and farther out, or at infinity; null: the proof
+    #: needs none.
     far: Union[int, None]
-    #: The distance: every pose whose rotation matrix has no entry of a larger modulus is listed. Entries
-    #: of real rotations are at most 1. Null: the proof is about real poses alone.
-    rotation: Union[float, None]
-    #: Largest distance of the ends of a leg, both together, from those of a neighbouring design that has
-    #: no more poses, in design units. The proof is then about real poses. Null: it is about far poses.
+    #: Bound on rotation entries: every pose whose rotation matrix has no entry of a larger modulus is
+    #: listed. Entries of real rotations are at most 1. Null: the proof is about real poses alone.
+    R: Union[float, None]
+    #: Largest change of the two ends of a leg (both together) in a neighbouring design that has no more
+    #: poses, design units. The proof is then about real poses. Null: it is about far poses.
     neighbour: Union[float, None]
     #: The far poses, the nearest ones first.
     others: tuple[FarPoses, ...]
@@ -538,8 +583,8 @@ class CalibrationRecord(Record):
     chi_square: ChiSquareRecord
     #: Measurements that contradict the others, the farthest first.
     outliers: tuple[OutlierRecord, ...]
-    #: Two legs, from 1, with measured lengths probably exchanged: swapped, they are five times nearer to
-    #: the design. Null: none.
+    #: Two legs whose measured lengths are probably exchanged, from 1: swapped, they are five times nearer
+    #: to the design. Null: none.
     exchanged_legs: Union[tuple[int, ...], None]
 
 
@@ -687,7 +732,7 @@ class ClosurePolynomialRecord(Record):
     unknown: tuple[str, ...]
     #: The joints of the first triangle.
     start: tuple[str, ...]
-    #: The trilaterations after it.
+    #: The trilaterations after the first triangle.
     sequence: tuple[TrilaterationStepRecord, ...]
     #: The unknowns by their names.
     unknowns: tuple[str, ...]
@@ -732,7 +777,7 @@ class ClosureRecord(Record):
     unknown: Union[tuple[str, ...], None]
     #: The joints of the first triangle.
     start: Union[tuple[str, ...], None]
-    #: The trilaterations after it.
+    #: The trilaterations after the first triangle.
     sequence: Union[tuple[TrilaterationStepRecord, ...], None]
     #: The unknowns by their names.
     unknowns: Union[tuple[str, ...], None]
@@ -783,7 +828,7 @@ class CommonPointsRecord(Record):
     #: Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not
     #: isolated, or not counted.
     at_infinity: Union[int, None]
-    #: A bound on the probability that the numbers are others.
+    #: A bound on the probability that the numbers are wrong.
     error_probability: float
 
 
@@ -877,14 +922,13 @@ class ComputedPosesRecord(Record):
     #: Number of poses evaluated: the poses of the workspace at which the requirements of the design are
     #: met.
     poses: int
-    #: Root mean square error of the platform origin of the measurements, design units: the median over the
-    #: poses.
+    #: Median over the poses of the root mean square error of the measured platform origin, design units.
     position_median: Union[float, None]
-    #: Root mean square error of the platform origin, design units: the greatest over the poses.
+    #: Greatest root mean square error of the measured platform origin over the poses, design units.
     position_greatest: Union[float, None]
-    #: Root mean square error of the orientation, degrees: the median over the poses.
+    #: Median over the poses of the root mean square error of the orientation, degrees.
     rotation_deg_median: Union[float, None]
-    #: Root mean square error of the orientation, degrees: the greatest over the poses.
+    #: Greatest root mean square error of the orientation over the poses, degrees.
     rotation_deg_greatest: Union[float, None]
     #: The pose with the greatest error of position.
     pose: PoseQuaternionRecord
@@ -940,7 +984,7 @@ class CornerLengthsRecord(Record):
 class CorrespondenceRecord(Record):
     """The leg of FROM that corresponds to each leg of TO."""
 
-    #: The leg of FROM, from 1, for each leg of TO; null: none.
+    #: The leg of FROM for each leg of TO, from 1; null: none.
     legs: tuple[Union[int, None], ...]
     #: The distance of the two legs divided by the size of the design.
     distances: tuple[Union[float, None], ...]
@@ -1124,9 +1168,9 @@ class DerivationRecord(Record):
 class Design(Record):
     """A design file of equipod, as JSON; a TOML file has the same structure. What no schema can say (joints of legs exist, axes are not zero, rotations are rotations) is checked by the program."""
 
-    #: of the design, not blank
+    #: name of the design, not blank
     name: str
-    #: label of the length unit; every length of the file is in it
+    #: label of the length unit of every length in the file
     units: str
     #: `[base joint, platform joint]` in leg order; in TOML above the first table
     legs: tuple[tuple[str, ...], ...]
@@ -1134,9 +1178,9 @@ class Design(Record):
     base: DesignBody
     #: joints in the platform frame, each as `[x, y, z]` or as a construction
     platform: DesignBody
-    #: unit of all forces, newtons where none is named; torques are in it times the length unit
+    #: unit of all forces, default newtons; torques are in force units times the length unit
     force_units: Union[Literal["N", "kN", "kgf", "lbf"], None]
-    #: unit of all masses; kilograms where none is named
+    #: unit of all masses, default kilograms
     mass_units: Union[Literal["g", "kg", "t", "lb"], None]
     #: where the numbers come from
     source: Union[str, None]
@@ -1155,7 +1199,7 @@ class Design(Record):
     cranks: Union[dict[str, DesignCrank], None]
     #: the pose the platform is built for
     home: Union[DesignHomePose, None]
-    #: the machine's own convention for poses that commands take and answer
+    #: convention of the poses that commands read and write
     frames: Union[dict[str, Any], None]
     #: the poses to reach
     workspace: Union[dict[str, Any], None]
@@ -1219,18 +1263,18 @@ class DesignCapsule(Record):
 class DesignCrank(Record):
     """DesignCrank"""
 
-    #: of each crank, from its centre to its tip
+    #: length of each crank, from its centre to its tip
     length: Union[DesignQuantity, None]
-    #: of each rod, from the tip to the platform joint
+    #: length of each rod, from the tip to the platform joint
     rod_length: Union[DesignQuantity, None]
-    #: direction of the axis, base frame; angles count about it by the right hand
+    #: direction of the axis, base frame; angles are positive by the right-hand rule
     axis: Union[tuple[DesignQuantity, ...], None]
     #: direction of the tip at the angle 0, base frame; its part along the axis is ignored
     zero: Union[tuple[DesignQuantity, ...], None]
-    #: the side that the crank stays on: the greater or the smaller of the two angles around the one at
-    #: which the tip is nearest to the platform joint
+    #: side of the crank: the greater (`plus`) or the smaller (`minus`) of its two angles for a pose,
+    #: around the angle at which the tip is nearest to the platform joint
     elbow: Union[Literal["plus", "minus"], None]
-    #: `[least, greatest]` angle, degrees; none when absent
+    #: `[least, greatest]` angle, degrees; no limit when absent
     angle_deg: Union[tuple[DesignQuantity, ...], None]
     #: the base joint of another crank: this one has its values, with axis and zero turned about the z axis
     #: of the base frame
@@ -1280,35 +1324,35 @@ class DesignHoleGrid(Record):
 class DesignHomePose(Record):
     """DesignHomePose"""
 
-    #: of the platform origin, base frame
+    #: position of the platform origin, base frame
     position: tuple[DesignQuantity, ...]
-    #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz`
-    #: and `rotation` is there
+    #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; give exactly one of `rpy_deg`,
+    #: `quat_wxyz` and `rotation`
     rpy_deg: Union[tuple[DesignQuantity, ...], None]
-    #: scalar part first, of norm 1 within 1e-3; it is normalised
+    #: quaternion, scalar part first, normalised; its norm is within 1e-3 of 1
     quat_wxyz: Union[DesignQuaternion, None]
-    #: rows of R, orthonormal within 1e-9 and right-handed; taken as it is
+    #: rows of R, orthonormal within 1e-9 and right-handed
     rotation: Union[DesignRows, None]
 
 
 class DesignJointModel(Record):
     """DesignJointModel"""
 
-    #: `ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a
-    #: right angle to it and to the leg; `flexure`: bends about its centre, within the cone angle
+    #: `ball`: rotates freely in a cone; `universal`: two axes, the first fixed in the body, the second at
+    #: a right angle to it and to the leg; `flexure`: bends about its centre, within the cone angle
     model: Literal["ball", "universal", "flexure"]
     #: universal: direction of the first axis in the frame of the body, one for all joints or six in leg
-    #: order, in a list of tables one; required
+    #: order, and one in each table of a list; required
     first_axis: Union[DesignVector, tuple[DesignVector, ...], None]
-    #: universal: greatest angles about the first and about the second axis, either way, degrees; none when
-    #: absent
+    #: universal: greatest angles about the first and about the second axis, in both directions, degrees;
+    #: no limit when absent
     angle_deg: Union[tuple[float, float], None]
     #: universal: distance of the two axes, which meet when it is 0
     offset: Union[DesignNotNegative, None]
-    #: space that the joint occupies, in place of that of the body: a diameter, or edge lengths of a box
-    #: along the axes of the body
+    #: space that the joint occupies, in place of the housing of the body: a diameter, or edge lengths of a
+    #: box along the axes of the body
     housing: Union[DesignHousing, None]
-    #: greatest angle between the leg and the axis of the joint, in place of that of the body
+    #: greatest angle between the leg and the axis of the joint, in place of the angle of the body
     #: (`base_cone_angle_deg`, `platform_cone_angle_deg`)
     cone_angle_deg: Union[float, None]
     #: flexure: torque over angle, force units times design units per radian; required
@@ -1345,14 +1389,14 @@ class DesignPlate(Record):
 class DesignPose(Record):
     """DesignPose"""
 
-    #: of the platform origin, base frame
+    #: position of the platform origin, base frame
     position: DesignVector
-    #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz`
-    #: and `rotation` is there
+    #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; give exactly one of `rpy_deg`,
+    #: `quat_wxyz` and `rotation`
     rpy_deg: Union[DesignVector, None]
-    #: scalar part first, of norm 1 within 1e-3; it is normalised
+    #: quaternion, scalar part first, normalised; its norm is within 1e-3 of 1
     quat_wxyz: Union[DesignQuaternion, None]
-    #: rows of R, orthonormal within 1e-9 and right-handed; taken as it is
+    #: rows of R, orthonormal within 1e-9 and right-handed
     rotation: Union[DesignRows, None]
 
 
@@ -1551,7 +1595,8 @@ class DrivesAnswer(Record):
     #: The name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap
     #: ones; null: there is none.
     chosen: Union[str, None]
-    #: All drives, in the order fitting, undecided, not fitting; within each group by price, then mass.
+    #: All drives: fitting ones first, then undecided and unfit ones; within each group by price, then
+    #: mass.
     drives: tuple[DriveRecord, ...]
     #: The currency of prices from the table; null: the table names none.
     currency: Union[str, None]
@@ -1589,7 +1634,7 @@ class ErrorMapRecord(Record):
     joint_error: Union[float, None]
     #: The greatest error of each leg length, design units.
     length_error: Union[float, None]
-    #: Relative expansion of base, platform and legs, with either sign.
+    #: Relative expansion of each part: base, platform and legs, with either sign.
     growth: tuple[Union[float, None], ...]
     #: Number of poses evaluated: the corners and a sample of the region, and the listed poses.
     poses: int
@@ -1599,6 +1644,25 @@ class ErrorMapRecord(Record):
     rotation_deg: GreatestErrorRecord
     #: The table of all poses written; null: none.
     path: Union[str, None]
+
+
+class EvaluationRecord(Record):
+    """The quality of a design."""
+
+    #: The worst inverse condition number over the poses.
+    objective: Union[float, None]
+    #: The pose of this value.
+    worst_pose: PoseQuaternionRecord
+    #: Least distances of two joints, base and platform.
+    least_distances: tuple[Union[float, None], ...]
+    #: det A; null: there is no leg map.
+    det: Union[float, None]
+    #: The least margin of each requirement.
+    requirements: tuple[RequirementMarginRecord, ...]
+    #: No requirement is violated.
+    met: bool
+    #: Every margin is at least its safety margin.
+    safety_margin_kept: bool
 
 
 class ExactNumberRecord(Record):
@@ -1890,7 +1954,7 @@ class FamilyTopologyRecord(Record):
 class FarPoses(Record):
     """Poses far out, certified in coordinates that are regular at infinity."""
 
-    #: Their number: two that are too close to be told apart, or one.
+    #: Number of poses in the group: two that are too close to be told apart, or one.
     poses: int
     #: The largest entry of their rotation matrices is at least this.
     rotation: float
@@ -1992,12 +2056,12 @@ class FkAnswer(Record):
     completeness_reason: Union[str, None]
     #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
     #: none.
-    bounded: Union[BoundedProof, None]
+    bound: Union[BoundedProof, None]
     #: Whether every path is accounted for; false: roots may be missing.
     all_paths_accounted: Union[bool, None]
     #: Number of `solutions`.
     finite_count: Union[int, None]
-    #: Number of `solutions`, counted with multiplicity.
+    #: Number of `solutions` with multiplicity.
     finite_count_with_multiplicity: Union[int, None]
     #: Number of real poses.
     real_count: Union[int, None]
@@ -2067,7 +2131,7 @@ class FkOneAnswer(Record):
     all_paths_accounted: bool
     #: Number of `solutions`.
     finite_count: int
-    #: Number of `solutions`, counted with multiplicity.
+    #: Number of `solutions` with multiplicity.
     finite_count_with_multiplicity: int
     #: Number of real poses.
     real_count: int
@@ -2090,7 +2154,7 @@ class FkOneAnswer(Record):
     frames: Union[PoseConventionRecord, None]
     #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
     #: none.
-    bounded: Union[BoundedProof, None]
+    bound: Union[BoundedProof, None]
     #: The computations of the linear algebra libraries for `--method template`.
     library_calls: Union[tuple[LibraryCallsRecord, ...], None]
     #: The meaning of null for each number that is not finite.
@@ -2150,12 +2214,12 @@ class FkRowRecord(Record):
     completeness_reason: Union[str, None]
     #: The numbers of the proof that the list holds all poses up to a distance; null: another proof, or
     #: none.
-    bounded: Union[BoundedProof, None]
+    bound: Union[BoundedProof, None]
     #: Whether every path is accounted for; false: roots may be missing.
     all_paths_accounted: Union[bool, None]
     #: Number of `solutions`.
     finite_count: Union[int, None]
-    #: Number of `solutions`, counted with multiplicity.
+    #: Number of `solutions` with multiplicity.
     finite_count_with_multiplicity: Union[int, None]
     #: Number of real poses.
     real_count: Union[int, None]
@@ -2241,7 +2305,7 @@ class FrameMotionsRecord(Record):
 class FreeRangeRecord(Record):
     """The free travel of one of the six numbers of a pose."""
 
-    #: The number: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
+    #: The pose coordinate: `x`, `y`, `z`, and `roll`, `pitch`, `yaw` or the angles of another order.
     axis: str
     #: `deg` or `rad`, or the unit of length.
     unit: str
@@ -2268,7 +2332,7 @@ class FreeSizeRecord(Record):
 class FreeTurnRecord(Record):
     """The free rotation of the platform about an axis."""
 
-    #: The axis `x`, `y` or `z` of the base frame.
+    #: The axis of the base frame: `x`, `y` or `z`.
     axis: str
     #: The free angle in the negative sense, degrees, given as a positive number.
     back_deg: float
@@ -2425,7 +2489,8 @@ class GridRecord(Record):
     #: Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt
     #: circles.
     pitch: Union[float, None]
-    #: The first ring of a polar grid, or all bolt circles; empty for the other patterns.
+    #: The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other
+    #: patterns.
     circles: tuple[HoleCircleRecord, ...]
     #: A hole, or the centre of the circles, body frame, design units.
     origin: tuple[Union[float, None], ...]
@@ -2537,6 +2602,15 @@ class InstanceRecord(Record):
     platform_joints: int
 
 
+class JoiningPathRecord(Record):
+    """A path without singular pose between two assembly modes."""
+
+    #: The numbers of the two modes, from 1.
+    modes: tuple[int, ...]
+    #: The poses of the path, joined by straight segments.
+    poses: tuple[PoseQuaternionRecord, ...]
+
+
 class JointAxesRecord(Record):
     """Joint axes: unit vectors, body frame; null: not chosen."""
 
@@ -2561,7 +2635,7 @@ class JointBudgetRecord(Record):
     position_per_unit: Union[float, None]
     #: Error of the orientation per unit of joint error in the worst direction, degrees per design unit.
     rotation_deg_per_unit: Union[float, None]
-    #: The errors allowed along x, y and z of the body, design units; null: no influence.
+    #: The errors allowed along each axis of the body, design units; null: no influence.
     along_axes: tuple[Union[float, None], ...]
     #: Half widths of the box of largest volume for all joints together, design units; null: no influence.
     largest_product: tuple[Union[float, None], ...]
@@ -2607,55 +2681,6 @@ class JointsRecord(Record):
     explanation: str
 
 
-class PoseFiguresRecord(Record):
-    """A pose with figures of its Jacobian."""
-
-    #: Position of the platform origin, base frame, design units.
-    p: tuple[Union[float, None], ...]
-    #: Unit quaternion, scalar part first.
-    q: tuple[Union[float, None], ...]
-    #: det J of the leg lines, divided by the size to the sixth power.
-    determinant: Union[float, None]
-    #: Inverse condition number of the Jacobian: 1 at best, 0 at a singular pose.
-    inverse_condition: Union[float, None]
-    #: The two conditions for four planes through one point, for octahedral designs.
-    four_planes: Union[tuple[Union[float, None], ...], None]
-
-
-class AssessedPosesRecord(Record):
-    """The poses of an assessment, with home."""
-
-    #: Whether the design states a workspace; otherwise only home is assessed.
-    stated: bool
-    #: Whether every pose of a region around home is assessed.
-    region: bool
-    #: Number of single poses; the motions between them are not assessed.
-    listed: int
-    #: Number of poses of a trajectory; the straight motions between them are assessed too.
-    trajectory: int
-    #: The wording of the verdict if the requirements are met at these poses.
-    met_in_words: str
-
-
-class EvaluationRecord(Record):
-    """The quality of a design."""
-
-    #: The worst inverse condition number over the poses.
-    objective: Union[float, None]
-    #: The pose of this value.
-    worst_pose: PoseQuaternionRecord
-    #: Least distances of two joints, base and platform.
-    least_distances: tuple[Union[float, None], ...]
-    #: det A; null: there is no leg map.
-    det: Union[float, None]
-    #: The least margin of each requirement.
-    requirements: tuple[RequirementMarginRecord, ...]
-    #: No requirement is violated.
-    met: bool
-    #: Every margin is at least its safety margin.
-    safety_margin_kept: bool
-
-
 class LeastConditioningRecord(Record):
     """The pose with the worst conditioning."""
 
@@ -2692,6 +2717,15 @@ class LegMotionRecord(Record):
     power_w: Union[ExtremeRecord, None]
 
 
+class LegPathPoseRecord(Record):
+    """A pose with all lengths but one."""
+
+    #: The distance of the joints of the leg.
+    length: float
+    #: The pose in the convention of `frames`.
+    in_frames: PoseInFrames
+
+
 class LegSlideRecord(Record):
     """One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose."""
 
@@ -2701,7 +2735,7 @@ class LegSlideRecord(Record):
     between: tuple[int, ...]
     #: The names of X and Y.
     ends: tuple[str, ...]
-    #: The name of Q = X + t (Y - X), the new joint of the leg.
+    #: The name of the new joint Q of the leg: Q = X + t (Y - X).
     moved: str
     #: The name of F, the joint that the leg keeps.
     fixed: str
@@ -2717,21 +2751,12 @@ class LegSlideRecord(Record):
     constant: ExactNumberRecord
 
 
-class LegPathPoseRecord(Record):
-    """A pose with all lengths but one."""
-
-    #: The distance of the joints of the leg.
-    length: float
-    #: The pose in the convention of `frames`.
-    in_frames: PoseInFrames
-
-
 class LibraryCallsRecord(Record):
     """A library of linear algebra computed this for an answer."""
 
     #: The library.
     library: str
-    #: The computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised
+    #: The kind of computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised
     #: eigenvectors.
     computation: str
     #: Rows and columns of the matrix.
@@ -2764,7 +2789,7 @@ class LimitRecord(Record):
     margin: Union[float, None]
     #: The unit of the margin; null: a pure ratio.
     unit: Union[str, None]
-    #: The legs, joints, keep-out or load concerned.
+    #: The parts that the requirement is about: legs, joints, keep-out or load.
     between: tuple[str, ...]
     #: The legs concerned, from 1.
     legs: tuple[int, ...]
@@ -2785,8 +2810,8 @@ class LimitsAnswer(Record):
     allowed: bool
     #: The requirements violated at the pose, the worst first.
     violated: tuple[LimitRecord, ...]
-    #: The free travel of x, y, z, roll, pitch and yaw, each while the others stay fixed; empty: the pose
-    #: is not allowed.
+    #: The free travel of each pose coordinate while the others stay fixed (x, y, z, roll, pitch, yaw);
+    #: empty: the pose is not allowed.
     axes: tuple[FreeRangeRecord, ...]
     #: The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is
     #: not allowed.
@@ -2893,7 +2918,7 @@ class MapAnswer(Record):
     relation: Union[Relation, None]
     #: The level of the proof; within rounding: nothing is proved.
     level: Level
-    #: Whether the relation holds exactly, or within rounding of the joints.
+    #: Whether the relation holds up to rounding of the joints; true for an exact relation too.
     holds_within_rounding: bool
     #: The relation in one sentence, with the numbers that decided.
     explanation: str
@@ -2954,7 +2979,7 @@ class MapRecord(Record):
     relation: Union[Relation, None]
     #: The level of the proof; within rounding: nothing is proved.
     level: Level
-    #: Whether the relation holds exactly, or within rounding of the joints.
+    #: Whether the relation holds up to rounding of the joints; true for an exact relation too.
     holds_within_rounding: bool
     #: The relation in one sentence, with the numbers that decided.
     explanation: str
@@ -3019,13 +3044,13 @@ class MappedLengthsRecord(Record):
 class MarginRecord(Record):
     """The least margin of a kind of requirement."""
 
-    #: The kind.
+    #: The kind of requirement.
     name: TermKind
     #: The least margin over the sampled poses, negative for a violation.
     margin: Union[float, None]
-    #: The safety margin that the design requires for this limit, in the unit of the margin; 0:
-    #: none.
-    safety_margin: Union[float, None]
+    #: The safety margin that the design requires for this limit, in the unit of the margin; 0: none. Its
+    #: name in JSON is older than the word.
+    reserve: Union[float, None]
     #: The margin minus the safety margin.
     net_margin: Union[float, None]
     #: Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at
@@ -3042,7 +3067,7 @@ class MarginRecord(Record):
     proved_margin: Union[float, None]
     #: The unit of the margins.
     unit: str
-    #: The legs, joints, keep-out or load with the least margin.
+    #: The parts with the least margin: legs, joints, keep-out or load.
     between: tuple[str, ...]
     #: The legs concerned, from 1; for a requirement on joints, the legs of the joint.
     legs: tuple[int, ...]
@@ -3068,7 +3093,7 @@ class MotionAnswer(Record):
     force_unit: str
     #: Assumed values that the file does not state, one sentence each.
     assumptions: tuple[str, ...]
-    #: The motions in the order trajectory, sines, accelerations.
+    #: The motions: the trajectory first, then sines and accelerations.
     motions: tuple[MotionRunRecord, ...]
     #: The stiffness of the platform at the pose of `--about`; null: not requested.
     stiffness: Union[StiffnessRecord, None]
@@ -3098,7 +3123,7 @@ class MotionRecord(Record):
 class MotionRunRecord(Record):
     """The legs along one motion."""
 
-    #: The file of the trajectory, or the manoeuvre as requested.
+    #: The trajectory file or the manoeuvre, as requested.
     motion: str
     #: Number of sampled instants.
     instants: int
@@ -3796,10 +3821,10 @@ class PoseBoundRecord(Record):
 class PoseConventionRecord(Record):
     """A convention for poses."""
 
-    #: Order of the turns: `fixed-xyz` and the like for fixed axes, `moving-xyz` for axes that are carried
-    #: along, or `vector` for rotation vectors.
+    #: Order of the rotations: `fixed-xyz` and the like for fixed axes, `moving-xyz` for moving axes, or
+    #: `vector` for rotation vectors.
     rotation_order: str
-    #: The same as a product of matrices for angles a, b, c in the order in which they are written.
+    #: The rotation as a product of matrices for the three angles a, b, c in their order.
     formula: str
     #: Unit of angles: `deg` or `rad`.
     angles: str
@@ -3818,7 +3843,7 @@ class PoseConventionRecord(Record):
 class PoseCountRecord(Record):
     """The finite poses of the design, counted without finding them."""
 
-    #: The number with multiplicity; null: not finite, or undecided.
+    #: Number of poses with multiplicity; null: not finite, or undecided.
     finite: Union[int, None]
     #: Number of standard monomials of each degree.
     by_degree: Union[tuple[int, ...], None]
@@ -3831,7 +3856,7 @@ class PoseCountRecord(Record):
     #: The counted lengths: the exact ones given, or generic ones, which have at least as many isolated
     #: poses. Lengths known only to rounding, such as images under a leg map, are counted as generic.
     lengths: CountedLengths
-    #: The evidence: a theorem with certificates, or counting modulo random primes.
+    #: The evidence for the count: a theorem with certificates, or counting modulo random primes.
     evidence: EvidenceWord
     #: A bound on the probability of a wrong count; null: proved, or undecided.
     error_probability: Union[float, None]
@@ -3855,6 +3880,21 @@ class PoseErrorsRecord(Record):
     position: QuantilesRecord
     #: Errors of the orientation, degrees.
     rotation_deg: QuantilesRecord
+
+
+class PoseFiguresRecord(Record):
+    """A pose with figures of its Jacobian."""
+
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+    #: Unit quaternion, scalar part first.
+    q: tuple[Union[float, None], ...]
+    #: det J of the leg lines, divided by the size to the sixth power.
+    determinant: Union[float, None]
+    #: Inverse condition number of the Jacobian: 1 at best, 0 at a singular pose.
+    inverse_condition: Union[float, None]
+    #: The two conditions for four planes through one point, for octahedral designs.
+    four_planes: Union[tuple[Union[float, None], ...], None]
 
 
 class PoseInFrames(Record):
@@ -4048,9 +4088,9 @@ class RegularityRecord(Record):
 class RejectedRecord(Record):
     """A candidate that is no root."""
 
-    #: Why.
+    #: The reason of the rejection.
     reason: RejectionReason
-    #: Its error in the leg equations, over the squared size.
+    #: Error of the candidate in the leg equations, over the squared size.
     residual: Union[float, None]
 
 
@@ -4111,34 +4151,6 @@ class ResolutionRecord(Record):
     drives: tuple[SmallMotionRecord, ...]
     #: Greatest change of each coordinate when every drive is off by up to a step: sums of the sizes.
     all: SmallMotionRecord
-
-
-class ActiveBoundRecord(Record):
-    """An active bound."""
-
-    #: The name of a variable or a requirement, or `abs_det`.
-    name: str
-    #: The kind of bound.
-    kind: ActiveBoundWord
-    #: The value of the variable, or the margin of the limit.
-    value: Union[float, None]
-    #: The unit of the value; empty for a pure number.
-    unit: str
-
-
-class ActiveBoundsRecord(Record):
-    """The active bounds of a platform, and the growth of its bodies."""
-
-    #: Active ranges of variables and active limits.
-    bounds: tuple[ActiveBoundRecord, ...]
-    #: Greatest distance of a base joint from the centre of the base joints, divided by its value in the
-    #: design.
-    base_growth: Union[float, None]
-    #: Greatest distance of a platform joint from the centre of the platform joints, divided by its value
-    #: in the design.
-    platform_growth: Union[float, None]
-    #: The bounds in one sentence.
-    message: str
 
 
 class RotationPolynomialRecord(Record):
@@ -4406,7 +4418,7 @@ class SearchedDriveRecord(Record):
     outcome: DriveSearchWord
     #: Value of the first objective of the platform found; null: no platform was found.
     objective: Union[float, None]
-    #: Margins against the drive's limits of length, force and speed, for the platform found or the one
+    #: Margins against the limits of the drive (length, force, speed), for the platform found or the one
     #: with the least violation. Empty: the drive was not searched.
     margins: tuple[MarginRecord, ...]
     #: The result for the three-fold symmetry of the design; null under the same conditions as without a
@@ -4544,8 +4556,8 @@ class SingularPosesAnswer(Record):
     name: str
     #: The unit of its lengths.
     units: str
-    #: Whether the workspace of the design, or the region of `--box` about the pose, holds no singular
-    #: pose; null: no region is given.
+    #: Whether the examined region is free of singular poses: the workspace of the design, or the region of
+    #: `--box` about the pose; null: no region is given.
     regular: Union[RegularityRecord, None]
     #: The given pose.
     pose: PoseFiguresRecord
@@ -4656,7 +4668,7 @@ class StartRecord(Record):
     taken: StartName
     #: Whether both starts led to the same machine; null: only one was tried.
     agree: Union[bool, None]
-    #: Sum of the losses, or the estimated deviation of a length, from the nominal joints; smaller is
+    #: Misfit from the nominal joints: sum of the losses, or estimated deviation of a length; smaller is
     #: better; null: not tried.
     nominal: Union[float, None]
     #: The same measure from the linear equations for squared lengths, which need no design; null: not
@@ -4728,7 +4740,7 @@ class SymmetryRecord(Record):
 class TightestRecord(Record):
     """The requirement with the least margin as a share of its limit."""
 
-    #: The kind.
+    #: The kind of requirement.
     name: TermKind
     #: The least margin divided by its limit, such as the travel of the legs or the greatest force;
     #: negative for a violation.
@@ -4775,7 +4787,8 @@ class TolerancesAnswer(Record):
     #: Uncertainty of computed poses due to the errors of the calibration, to first order; null: not
     #: requested.
     calibrated_poses: Union[CalibratedPosesRecord, None]
-    #: The greatest errors due to joints, leg lengths and temperature together; null: not requested.
+    #: The greatest errors from all causes together (joints, leg lengths, temperature); null: not
+    #: requested.
     map: Union[ErrorMapRecord, None]
     #: The poses evaluated.
     poses: BudgetPosesRecord
@@ -4873,8 +4886,8 @@ class VerifyAnswer(Record):
     proved: bool
     #: The algebraic evidence; if no motion was found, the map between the designs as given.
     map: MapRecord
-    #: For each leg of B, a bound on the difference between its squared length and A s + c, design units
-    #: squared. It holds at all poses of `sampling`, for any tolerance of the map. Null: the map is exact
+    #: Bounds on the difference between the squared length of each leg of B and A s + c, design units
+    #: squared. They hold at all poses of `sampling`, for any tolerance of the map. Null: the map is exact
     #: by proof, or singular, or no motion was found.
     deviation_bounds: Union[tuple[Union[float, None], ...], None]
     #: The largest distance of matched poses over all samples; null: none were compared.
@@ -4932,15 +4945,6 @@ class WarningRecord(Record):
     help: str
 
 
-class JoiningPathRecord(Record):
-    """A path without singular pose between two assembly modes."""
-
-    #: The numbers of the two modes, from 1.
-    modes: tuple[int, ...]
-    #: The poses of the path, joined by straight segments.
-    poses: tuple[PoseQuaternionRecord, ...]
-
-
 class WitnessRecord(Record):
     """A pose with rational coordinates."""
 
@@ -4973,7 +4977,7 @@ class WorkspaceSizeRecord(Record):
     box_searched: tuple[float, ...]
     #: The requirement violated in a slightly larger box; null: none was found.
     box_binds: Union[LimitRecord, None]
-    #: Rotations about x, y and z of the base frame through the platform origin, at home.
+    #: Rotations about each axis of the base frame through the platform origin, at home.
     turns: tuple[FreeTurnRecord, ...]
     #: Largest free angle of rotation about every axis in the xy plane of the base, at the position of
     #: home, degrees.
