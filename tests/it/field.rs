@@ -200,7 +200,7 @@ fn exact_joints_that_no_pose_holds_are_proved_singular_h12_h13_h14() {
         let (_folder, path) = file("design.toml", &text);
         let (code, doc) = answer(&["check", &path]);
         assert_eq!((code, &doc["architecturally_singular"]), (Some(1), &true.into()), "{name}: {doc}");
-        assert_eq!(doc["joints"]["exactness"].is_null(), false, "{name}: {doc}");
+        assert!(!doc["joints"]["exactness"].is_null(), "{name}: {doc}");
     }
 }
 

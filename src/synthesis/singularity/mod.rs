@@ -37,7 +37,9 @@ pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use locus::{ExactPose, LocusCoefficients, LocusPolynomial, PoseFamily, locus_polynomial};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
-pub use nearest_pose::{NearestPoseSearch, NearestSingularPose, nearest_singular_pose, nearest_zero};
+pub use nearest_pose::{
+    ChangeOfSign, NearestPoseSearch, NearestSingularPose, nearest_singular_pose, nearest_zero,
+};
 pub use path::{
     ControlPoint, JoinOptions, Joined, PathPiece, Sign, SignsAlong, Way, between, join, signs_along,
     signs_on_curve, straight,

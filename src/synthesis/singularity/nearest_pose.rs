@@ -68,12 +68,15 @@ pub fn nearest_singular_pose(
     nearest_zero(&|pose| leg_determinant(m, pose), Some(&prove), m.size(), from, search)
 }
 
-/// The same for any function of poses that vanishes at the singular ones, not finite where it has no value. Ways end
-/// there. A pose is proved only where `prove` tells that the function changes its sign between two poses.
+/// Whether a function is proved to change its sign between two poses.
+pub type ChangeOfSign<'a> = &'a dyn Fn(&Pose, &Pose) -> bool;
+
+/// The nearest zero of any function of poses that vanishes at the singular ones. Paths end where it is not finite. A
+/// pose is proved only if `prove` finds a change of sign.
 #[must_use]
 pub fn nearest_zero(
     value: &dyn Fn(&Pose) -> f64,
-    prove: Option<&dyn Fn(&Pose, &Pose) -> bool>,
+    prove: Option<ChangeOfSign<'_>>,
     size: f64,
     from: &Pose,
     search: &NearestPoseSearch,
@@ -97,7 +100,7 @@ fn directions(search: &NearestPoseSearch) -> Vec<Vector6<f64>> {
 /// Poses around the given one.
 struct Around<'a> {
     of: &'a dyn Fn(&Pose) -> f64,
-    prove: Option<&'a dyn Fn(&Pose, &Pose) -> bool>,
+    prove: Option<ChangeOfSign<'a>>,
     /// The size of the design.
     size: f64,
     from: &'a Pose,

@@ -179,6 +179,7 @@ impl TurnAxis {
 }
 
 /// The plane of a mirror, up to its place.
+#[allow(clippy::large_enum_variant, reason = "a design has a dozen of them")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum MirrorPlane {
     Coordinate(CoordinatePlane),
@@ -187,6 +188,7 @@ pub(crate) enum MirrorPlane {
 }
 
 /// The definition of a joint by other means than three numbers. Joints are named by their index in the same body.
+#[allow(clippy::large_enum_variant, reason = "a design has a dozen of them")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Construction {
     /// `["1/3", "6*sqrt(3)", 0]`.

@@ -346,7 +346,7 @@ fn form(
             };
             let through = vector(report, entries, "through", what);
             let mut places = vec![span("turn"), span("deg")];
-            let through = through?.map(|(point, spans)| {
+            let through = through.ok()?.map(|(point, spans)| {
                 places.extend(spans);
                 point
             });
@@ -357,7 +357,7 @@ fn form(
             let normal = vector(report, entries, "normal", what);
             let through = vector(report, entries, "through", what);
             let mut places = vec![span("mirror")];
-            let plane = match (normal?, find(entries, "plane")) {
+            let plane = match (normal.ok()?, find(entries, "plane")) {
                 (Some(_), Some(_)) => {
                     let message = format!("{what} has both `plane` and `normal`");
                     let help = "give one of them";
@@ -370,7 +370,7 @@ fn form(
                 }
                 (None, _) => MirrorPlane::Coordinate(plane(report, node, entries, what)?),
             };
-            let through = through?.map(|(point, spans)| {
+            let through = through.ok()?.map(|(point, spans)| {
                 places.extend(spans);
                 point
             });
@@ -423,16 +423,20 @@ fn known_word<W: Word>(
     word
 }
 
-/// Three numbers with their places; `Some(None)` if the key is absent.
+/// Three numbers with their places.
+type PlacedVector = ([WrittenNumber; 3], Vec<Span>);
+
+/// The vector of a key, if the key is present; an error is in the report.
 fn vector(
     report: &mut Findings<'_>,
     entries: &[Entry],
     key: &str,
     what: &str,
-) -> Option<Option<([WrittenNumber; 3], Vec<Span>)>> {
-    let Some(entry) = find(entries, key) else { return Some(None) };
+) -> Result<Option<PlacedVector>, ()> {
+    let Some(entry) = find(entries, key) else { return Ok(None) };
     let kind = if key == "through" { NumberKind::Length } else { NumberKind::Plain };
-    three_quantities(report, &entry.node, (kind, &format!("`{key}` of {what}")), COORDINATES).map(Some)
+    let found = three_quantities(report, &entry.node, (kind, &format!("`{key}` of {what}")), COORDINATES);
+    found.map(Some).ok_or(())
 }
 
 fn line(

@@ -47,7 +47,9 @@ fn inside(report: &mut Findings<'_>, node: &mut Node, kind: &KeyKind) {
         KeyForm::Table(shape) => give_new_names(report, node, shape),
         KeyForm::List(item, _) => {
             if let Value::Array(list) = &mut node.value {
-                list.iter_mut().for_each(|node| inside(report, node, item));
+                for node in list {
+                    inside(report, node, item);
+                }
             }
         }
         KeyForm::Either(kinds) => kinds.iter().for_each(|kind| inside(report, node, kind)),

@@ -78,13 +78,12 @@ impl SymmetryMap {
     }
 
     fn mirror(plane: &BodyPlane) -> Self {
-        let (normal, words) = match plane.axis() {
-            Some(axis) => (json!({ "plane": PLANES[axis] }), format!("mirrored in {}", PLANES[axis])),
-            None => {
-                let list: Vec<Json> = plane.normal.iter().map(ShortNumber::json).collect();
-                let shown: Vec<&str> = plane.normal.iter().map(|n| n.text.as_str()).collect();
-                (json!({ "normal": list }), format!("mirrored in the plane with normal {}", shown.join(", ")))
-            }
+        let (normal, words) = if let Some(axis) = plane.axis() {
+            (json!({ "plane": PLANES[axis] }), format!("mirrored in {}", PLANES[axis]))
+        } else {
+            let list: Vec<Json> = plane.normal.iter().map(ShortNumber::json).collect();
+            let shown: Vec<&str> = plane.normal.iter().map(|n| n.text.as_str()).collect();
+            (json!({ "normal": list }), format!("mirrored in the plane with normal {}", shown.join(", ")))
         };
         let mut rest = normal;
         let centre = with_point(&mut rest, plane.through.as_ref());
@@ -283,13 +282,12 @@ fn general_planes(
         let largest = (0..3).max_by(|a, b| n[*a].abs().total_cmp(&n[*b].abs()))?;
         n /= n[largest];
         let normal = [0, 1, 2].map(|k| if k == largest { ShortNumber::whole(1) } else { near.ratio(n[k]) });
-        let through = match centre {
-            Some(centre) => centre.clone(),
-            None => {
-                let offset: f64 = normal.iter().zip(fitted.1.iter()).map(|(n, x)| n.value * x).sum();
-                let offset = near.length(offset);
-                [0, 1, 2].map(|k| if k == largest { offset.clone() } else { ShortNumber::whole(0) })
-            }
+        let through = if let Some(centre) = centre {
+            centre.clone()
+        } else {
+            let offset: f64 = normal.iter().zip(fitted.1.iter()).map(|(n, x)| n.value * x).sum();
+            let offset = near.length(offset);
+            [0, 1, 2].map(|k| if k == largest { offset.clone() } else { ShortNumber::whole(0) })
         };
         let is_origin = through.iter().all(|x| x.value.abs() <= 0.0);
         let plane = BodyPlane { normal, through: (!is_origin).then_some(through) };

@@ -260,12 +260,11 @@ impl Similarity {
             let mut list = [const { Json::Null }; 3];
             list[i] = json!(shifted(u_text, &self.shift[i]));
             list[j] = json!(shifted(v_text, &self.shift[j]));
-            list[up] = match platform.symmetry.level {
-                Some((_, height)) => json!(height),
-                None => {
-                    at[up] = m.norm() * from[up] + self.shift[up].value;
-                    json!(shifted(format!("{}*({})", self.factor.scale(), written[up]), &self.shift[up]))
-                }
+            list[up] = if let Some((_, height)) = platform.symmetry.level {
+                json!(height)
+            } else {
+                at[up] = m.norm() * from[up] + self.shift[up].value;
+                json!(shifted(format!("{}*({})", self.factor.scale(), written[up]), &self.shift[up]))
             };
             let off = (at - own.at).norm();
             own.relations.push((JointRelation::Similar(names[*partner].clone(), self.words()), off));

@@ -142,7 +142,9 @@ fn a_mirror_plane_at_any_angle_is_one_normal() {
         });
         let mut platform = random(&mut rng);
         if axis == 1 {
-            platform.iter_mut().for_each(|p| p.swap(1, 2));
+            for p in &mut platform {
+                p.swap(1, 2);
+            }
         }
         let snapped = found(&rows(&base, &platform, 4));
         let images = snapped.found.iter().filter(|f| matches!(f.relation, JointRelation::Image(..))).count();
