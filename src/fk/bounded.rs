@@ -14,7 +14,10 @@ use std::cell::OnceCell;
 
 use super::evidence::reject_others;
 use super::judge::are_distinct;
-use super::{BoundedProof, Completeness, FarPoses, FkError, FkRoot, FkSolutions, Reason, Theorem};
+use super::{
+    BoundedProof, Completeness, FarPoses, FkError, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet,
+    Theorem,
+};
 use crate::solve::FarSearch;
 use crate::solve::certify::SquareData;
 use crate::solve::certify::far::{FarPoint, FarRoots, FarSystem};
@@ -47,19 +50,31 @@ impl<'a> Surroundings<'a> {
     /// succeeds.
     ///
     /// A design next to affine hexagons has far poses that are hard to follow and harder to prove. The real ones come
-    /// first there.
+    /// first if doubles do not see the far ones, or if nobody counts poses.
     pub(super) fn conclude(
         &mut self,
         found: &mut FkSolutions,
         s: &SquaredLegLengths,
+        counting: PoseCounting,
     ) -> Result<bool, FkError> {
         if !may_lack_far_poses(found) {
             return Ok(false);
         }
-        if self.neighbour().is_some_and(|n| conclude_real(found, n, self.manipulator, s)) {
+        let real_first = |n: &&Neighbour| counting == PoseCounting::Never || n.hides_far_poses();
+        if self.neighbour().filter(real_first).is_some_and(|n| conclude_real(found, n, self.manipulator, s)) {
             return Ok(true);
         }
         conclude_far(found, self.manipulator, s, self.search.points())
+    }
+
+    /// The last proof that is tried: about the real poses alone.
+    pub(super) fn conclude_last(&self, found: &mut FkSolutions, s: &SquaredLegLengths) {
+        let open = matches!(found.completeness, Completeness::Unproved { .. })
+            && found.solution_set == SolutionSet::Isolated
+            && may_lack_far_poses(found);
+        if let Some(neighbour) = self.neighbour().filter(|_| open) {
+            conclude_real(found, neighbour, self.manipulator, s);
+        }
     }
 
     /// Whether the proof of real poses can apply. Such a design has many far poses that doubles do not see.
@@ -86,7 +101,7 @@ impl<'a> Surroundings<'a> {
             let points = KnownSurroundings::FarPoints(search.known().to_vec());
             return Ok(Some(((0..found.roots.len()).collect(), points)));
         }
-        let kept = Neighbour::of(m).and_then(|neighbour| {
+        let kept = Neighbour::of(m).filter(Neighbour::hides_far_poses).and_then(|neighbour| {
             let near = neighbour.near(found, m, s)?;
             Some((near, KnownSurroundings::Neighbour(Box::new(neighbour))))
         });

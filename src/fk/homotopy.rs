@@ -59,7 +59,10 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };
-        attempts((frame, sections), nearly, m, s, o)
+        let mut surroundings = Surroundings::new(m, o.seed);
+        let mut found = attempts((frame, sections), nearly, (m, &mut surroundings), s, o)?;
+        surroundings.conclude_last(&mut found, s);
+        Ok(found)
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
@@ -71,11 +74,10 @@ impl ForwardKinematics for Homotopy {
 fn attempts(
     (frame, sections): (ScaledFrames, Sections),
     nearly: bool,
-    m: &Manipulator,
+    (m, surroundings): (&Manipulator, &mut Surroundings<'_>),
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    let mut surroundings = Surroundings::new(m, o.seed);
     let mut best: Option<FkSolutions> = None;
     let mut count: Option<PoseCount> = None;
     let whole = |k: u64, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
@@ -87,7 +89,7 @@ fn attempts(
         let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
         let (mut found, certificates) = problem.solve(m, s, o, seed)?;
         attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
-        if found.completeness.is_proved() || surroundings.conclude(&mut found, s)? {
+        if found.completeness.is_proved() || surroundings.conclude(&mut found, s, o.pose_count)? {
             return Ok(found);
         }
         let quick = *quick.get_or_insert_with(|| {

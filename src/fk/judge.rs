@@ -137,7 +137,8 @@ pub(super) fn compared_with_count(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    if found.completeness.is_proved() || Surroundings::new(m, o.seed).conclude(&mut found, s)? {
+    let mut surroundings = Surroundings::new(m, o.seed);
+    if found.completeness.is_proved() || surroundings.conclude(&mut found, s, o.pose_count)? {
         return Ok(found);
     }
     if let Some(count) = counted(m, s, o)
@@ -147,6 +148,7 @@ pub(super) fn compared_with_count(
         found.solution_set =
             SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
     }
+    surroundings.conclude_last(&mut found, s);
     Ok(found)
 }
 

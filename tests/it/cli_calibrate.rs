@@ -355,7 +355,7 @@ fn the_text_says_what_was_found() {
     for part in [
         "symmetric hexapod: calibrated: all 42 unknowns are identified",
         "noise (given): length 0.005 mm, position 0.01 mm, rotation 0.002 deg",
-        "the other start ends at the same machine",
+        "the other start gives the same machine",
         "pose left out",
         "chi-square",
         "platform.B6",

@@ -326,7 +326,8 @@ fn sizes_are_told_as_they_were_understood_and_nearly_singular_ones_with_the_othe
     let usual = new(&SIZES);
     let told = usual["guesses"].to_string();
     assert!(
-        told.contains("at 50, 70, 170, 190, 290, 310 degrees") && told.contains("says 100 for 20"),
+        told.contains("at 50, 70, 170, 190, 290, 310 degrees")
+            && told.contains("write 100 instead of 20 degrees"),
         "{told}"
     );
     assert!(!told.contains("nearly singular"));

@@ -121,7 +121,7 @@ fn what_contradicts_itself_is_refused() {
 22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
 24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
 28:1 design::missing_key: `base_axes` without `base_cone_angle_deg` | add `base_cone_angle_deg` or universal joints, or remove `base_axes`
-28:18 design::out_of_range: `base_cone_angle_deg` is 200 | stay within 180 degrees
+28:23 design::out_of_range: `base_cone_angle_deg` is 200 | stay within 180 degrees
 31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "normal", "optimize", one vector for all joints, or six in leg order, each a vector or "normal"
 29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
 29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components

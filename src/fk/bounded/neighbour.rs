@@ -40,7 +40,16 @@ pub(crate) struct Neighbour {
     distances: [f64; 6],
 }
 
+/// Distance of a neighbour, as a share of the size, within which doubles do not see the far poses of the design.
+const UNSEEN: f64 = 1e-9;
+
 impl Neighbour {
+    /// Whether the design is so near that computations in doubles take it for its neighbour.
+    pub(super) fn hides_far_poses(&self) -> bool {
+        let distance = self.distances.iter().copied().fold(0.0, f64::max);
+        distance <= UNSEEN * self.manipulator.size()
+    }
+
     /// The nearest affine hexagons, where the design is near any.
     ///
     /// The ends of affine hexagons, both of a leg together, are points of a plane of 6-space.

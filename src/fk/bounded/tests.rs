@@ -50,7 +50,7 @@ fn lengths(m: &Manipulator, rng: &mut Rng) -> SquaredLegLengths {
 
 /// Whether one of both proofs succeeds.
 fn concludes(m: &Manipulator, found: &mut FkSolutions, s: &SquaredLegLengths) -> bool {
-    Surroundings::new(m, 1).conclude(found, s).unwrap()
+    Surroundings::new(m, 1).conclude(found, s, PoseCounting::Never).unwrap()
 }
 
 fn usual_hexapod() -> (Manipulator, SquaredLegLengths) {

@@ -50,7 +50,7 @@ use super::reference;
 const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform for this command and states the error of using it;";
 
 /// The commands for a design that is not octahedral.
-const GENERAL: &str = "`equipod explore`, `check`, `assess`, `fk` and `view` take every design; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move --search` with a condition such as --spacing finds its equivalents";
+const GENERAL: &str = "`equipod explore`, `check`, `assess`, `fk` and `view` take every design; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move DESIGN --search --spacing MIN` finds its equivalents with separate joints";
 
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]

@@ -387,7 +387,7 @@ mod tests {
   spacing of base joints: would have to give by 3.25e-8 in
   leg force, maximum: would have to give by no more than the spare of the search
   leg speed, maximum: alone it cannot resolve the conflict, however much it gives
-the sum of the violations, each in its scale, is least where these give, and the others hold:
+the least sum of scaled violations violates these and meets all others:
   leg length, minimum      1.56 in
   leg force, maximum     4.5e-7 lbf
 "
