@@ -51,10 +51,11 @@ impl Arrangement {
 /// Forward kinematics of a general platform by the elimination template of Martyushev.
 ///
 /// Every one of the 69 eigenvectors is refined, and a pose counts when it satisfies the leg equations. The set is
-/// complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as long as they
-/// have 40 poses. Other orders of the legs and exchanged bodies are tried if the template loses rank. Platforms with fewer
-/// finite poses get [`FkError::NotApplicable`] or an answer that says roots may be missing. The same holds for platforms
-/// on which the template loses rank in every arrangement, as with planar base and planar platform.
+/// complete only when 40 distinct poses are certified. Special platforms (6-5, planar base) are covered as long as
+/// they have 40 poses. Other orders of the legs and exchanged bodies are tried if the template loses rank.
+/// Platforms with fewer finite poses get [`FkError::NotApplicable`] or an answer that says roots may be missing.
+/// The same holds for platforms on which the template loses rank in every arrangement, as with planar base and
+/// planar platform.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Template;
 

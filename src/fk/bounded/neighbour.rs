@@ -5,7 +5,8 @@
 //! than `d_i` from that of the neighbour, both ends together, and let `P` be a real pose at lengths `l`. Then `P` is a
 //! pose of the neighbour for some lengths within `d_i` of `l_i`, because a real motion keeps distances. When the
 //! neighbour has as many certified poses as it can have, for all lengths within `d_i`, then `P` is one of them. When
-//! each of their enclosures has no real pose, or is where a certified pose of the design is the only one, `P` is listed.
+//! each of their enclosures has no real pose, or is where a certified pose of the design is the only one, `P`
+//! is listed.
 
 use nalgebra::Matrix6;
 use num_complex::Complex64;

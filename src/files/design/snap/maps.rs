@@ -229,8 +229,8 @@ fn distinct(joints: &[Point3<f64>], distance: f64) -> Vec<Point3<f64>> {
     out
 }
 
-/// Thirds of a turn about the axis of the frame, which hold for single pairs of joints; or turns of the whole body about
-/// a parallel axis through its centre, with that centre. A half turn is one of the whole body.
+/// Thirds of a turn about the axis of the frame, which hold for single pairs of joints; or turns of the whole body
+/// about a parallel axis through its centre, with that centre. A half turn is one of the whole body.
 fn turns(
     joints: &[Point3<f64>],
     up: usize,

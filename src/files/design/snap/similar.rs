@@ -215,8 +215,8 @@ impl Similarity {
         degrees % step == 0 && is_central && base.symmetry.is_about_axes()
     }
 
-    /// Writes the platform joints from those of the base. Symmetry maps of the platform stay if the similarity keeps them
-    /// exactly.
+    /// Writes the platform joints from those of the base. Symmetry maps of the platform stay if the similarity keeps
+    /// them exactly.
     pub(super) fn apply(&self, bodies: &mut [SnappedBody; 2], exact: &[ExactJoint], names: &[String]) {
         let up = self.up;
         let (i, j) = ((up + 1) % 3, (up + 2) % 3);

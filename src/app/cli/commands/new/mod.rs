@@ -61,8 +61,8 @@ pub(crate) struct NewArgs {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
-    /// Write the symmetry that joints of --points have up to rounding as constructions: coincident, mirrored and rotated
-    /// joints, joints on lines and circles, and similar bodies
+    /// Write the symmetry that joints of --points have up to rounding as constructions: coincident, mirrored and
+    /// rotated joints, joints on lines and circles, and similar bodies
     #[arg(long, requires = "points")]
     snap: bool,
     /// Parameters of a motion-simulator program named by --dialect (`-` for standard input). Lines `L1 = 900` to `L4`,
