@@ -110,7 +110,7 @@ class App {
     const kinds = {
       octahedral: "Octahedral platform and its kinematic equivalents: the same poses, squared leg lengths related by s′ = A s + c",
       equivalent: "Platform without shared joints and its octahedral original",
-      general: "Six legs without octahedral original",
+      general: "Stewart platform",
       cranks: "Rods of constant length on six cranks",
     };
     $("kind").textContent = kinds[open.kind];
