@@ -42,18 +42,17 @@ fn value(j: Option<Judged>) -> String {
 }
 
 fn seconds(s: Spent) -> String {
-    format!("{:.2} / {:.2}", s.elapsed, s.cpu)
+    format!("{:.2}", s.cpu)
 }
 
 const HEAD: &str = "\
 # Results of the optimiser
 
-This table is for readers of the [benchmarks](../benchmarks.md#optimiser), which define its columns.
-`tests/optimizer/run` writes it.
-The table compares the best value, its proved bound and the times with random designs and CMA-ES.
+This table shows users of `optimize` its results beside random designs and CMA-ES; the [benchmarks](../benchmarks.md#optimiser) define the columns.
+`tests/optimizer/run` writes it, and [the CSV](optimizer.csv) with further columns; `s` are processor seconds.
 
-| problem | value | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | times processor time | s | optimiser against CMA-ES |
-|---|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|---|
+| problem | value | optimiser | proved: none above | s | best random | feasible of drawn | s | optimiser against random | CMA-ES | s | optimiser against CMA-ES |
+|---|---|--:|--:|--:|--:|--:|--:|---|--:|--:|---|
 ";
 
 impl Row {
@@ -63,10 +62,9 @@ impl Row {
 
     pub(crate) fn markdown(&self) -> String {
         format!(
-            "| {} | {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} |",
             self.name,
             self.quantity,
-            self.poses,
             value(self.ours.judged),
             self.ours.bound.map_or("-".into(), |b| format!("{b:.6}")),
             seconds(self.ours.spent),
@@ -76,8 +74,6 @@ impl Row {
             seconds(self.random.spent),
             self.verdicts[0],
             value(self.rival.judged),
-            self.rival.draws,
-            self.factor,
             seconds(self.rival.spent),
             self.verdicts[1],
         )
