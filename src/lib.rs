@@ -339,9 +339,7 @@ pub mod methods {
     }
 }
 
-/// The code of the README and of the guide for controllers is compiled as documentation tests; that of the README is
-/// run too.
+/// The code of the guide for controllers is compiled as a documentation test.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
 #[doc = include_str!("../docs/guides/controller.md")]
-struct ReadmeExamples;
+struct GuideExamples;
