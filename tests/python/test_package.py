@@ -331,7 +331,7 @@ def test_rings_of_decimals_are_snapped():
 
     base, platform = ring(500, [-10, 10, 110, 130, 230, 250]), ring(300, [-50, 50, 70, 170, 190, 290])
     typed = equipod.Design.from_arrays(base, platform)
-    assert len(typed.symmetry) == 2 and "turned by a third" in typed.symmetry[0]
+    assert len(typed.symmetry) == 3 and "turned by a third" in typed.symmetry[0] and "times 0.6" in typed.symmetry[2]
     snapped = equipod.Design.from_arrays(base, platform, snap=True)
     assert snapped == typed.snapped() and snapped.symmetry == [] and snapped.snapped() is snapped
     assert "turn" in snapped.dumps() and np.allclose(snapped.joints.base, base, atol=1e-5)
