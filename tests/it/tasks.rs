@@ -373,7 +373,6 @@ const LEFT_OUT: [(&str, &str); 14] = [
         "minutes; tests/it/worked_designs.rs judges the result, which is shipped",
     ),
     ("equipod assess designs/worked/bench-plates", "half a minute; it is `assess` itself"),
-    ("equipod explore designs/rbt-octahedral.toml -o DIR", "docs/cli.md has the same"),
 ];
 
 /// Commands that a page asks its reader to type: lines of blocks for a shell, indented lines, and commands in sentences
