@@ -350,7 +350,7 @@ fn praise_that_assess_does_not_share_is_found_out() {
 }
 
 /// Commands of the pages that are not run here, by their beginning, and why.
-const LEFT_OUT: [(&str, &str); 14] = [
+const LEFT_OUT: [(&str, &str); 13] = [
     ("equipod bench ", "solves problems for minutes and judges no design; tests/it/cli_bench.rs runs it"),
     ("equipod export hexapod.toml ", "stands for any design with joints that are not ideal"),
     ("equipod fk DESIGN ", "stands for any design"),
