@@ -345,9 +345,7 @@ enum eqp_status eqp_design_from_json(const char *text,
  `path` points to a text that ends with a zero, and `design` to a place for a pointer. The argument `error` is null
  or points to a place for an error.
  */
-enum eqp_status eqp_design_load(const char *path,
-                                struct eqp_design **design,
-                                struct eqp_error *error);
+enum eqp_status eqp_design_load(const char *path, struct eqp_design **design, struct eqp_error *error);
 
 /*
  Makes a design from the ends of its six legs: base joints in the base frame, platform joints in the platform frame,
@@ -653,9 +651,7 @@ enum eqp_status eqp_tracker_step(struct eqp_tracker *tracker,
  `tracker` is a tracker that no other thread steps meanwhile, and `pose` points to a place for a pose. The argument
  `error` is null or points to a place for an error.
  */
-enum eqp_status eqp_tracker_pose(const struct eqp_tracker *tracker,
-                                 struct eqp_pose *pose,
-                                 struct eqp_error *error);
+enum eqp_status eqp_tracker_pose(const struct eqp_tracker *tracker, struct eqp_pose *pose, struct eqp_error *error);
 
 /*
  Frees a tracker; null is ignored.
