@@ -72,7 +72,8 @@ impl<'a> Surroundings<'a> {
         let open = matches!(found.completeness, Completeness::Unproved { .. })
             && found.solution_set == SolutionSet::Isolated
             && may_lack_far_poses(found);
-        if let Some(neighbour) = self.neighbour().filter(|_| open) {
+        // a neighbour costs exact arithmetic, which an answer that is proved already does without
+        if open && let Some(neighbour) = self.neighbour() {
             conclude_real(found, neighbour, self.manipulator, s);
         }
     }

@@ -47,8 +47,12 @@ const UNSEEN: f64 = 1e-9;
 impl Neighbour {
     /// Whether the design is so near that computations in doubles take it for its neighbour.
     pub(super) fn hides_far_poses(&self) -> bool {
-        let distance = self.distances.iter().copied().fold(0.0, f64::max);
-        distance <= UNSEEN * self.manipulator.size()
+        self.distance() <= UNSEEN * self.manipulator.size()
+    }
+
+    /// The greatest `d_i`.
+    fn distance(&self) -> f64 {
+        self.distances.iter().copied().fold(0.0, f64::max)
     }
 
     /// The nearest affine hexagons, where the design is near any.
@@ -97,12 +101,11 @@ impl Neighbour {
         s: &SquaredLegLengths,
     ) -> Option<BoundedProof> {
         self.near(found, m, s)?;
-        let distance = self.distances.iter().copied().fold(0.0, f64::max);
         Some(BoundedProof {
             poses: self.most,
             far: None,
             rotation: None,
-            neighbour: Some(distance),
+            neighbour: Some(self.distance()),
             others: Vec::new(),
         })
     }
