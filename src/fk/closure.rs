@@ -93,9 +93,9 @@ fn of_sequences(
     found: &FkSolutions,
     sequences: &[Sequence],
 ) -> Result<Closure, NoClosure> {
-    // the polynomial is that of the doubles
-    let complete = matches!(found.completeness, Completeness::Proved { .. })
-        && m.joint_knowledge() == JointKnowledge::Doubles;
+    // the polynomial is that of joints that are their doubles, and of squares without error
+    let exact = m.joint_knowledge() == JointKnowledge::Doubles && s.radius().iter().all(|r| *r <= 0.0);
+    let complete = exact && matches!(found.completeness, Completeness::Proved { .. });
     let isolated = found.solution_set == SolutionSet::Isolated;
     let simple = found.roots.iter().all(|r| r.certified() && r.multiplicity == 1);
     let poses = (complete && isolated && simple).then_some(found.roots.len());

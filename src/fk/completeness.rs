@@ -5,7 +5,7 @@
 //! ```text
 //!                    Proved                a theorem: as many certified distinct poses as there can be
 //!                      |
-//!                 ProvedBounded            a theorem: all others are proved to be farther out than a real pose can be
+//!                 ProvedBounded            a theorem: every real pose is listed; others are farther out, or complex
 //!                      |
 //!                   Modular                as many as there are, counted modulo random primes
 //!                      |
@@ -31,8 +31,9 @@ pub enum Completeness {
         /// The bound.
         theorem: Theorem,
     },
-    /// All poses up to a distance, so all real ones, are listed. The certified roots, with the others that are proved
-    /// to be farther out, reach the largest possible number.
+    /// Every real pose is listed. Either the certified roots, with the others that are proved to be farther out, reach
+    /// the largest possible number: then all poses up to a distance are listed. Or each real pose is one of those next
+    /// to the poses of an affine neighbour: then complex poses of any size may be missing.
     ProvedBounded {
         /// The number of poses and the distance.
         proof: BoundedProof,
@@ -79,7 +80,7 @@ impl Completeness {
 pub enum CompletenessWord {
     /// A theorem proves it.
     Proved,
-    /// A theorem proves it for all poses up to a distance: all real ones are listed.
+    /// A theorem proves it for all real poses, or for all poses up to a distance above theirs.
     ProvedBounded,
     /// Counted modulo random primes, with a bound on the probability of error.
     Modular,
@@ -100,7 +101,7 @@ impl CompletenessWord {
     }
 }
 
-/// The numbers of a proof that all poses up to a distance are listed.
+/// The numbers of a proof that all real poses are listed, or all poses up to a distance.
 #[derive(Debug, Clone, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
 pub struct BoundedProof {
@@ -138,7 +139,7 @@ impl fmt::Display for BoundedProof {
             return write!(
                 f,
                 "{poses} certified distinct poses, as many as planar bodies have whose joints are affine images of each other; the ends of the legs are within {:.1e} of such bodies, \
-                 and for all lengths within that distance these have one pose next to each listed one: all real poses are listed",
+                 and every real pose is a pose of them at lengths within that distance; each of these is next to a listed pose or not real: all real poses are listed",
                 neighbour.unwrap_or_default()
             );
         };

@@ -253,7 +253,8 @@ pub enum RejectionReason {
     ResidualTooLarge,
     /// It is a root found already.
     Duplicate,
-    /// It is near a solution to rounding but no proof of one succeeded (a multiple root, a pose near infinity).
+    /// It is near a solution to rounding but no proof of one succeeded (a multiple root, a pose near infinity). Where all
+    /// real poses are proved to be listed it is no real pose.
     NotCertified,
     /// The position is at infinity or the rotation does not exist.
     NotFinite,
@@ -369,8 +370,8 @@ impl FkSolutions {
         count.finite()?.checked_sub(self.certified_count())
     }
 
-    /// The answer is whole: all poses are listed, by proof or modulo random primes, or a motion is established of which
-    /// they are points.
+    /// The answer is whole: all poses, or all real ones, are listed, by proof or modulo random primes, or a motion is
+    /// established of which they are points.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         match &self.solution_set {

@@ -58,6 +58,41 @@ fn the_midline_platform_is_singular_with_its_dependency_and_condition() {
     assert_eq!((code, &doc["griffis_duffy"]["assembly"]["verdict"]), (Some(1), &"incompatible".into()));
 }
 
+/// A hundred-millionth from the singular surface the lengths of a pose violate its condition, and it says nothing.
+#[test]
+fn lengths_of_a_nearly_singular_design_are_not_judged_by_the_condition_of_a_singular_one() {
+    let text = |t: &str| {
+        format!(
+            r#"name = "near the surface"
+units = "mm"
+lengths = [6.4, 7.3, 12.2, 10.6, 17.5, 15.2]
+legs = [["Q1", "P4"], ["P2", "Q2"], ["Q3", "P5"], ["P3", "Q4"], ["Q5", "P6"], ["P1", "Q6"]]
+[base]
+P1 = [0, 0, 0]
+P2 = [6, 10, 0]
+P3 = [12, 0, 0]
+Q1 = {{ on = ["P1", "P2"], t = "{t}" }}
+Q3 = {{ on = ["P2", "P3"], t = "1/2" }}
+Q5 = {{ on = ["P3", "P1"], t = "1/2" }}
+[platform]
+P4 = [0, 0, 0]
+P5 = [6, 0, 0]
+P6 = [3, -5, 0]
+Q2 = {{ on = ["P4", "P5"], t = "1/2" }}
+Q4 = {{ on = ["P5", "P6"], t = "1/2" }}
+Q6 = {{ on = ["P6", "P4"], t = "1/2" }}
+"#
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    for (t, code, verdict) in [("1/2", 1, "incompatible".into()), ("1/2 + 1/100000000", 0, Value::Null)] {
+        let path = folder.path().join("design.toml");
+        std::fs::write(&path, text(t)).unwrap();
+        let (found, doc) = check(path.to_str().unwrap());
+        assert_eq!((found, &doc["griffis_duffy"]["assembly"]["verdict"]), (Some(code), &verdict), "{t}");
+    }
+}
+
 #[test]
 fn the_finite_poses_for_generic_lengths_are_counted() {
     for (path, by_degree) in [

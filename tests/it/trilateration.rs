@@ -95,3 +95,13 @@ fn other_lengths_have_other_poses() {
     let m: &Manipulator = &p.manipulator;
     assert!(one.roots.iter().all(|r| r.pose.residual(m, &squares) > 1e-4));
 }
+
+/// Squares of lengths have more digits than doubles, and these decide how many poses are real.
+#[test]
+fn the_closure_polynomial_and_the_certificates_count_the_same_real_poses() {
+    let path = "tests/fixtures/adversarial/lengths-as-given.toml";
+    let doc = document(&equipod(&["fk", path, "--method", "trilateration", "--json"]));
+    assert_eq!((&doc["completeness"], &doc["real_count"]), (&"proved".into(), &8.into()));
+    let by_polynomial = &doc["closure"]["poses_real_proved"];
+    assert!(by_polynomial.is_null() || *by_polynomial == doc["real_count"], "{by_polynomial}");
+}

@@ -23,8 +23,7 @@ pub struct SelfmotionAnswer {
     pub evidence: MotionEvidenceWord,
     /// Number of first-order freedoms at the pose: six minus the rank of the leg lines; null with `--lengths`.
     pub tangent_dimension: Option<usize>,
-    /// The ball around an isolated pose that holds no other pose of these lengths; null: the pose is not proved
-    /// isolated.
+    /// The ball around the pose that holds no pose of these lengths but near its centre; null: no such ball is proved.
     pub isolated: Option<IsolatedRecord>,
     /// The start pose; null with `--lengths`.
     pub start: Option<PoseQuaternionRecord>,
@@ -58,7 +57,8 @@ pub struct SelfmotionAnswer {
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
     FirstOrder,
-    /// Proved: no freedom of first order satisfies the equations of second order.
+    /// Proved: no freedom of first order satisfies the equations of second order. Without a `dimension`, a motion within
+    /// `isolated.within` is not excluded.
     SecondOrder,
     /// Proved: the rank of the leg lines is constant around the pose.
     ConstantRank,
@@ -74,7 +74,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
     fn from(verdict: PoseVerdict) -> Self {
         match verdict {
             PoseVerdict::Isolated { order: 1, .. } => Self::FirstOrder,
-            PoseVerdict::Isolated { .. } => Self::SecondOrder,
+            PoseVerdict::Isolated { .. } | PoseVerdict::Confined { .. } => Self::SecondOrder,
             PoseVerdict::Moves { evidence: MotionEvidence::ConstantRank, .. } => Self::ConstantRank,
             PoseVerdict::Moves { evidence: MotionEvidence::Traced, .. } => Self::Traced,
             PoseVerdict::Undecided => Self::Undecided,
@@ -82,7 +82,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
     }
 }
 
-/// The neighbourhood of an isolated pose, in displacements `(t / size, c)`: translation divided by the size, and axis
+/// The neighbourhood of a pose without others of its lengths, in displacements `(t / size, c)`: translation divided by the size, and axis
 /// times tangent of half the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
@@ -93,11 +93,11 @@ pub struct IsolatedRecord {
 }
 
 impl IsolatedRecord {
-    /// The record of an isolated pose.
+    /// The record of the ball.
     #[must_use]
     pub fn of(verdict: PoseVerdict) -> Option<Self> {
         match verdict {
-            PoseVerdict::Isolated { radius, within, .. } => {
+            PoseVerdict::Isolated { radius, within, .. } | PoseVerdict::Confined { radius, within } => {
                 Some(Self { radius: Number(radius), within: Number(within) })
             }
             PoseVerdict::Moves { .. } | PoseVerdict::Undecided => None,

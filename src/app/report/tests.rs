@@ -62,7 +62,7 @@ fn the_answer_of_check_is_a_verdict() {
 fn a_saved_answer_of_check_is_shown_as_its_command_prints_it() {
     for (design, told) in [
         (DESIGN, "16 ways to assemble it for given leg lengths"),
-        (MIDLINE, "The lengths of the design can be assembled, and the platform then moves"),
+        (MIDLINE, "The lengths of the design can be assembled, and at almost every pose"),
     ] {
         let (design, _) = ask::design::parse(design, Format::Toml).unwrap();
         let answer = CheckAnswer::from(&design.check().unwrap());

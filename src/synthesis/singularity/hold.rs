@@ -64,9 +64,9 @@ pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
     if let Some(sign) = signs_along(m, pose, pose).kept().or_else(|| sign_in_scale(m, pose)) {
         return PoseHold::Held(sign);
     }
-    match is_exactly_singular(m, pose) {
-        Some(true) => PoseHold::Singular(SingularEvidence::Zero),
-        Some(false) | None => PoseHold::Singular(SingularEvidence::Rounding),
+    match exact_rank(m, pose) {
+        Some(..6) => PoseHold::Singular(SingularEvidence::Zero),
+        Some(_) | None => PoseHold::Singular(SingularEvidence::Rounding),
     }
 }
 
@@ -166,9 +166,8 @@ fn on_curve(control: &[ControlPoint], u: f64) -> Pose {
     Pose { rotation: turn.to_rotation_matrix(), position: Vector3::new(x, y, z) }
 }
 
-/// Whether the leg lines are dependent, in exact arithmetic; `None` if joints are not known exactly, or numbers become
-/// too long.
-fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
+/// The rank of the leg lines in exact arithmetic; `None` if joints are not known exactly, or numbers become too long.
+pub(super) fn exact_rank(m: &Manipulator, pose: &Pose) -> Option<usize> {
     let ends = m.exact_ends()?;
     let number = |x: f64| Surd::rational(&rational(x)?);
     let position: Vec<Surd> = pose.position.iter().map(|x| number(*x)).collect::<Option<_>>()?;
@@ -197,8 +196,8 @@ fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
     let fractions: Option<Vec<ExactVector>> =
         rows.iter().map(|row| row.iter().map(Surd::as_rational).collect()).collect();
     match fractions {
-        Some(rows) => Some(rank(&rows) < 6),
-        None => Some(eliminate(&mut rows, 6)? < 6),
+        Some(rows) => Some(rank(&rows)),
+        None => eliminate(&mut rows, 6),
     }
 }
 

@@ -47,7 +47,7 @@ pub struct BenchReport {
     pub certified: u64,
     /// Number of problems with a proof of completeness.
     pub proved: u64,
-    /// Problems with a proof for all poses up to a distance, so for all real ones.
+    /// Problems with a proof that all real poses are listed.
     pub proved_bounded: u64,
     /// Number of problems for which the solver itself warns that roots may be missing.
     pub doubted: u64,

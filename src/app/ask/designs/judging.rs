@@ -9,6 +9,7 @@ use files::design::Workspace;
 use fk::solve::pose_count::{
     CommonPoints, CountOptions, PoseCount, count_common_points, count_generic_poses,
 };
+use fk::solve::{LegDependence, dependence};
 use fk::{Solvability, Theorem, pose_bound, solvability};
 use machine::requirements::{
     AssessOptions, AssessStage, LeastConditioning, MarginBound, MarginProof, Requirements, RodRegularity,
@@ -33,7 +34,7 @@ pub struct CheckReport {
     pub nearest: Option<NearestSingular>,
     /// No singular design is nearer than this, design units; 0 for a singular one.
     pub at_least: f64,
-    /// Whether the lengths can be assembled; for a (nearly) singular design of Griffis-Duffy type with lengths.
+    /// Whether the lengths can be assembled; for a singular design of Griffis-Duffy type with lengths.
     pub assembly: Option<Assembly>,
     /// Inverse condition number of the Jacobian at random poses.
     pub conditioning: Conditioning,
@@ -326,7 +327,17 @@ impl Design {
         let conditioning = conditioning(m, seed)?;
         let singular_hexagon = verdict.architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
         let assembly = match (singular_hexagon, self.lengths) {
-            (Some(g), Some(l)) => Some(assembly(g, m, &l.squared())?),
+            (Some(g), Some(l)) => {
+                let s = l.squared();
+                match dependence(m, &s) {
+                    LegDependence::Incompatible => {
+                        Some(Assembly::Incompatible { defect: g.assembly_defect(&s) })
+                    }
+                    LegDependence::Compatible { .. } => Some(assembly(g, m, &s)?),
+                    // the condition belongs to dependent legs
+                    LegDependence::Nearly | LegDependence::Independent => None,
+                }
+            }
             _ => None,
         };
         let counting = CountOptions { seed, ..CountOptions::default() };

@@ -67,7 +67,7 @@ fn ways_to_assemble(out: &mut Sheet, answer: &CheckAnswer) {
     let (c, bound) = (&answer.pose_count, answer.pose_bound.poses);
     match (c.finite, c.dimension) {
         (Some(0), _) if answer.architecturally_singular == Some(true) => {
-            out.line("Generic leg lengths have no pose; lengths with a pose let the platform move.");
+            out.line("Generic leg lengths have no pose. At almost every pose the platform moves with locked legs.");
         }
         (Some(n), _) => {
             let lost = answer.common_points.and_then(|p| Some(p.isotropic? + p.at_infinity?));
@@ -179,7 +179,9 @@ fn lengths_in_words(g: &GriffisDuffyRecord) -> Option<String> {
             "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
         }
         Assembly::Undecided { .. } => "satisfy the condition; no real pose was found".into(),
-        Assembly::Real { .. } => "can be assembled, and the platform then moves with locked legs".into(),
+        Assembly::Real { .. } => {
+            "can be assembled, and at almost every pose the platform moves with locked legs".into()
+        }
     })
 }
 

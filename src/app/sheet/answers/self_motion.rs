@@ -76,10 +76,15 @@ fn verdict(r: &SelfmotionAnswer) -> String {
             "no self-motion at this pose: proved, the six leg lines are independent (singular values {} to 1)",
             figure(r.singular_values[7].0 / r.singular_values[0].0)
         ),
-        (Some(0), MotionEvidenceWord::SecondOrder) => {
+        (Some(0) | None, MotionEvidenceWord::SecondOrder) => {
             let [radius, within] = r.isolated.map_or([0.0; 2], |i| [i.radius.0, i.within.0]).map(figure);
+            let none = if r.dimension.is_some() {
+                "no self-motion at this pose".to_string()
+            } else {
+                format!("no self-motion larger than {within} at this pose")
+            };
             format!(
-                "no self-motion at this pose: proved to second order. The leg lines leave {}, and the legs stop it.\n\
+                "{none}: proved to second order. The leg lines leave {}, and the legs stop it.\n\
                  every pose with these lengths within {radius} of the pose lies within {within} of it (sizes and radians)",
                 freedoms(first)
             )

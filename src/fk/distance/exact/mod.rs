@@ -17,6 +17,7 @@ use thiserror::Error;
 use self::strip::{Strip, StripClosure};
 use self::tower::{Divisor, ResiduePoly, Ring, STEPS};
 use num::Rng;
+use num::double_double::DoubleDouble;
 use num::poly::{Dyadic, IntPoly, RealRoot, gcd, real_roots, squarefree_factors};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use platform::topology::{JointIndex, Sequence};
@@ -343,14 +344,15 @@ struct ExactData {
 }
 
 impl ExactData {
-    /// Doubles as they are: the numbers solved for are those the certificates are about.
+    /// Joints and the centres of the squares with all their digits: the numbers that the certificates are about.
     fn new(m: &Manipulator, s: &SquaredLegLengths) -> Result<Self, ClosureError> {
         let number = |x: f64| Dyadic::from_f64(x).ok_or(ClosureError::OutOfRange);
         let points = |list: &[nalgebra::Point3<f64>]| -> Result<Vec<[Dyadic; 3]>, ClosureError> {
             list.iter().map(|p| Ok([number(p.x)?, number(p.y)?, number(p.z)?])).collect()
         };
         let (base, platform) = (points(m.base_joints())?, points(m.platform_joints())?);
-        let squares: Vec<Dyadic> = s.get().into_iter().map(number).collect::<Result<_, _>>()?;
+        let square = |s: DoubleDouble| Ok(number(s.hi())?.minus(&number(-s.lo())?));
+        let squares: Vec<Dyadic> = s.middle().into_iter().map(square).collect::<Result<_, _>>()?;
         let depth = |x: &Dyadic| -x.exponent();
         let places = base.iter().chain(&platform).flatten().map(depth);
         let scale = places.chain(squares.iter().map(|s| (depth(s) + 1).div_euclid(2))).fold(0, i64::max);

@@ -10,11 +10,12 @@
 //! ```
 //!
 //! So `f = L x + Q(x) + ..` with exact `f(0) = 0`. `docs/theory/self-motions.md` has the theorem of second order that
-//! [`isolated`] proves.
+//! [`cleared`] proves.
 
 use nalgebra::{DMatrix, Matrix6, Quaternion, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3, Vector6};
 
 use crate::singularity::Architecture;
+use crate::singularity::hold::exact_rank;
 use num::Rng;
 use num::interval::Interval;
 use num::small::bounded_svd;
@@ -56,14 +57,22 @@ pub struct AtPose {
 /// Whether the platform can leave a pose with locked legs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PoseVerdict {
-    /// Proved: every pose with these lengths within `radius` is within `within`, in `(t / size, c)` of the
-    /// displacement.
+    /// Proved: the pose is isolated, and every pose with these lengths within `radius` is within `within`, in
+    /// `(t / size, c)` of the displacement.
     Isolated {
         /// 1: the leg lines are independent; 2: no freedom of first order can be continued.
         order: u8,
         /// Radius of the cleared ball.
         radius: f64,
         /// Radius left by rounding; 0 for the order 1.
+        within: f64,
+    },
+    /// Proved: every pose with these lengths within `radius` is within `within`. A motion smaller than that is not
+    /// excluded: the rank of the leg lines at the pose is not known, or neither that of the singular values nor six.
+    Confined {
+        /// Radius of the cleared ball.
+        radius: f64,
+        /// Radius left by rounding.
         within: f64,
     },
     /// The pose is not isolated.
@@ -95,7 +104,7 @@ impl PoseVerdict {
         match self {
             Self::Isolated { .. } => Some(0),
             Self::Moves { dimension, .. } => Some(*dimension),
-            Self::Undecided => None,
+            Self::Confined { .. } | Self::Undecided => None,
         }
     }
 }
@@ -124,8 +133,12 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     let Some(split) = LineVectors::of(&local.lines()) else { return (undecided([0.0; 6], 6), Vec::new()) };
     let k = split.corank();
     let mut at = undecided(split.values, k);
-    if let Some(verdict) = isolated(&local, &split, k) {
-        at.verdict = verdict;
+    let rank = if k == 0 { None } else { exact_rank(m, pose) };
+    let constant = if k == 0 { None } else { constant_rank(m, &local, &split, rank) };
+    if constant.is_none()
+        && let Some(cleared) = cleared(&local, &split, k)
+    {
+        at.verdict = cleared.verdict(k, rank);
         return (at, Vec::new());
     }
     let search = MotionSearch::new(&local);
@@ -134,8 +147,8 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     // no motion has more freedoms than the first order at the pose
     let sampled = sampled.min(k);
     let reach = arcs.iter().map(Arc::reach).fold(0.0, f64::max);
-    if has_generic_rank(m, &local, &split) {
-        at.verdict = PoseVerdict::Moves { dimension: k, reach, evidence: MotionEvidence::ConstantRank };
+    if let Some(rank) = constant {
+        at.verdict = PoseVerdict::Moves { dimension: 6 - rank, reach, evidence: MotionEvidence::ConstantRank };
     } else if sampled > 0 {
         at.verdict = PoseVerdict::Moves { dimension: sampled, reach, evidence: MotionEvidence::Traced };
     }
@@ -146,17 +159,21 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     (at, arcs.iter().map(departure).collect())
 }
 
-/// Whether the leg lines are proved to have the same rank, below six, at the pose and at all poses around it.
+/// The rank of the leg lines, below six, if it is proved to be the same at the pose and at all poses around it.
 ///
-/// The generic rank is the greatest, and the rank does not fall near a pose. The rank at the pose is proved for all
-/// joints between their bounds, the generic rank for the exact joints.
-fn has_generic_rank(m: &Manipulator, local: &LegsAtPose, split: &LineVectors) -> bool {
+/// The generic rank is the greatest, and the rank does not fall near a pose. The rank at the pose is the `exact` one, or
+/// is proved to be at least that of the singular values, for all joints between their bounds. The generic rank is that
+/// of the exact joints.
+fn constant_rank(
+    m: &Manipulator,
+    local: &LegsAtPose,
+    split: &LineVectors,
+    exact: Option<usize>,
+) -> Option<usize> {
     let k = split.corank();
-    if k == 0 || Inverted::of(&local.rows(), split, k).is_none() {
-        return false;
-    }
+    let rank = exact.or_else(|| Inverted::of(&local.rows(), split, k).map(|_| 6 - k)).filter(|r| *r < 6)?;
     let architecture = Architecture::of(m);
-    architecture.level.is_some() && architecture.jacobian.rank == 6 - k
+    (architecture.level.is_some() && architecture.jacobian.rank == rank).then_some(rank)
 }
 
 type Vector = [Interval; 3];
@@ -295,12 +312,33 @@ impl LineVectors {
     }
 }
 
-/// The proof that the pose is isolated, with the last `k` singular values taken as zeros.
+/// A ball around the pose in which poses with its lengths are near it only.
+struct Cleared {
+    radius: f64,
+    within: f64,
+}
+
+impl Cleared {
+    /// The verdict for a pose with `k` singular values taken as zeros and the `exact` rank of the leg lines.
+    ///
+    /// With rank six the inverse function theorem isolates the pose. With rank `6 - k` the left vectors `W` can be taken
+    /// as exact zeros, so that the error of the theorem, and with it `within`, is zero.
+    fn verdict(self, k: usize, exact: Option<usize>) -> PoseVerdict {
+        let Self { radius, within } = self;
+        match exact {
+            _ if k == 0 => PoseVerdict::Isolated { order: 1, radius, within },
+            Some(rank) if rank == 6 || rank == 6 - k => PoseVerdict::Isolated { order: 2, radius, within },
+            _ => PoseVerdict::Confined { radius, within },
+        }
+    }
+}
+
+/// The proof that poses with these lengths are near the pose only, with the last `k` singular values taken as zeros.
 ///
 /// Let `a` be the part of a displacement in the ball along the `k` right vectors `K`, and `b` the part along the
 /// others, `N`. The rows along the left vectors of `N` give `|b| <= tau |a|`. The rows along the others, `W`, give
 /// `c |a|^2 <= rest |a|^2 + error |a|`, with the least norm `c` of the forms `W Q(K a)` for `|a| = 1`.
-fn isolated(local: &LegsAtPose, split: &LineVectors, k: usize) -> Option<PoseVerdict> {
+fn cleared(local: &LegsAtPose, split: &LineVectors, k: usize) -> Option<Cleared> {
     let rank = 6 - k;
     let (u, w) = (columns(&split.left, 0, rank), columns(&split.left, rank, 6));
     let (n, kernel) = (columns(&split.right, 0, rank), columns(&split.right, rank, 6));
@@ -340,17 +378,13 @@ fn isolated(local: &LegsAtPose, split: &LineVectors, k: usize) -> Option<PoseVer
                 * nu
                 * (quadratic * tau * (2.0 + tau) + cubic * nu * (1.0 + tau).powi(3) * radius * nu);
             if k == 0 {
-                return Some(PoseVerdict::Isolated { order: 1, radius, within: 0.0 });
+                return Some(Cleared { radius, within: 0.0 });
             }
             // factors of one part in a million cover the rounding of these bounds
             if rest * (1.0 + 1e-6) < c {
                 let within =
                     nu * (1.0 + tau) * (1.0 + tau) * second / (c - rest * (1.0 + 1e-6)) * (1.0 + 1e-6);
-                return (within < CLEAR * radius).then_some(PoseVerdict::Isolated {
-                    order: 2,
-                    radius,
-                    within,
-                });
+                return (within < CLEAR * radius).then_some(Cleared { radius, within });
             }
         }
         radius *= 0.5;
