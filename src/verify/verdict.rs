@@ -168,17 +168,6 @@ impl std::fmt::Display for Verdict {
 }
 
 impl Verdict {
-    /// The verdict as a word.
-    #[must_use]
-    pub fn word(&self) -> VerdictWord {
-        match self {
-            Self::Equivalent => VerdictWord::Equivalent,
-            Self::NotEquivalent(_) => VerdictWord::NotEquivalent,
-            Self::Singular => VerdictWord::Singular,
-            Self::Inconclusive(_) => VerdictWord::Inconclusive,
-        }
-    }
-
     /// The word of the command line.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -186,34 +175,17 @@ impl Verdict {
     }
 }
 
-/// Whether two designs are kinematically equivalent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum VerdictWord {
-    /// They are equivalent.
-    Equivalent,
-    /// They are not equivalent.
-    NotEquivalent,
-    /// One of them is architecturally singular.
-    Singular,
-    /// Undecided.
-    Inconclusive,
-}
-
-impl VerdictWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equivalent => "equivalent",
-            Self::NotEquivalent => "not_equivalent",
-            Self::Singular => "singular",
-            Self::Inconclusive => "inconclusive",
-        }
+num::answer_words! {
+    /// Whether two designs are kinematically equivalent.
+    pub enum VerdictWord as name of Verdict {
+        /// They are equivalent.
+        Equivalent = "equivalent",
+        /// They are not equivalent.
+        NotEquivalent = "not_equivalent",
+        /// One of them is architecturally singular.
+        Singular = "singular",
+        /// Undecided.
+        Inconclusive = "inconclusive",
     }
 }
 
