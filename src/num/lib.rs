@@ -44,6 +44,7 @@ pub mod smooth;
 pub mod split;
 pub mod stream;
 pub mod surd;
+pub mod vector;
 pub mod vector_unit;
 
 #[cfg(feature = "serde")]

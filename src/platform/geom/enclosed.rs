@@ -4,6 +4,7 @@ use nalgebra::{Matrix6, UnitQuaternion};
 
 use super::Pose;
 use num::interval::Interval;
+pub use num::vector::{cross, dot};
 
 /// Three coordinates.
 pub type IntervalVector = [Interval; 3];
@@ -11,16 +12,6 @@ pub type IntervalVector = [Interval; 3];
 pub type Rotation = [IntervalVector; 3];
 /// A 6 x 6 matrix by rows.
 pub type IntervalMatrix = [[Interval; 6]; 6];
-
-/// `a . b`.
-pub fn dot(a: &IntervalVector, b: &IntervalVector) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// `a x b`.
-pub fn cross(a: &IntervalVector, b: &IntervalVector) -> IntervalVector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 /// `f(0..3, 0..3)`.
 pub fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
