@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::Zero;
 
-use super::exact::{self, ExactNumber, Rational};
+use super::exact::{self, ExactNumber, Rational, clear_below};
 use super::split::{SplitField, degree_of};
 use super::surd::Surd;
 
@@ -168,6 +168,10 @@ impl ExactNumber for Algebraic {
         self * other
     }
 
+    fn is_zero(&self) -> bool {
+        matches!(self, Self::Rational(x) if x.is_zero())
+    }
+
     /// Rows of fractions are eliminated as such. Other rows are eliminated in the field, unless they are independent
     /// modulo a prime, which proves independence.
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>> {
@@ -204,14 +208,7 @@ fn eliminated(rows: &[Vec<Algebraic>]) -> Vec<Vec<Algebraic>> {
     for column in 0..width {
         let Some(pivot) = (rank..count).find(|i| !work[*i][column].is_zero()) else { continue };
         work.swap(rank, pivot);
-        let (top, below) = work.split_at_mut(rank + 1);
-        let head = &top[rank];
-        for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
-            let factor = &row[column] / &head[column];
-            for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.is_zero()) {
-                *x = &*x - &(&factor * h);
-            }
-        }
+        clear_below(&mut work, rank, column);
         rank += 1;
     }
     work.split_off(rank).into_iter().map(|row| row[width..].to_vec()).collect()

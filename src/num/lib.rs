@@ -21,6 +21,7 @@ pub mod cosine;
 pub mod dense;
 pub mod double_double;
 pub mod echelon;
+pub mod elimination;
 pub mod exact;
 #[cfg(feature = "clarabel")]
 pub mod farkas;

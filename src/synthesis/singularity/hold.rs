@@ -7,7 +7,8 @@ use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3};
 
 use super::path::{ControlPoint, PathPiece, Sign, SignsAlong, signs_along, signs_on_curve};
 use num::exact::{ExactVector, rank, rational};
-use num::surd::{Surd, combination, eliminate};
+use num::elimination::{SurdArithmetic, eliminate};
+use num::surd::{Surd, combination};
 use platform::geom::Pose;
 use platform::manipulator::{ExactEnds, Manipulator};
 
@@ -198,7 +199,7 @@ fn is_exactly_singular(m: &Manipulator, pose: &Pose) -> Option<bool> {
         rows.iter().map(|row| row.iter().map(Surd::as_rational).collect()).collect();
     match fractions {
         Some(rows) => Some(rank(&rows) < 6),
-        None => Some(eliminate(&mut rows, 6)? < 6),
+        None => Some(eliminate(&SurdArithmetic, &mut rows)?.len() < 6),
     }
 }
 

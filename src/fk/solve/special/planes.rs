@@ -16,8 +16,8 @@
 //! inversion. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
 
 use super::Residues;
-use super::arithmetic::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
 use num::Rng;
+use num::elimination::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
 use num::modular::Field;
 use num::surd::Surd;
 use platform::manipulator::ExactEnds;

@@ -1,10 +1,10 @@
-//! Linear algebra and polynomials over the field of the joints and modulo a prime alike.
+//! Elimination over fields of square roots and modulo a prime alike.
 
-use num::modular::Field;
-use num::surd::Surd;
+use super::modular::Field;
+use super::surd::Surd;
 
 /// A field; `None` from an operation when numbers become too long.
-pub(super) trait Arithmetic {
+pub trait Arithmetic {
     /// Its numbers.
     type Number: Clone + PartialEq;
     fn zero(&self) -> Self::Number;
@@ -16,7 +16,7 @@ pub(super) trait Arithmetic {
 }
 
 /// Sums of square roots.
-pub(super) struct SurdArithmetic;
+pub struct SurdArithmetic;
 
 impl Arithmetic for SurdArithmetic {
     type Number = Surd;
@@ -63,11 +63,11 @@ impl Arithmetic for Field {
 }
 
 /// Rows of equal length.
-pub(super) type Rows<A> = Vec<Vec<<A as Arithmetic>::Number>>;
+pub type Rows<A> = Vec<Vec<<A as Arithmetic>::Number>>;
 
 /// Brings rows to echelon form, leading entries one with zeros above them, without zero rows; the columns of these
 /// entries.
-pub(super) fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usize>> {
+pub fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usize>> {
     let (zero, mut leading) = (field.zero(), Vec::new());
     for column in 0..rows.first().map_or(0, Vec::len) {
         let rank = leading.len();
@@ -91,7 +91,7 @@ pub(super) fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<
 }
 
 /// A basis of the vectors that all rows annul.
-pub(super) fn kernel<A: Arithmetic>(field: &A, mut rows: Rows<A>, width: usize) -> Option<Rows<A>> {
+pub fn kernel<A: Arithmetic>(field: &A, mut rows: Rows<A>, width: usize) -> Option<Rows<A>> {
     let leading = eliminate(field, &mut rows)?;
     let free = (0..width).filter(|c| !leading.contains(c));
     free.map(|f| {
