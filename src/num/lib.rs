@@ -33,6 +33,7 @@ pub mod names;
 #[cfg(feature = "serde")]
 mod number;
 pub mod octuple;
+mod operators;
 pub mod ordered;
 pub mod parallel;
 pub mod poly;

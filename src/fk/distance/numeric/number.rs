@@ -4,10 +4,10 @@
 
 use num_complex::Complex64;
 
-use num::batch::{ComplexBatch, LANES};
+use num::batch::ComplexBatch;
 pub(super) use num::vector::{RingNumber, cross, dot, minus};
 
-/// One complex number, or [`LANES`] of them.
+/// One complex number, or those of a [`ComplexBatch`].
 pub(super) trait LaneNumber: RingNumber {
     /// The same number everywhere.
     fn constant(z: Complex64) -> Self;
@@ -49,7 +49,7 @@ impl LaneNumber for Complex64 {
 impl LaneNumber for ComplexBatch {
     #[inline(always)]
     fn constant(z: Complex64) -> Self {
-        Self { re: [z.re; LANES], im: [z.im; LANES] }
+        Self::all(z)
     }
 
     #[inline(always)]
