@@ -94,6 +94,18 @@ macro_rules! words {
     };
 }
 
+/// `Display` by a function that gives the words.
+#[macro_export]
+macro_rules! displayed {
+    ($kind:ident by $words:ident) => {
+        impl std::fmt::Display for $kind {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.$words())
+            }
+        }
+    };
+}
+
 /// [`words!`] that answers have too, with the feature `serde`. After `of Other` they are the words of the variants of
 /// another enumeration, which gets the function `word`.
 #[macro_export]

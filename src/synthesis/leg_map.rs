@@ -140,11 +140,7 @@ impl Relation {
     }
 }
 
-impl std::fmt::Display for Relation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
+num::displayed!(Relation by name);
 
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]

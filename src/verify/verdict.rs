@@ -94,46 +94,27 @@ impl Counterexample {
     }
 }
 
-/// The reason for an undecided verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InconclusiveReason {
-    /// The map holds within rounding, but some sample could not be solved completely.
-    SolverIncomplete,
-    /// The map holds within rounding, but the poses found contradict it.
-    Contradiction,
-    /// The map holds within its tolerance, but its regularity is undecided.
-    MapUndecided,
-    /// No samples were requested, so only the map decides.
-    NoSamples,
-    /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
-    WithinRounding,
-    /// There is no map, but no pose was found that distinguishes the platforms.
-    NoCounterexample,
-}
-
-impl InconclusiveReason {
-    /// One sentence.
-    #[must_use]
-    pub fn sentence(self) -> &'static str {
-        match self {
-            Self::SolverIncomplete => {
-                "the leg map holds within rounding, but forward kinematics may have missed poses of a sample"
-            }
-            Self::Contradiction => {
-                "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
-                 nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)"
-            }
-            Self::MapUndecided => {
-                "the leg map is not decided: a singular platform is within rounding of one of the two"
-            }
-            Self::NoSamples => "no sets of lengths were compared: forward kinematics has said nothing",
-            Self::WithinRounding => {
-                "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees"
-            }
-            Self::NoCounterexample => {
-                "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly"
-            }
-        }
+num::words! {
+    /// The reason for an undecided verdict.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum InconclusiveReason as sentence {
+        /// The map holds within rounding, but some sample could not be solved completely.
+        SolverIncomplete =
+            "the leg map holds within rounding, but forward kinematics may have missed poses of a sample",
+        /// The map holds within rounding, but the poses found contradict it.
+        Contradiction =
+            "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
+                 nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)",
+        /// The map holds within its tolerance, but its regularity is undecided.
+        MapUndecided = "the leg map is not decided: a singular platform is within rounding of one of the two",
+        /// No samples were requested, so only the map decides.
+        NoSamples = "no sets of lengths were compared: forward kinematics has said nothing",
+        /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
+        WithinRounding =
+            "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees",
+        /// There is no map, but no pose was found that distinguishes the platforms.
+        NoCounterexample =
+            "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly",
     }
 }
 

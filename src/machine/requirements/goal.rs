@@ -24,35 +24,24 @@ num::words! {
     }
 }
 
-/// The result of keeping a symmetry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case"),
-    schemars(rename = "SymmetryWord")
-)]
-pub enum StartSymmetry {
-    // the three-fold symmetry of a design that names no symmetry
-    /// The answer has it.
-    Kept,
-    /// The symmetric search found no design that is proved to meet the requirements; the answer comes from a search
-    /// without symmetry.
-    GivenUp,
-}
-
-impl StartSymmetry {
-    /// One sentence: the choice made, and the option that turns it off.
-    #[must_use]
-    pub fn message(self) -> &'static str {
-        match self {
-            Self::Kept => {
-                "three-fold symmetry was kept, because the design has it at home and names none: symmetry = \"none\" in [optimize] searches without it"
-            }
-            Self::GivenUp => {
-                "no platform with the three-fold symmetry of the design was found that is proved to meet the requirements: the search went on without it, as symmetry = \"none\" in [optimize] does at once"
-            }
-        }
+num::words! {
+    /// The result of keeping a symmetry.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case"),
+        schemars(rename = "SymmetryWord")
+    )]
+    pub enum StartSymmetry as message {
+        // the three-fold symmetry of a design that names no symmetry
+        /// The answer has it.
+        Kept =
+            "three-fold symmetry was kept, because the design has it at home and names none: symmetry = \"none\" in [optimize] searches without it",
+        /// The symmetric search found no design that is proved to meet the requirements; the answer comes from a search
+        /// without symmetry.
+        GivenUp =
+            "no platform with the three-fold symmetry of the design was found that is proved to meet the requirements: the search went on without it, as symmetry = \"none\" in [optimize] does at once",
     }
 }
 

@@ -12,32 +12,26 @@ use num::surd::{Surd, combination};
 use platform::geom::Pose;
 use platform::manipulator::{ExactEnds, Manipulator};
 
-/// The evidence that a pose is singular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case"),
-    schemars(rename = "SingularEvidenceWord")
-)]
-pub enum SingularEvidence {
-    /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
-    Zero,
-    /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
-    SignChange,
-    /// det J is not above its rounding errors.
-    Rounding,
-}
-
-impl std::fmt::Display for SingularEvidence {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Zero => "det J = 0, proved in exact arithmetic",
-            Self::SignChange => "det J changes its sign there",
-            Self::Rounding => "det J = 0 to rounding",
-        })
+num::words! {
+    /// The evidence that a pose is singular.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case"),
+        schemars(rename = "SingularEvidenceWord")
+    )]
+    pub enum SingularEvidence as words {
+        /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
+        Zero = "det J = 0, proved in exact arithmetic",
+        /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
+        SignChange = "det J changes its sign there",
+        /// det J is not above its rounding errors.
+        Rounding = "det J = 0 to rounding",
     }
 }
+
+num::displayed!(SingularEvidence by words);
 
 /// Whether the legs hold the platform at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -30,11 +30,7 @@ impl MarginVerdict {
     }
 }
 
-impl std::fmt::Display for MarginVerdict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
+num::displayed!(MarginVerdict by name);
 
 /// The least margin of a kind with its proved bound.
 #[derive(Debug, Clone, PartialEq)]
