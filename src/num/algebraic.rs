@@ -139,8 +139,8 @@ impl ExactNumber for Algebraic {
         self * other
     }
 
-    fn is_zero(&self) -> bool {
-        matches!(self, Self::Rational(x) if x.is_zero())
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
 
     /// Rows of fractions are eliminated as such. Other rows are eliminated in the field, unless they are independent

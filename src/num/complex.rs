@@ -45,7 +45,7 @@ impl<T: From<f64>> From<Complex64> for Complex<T> {
 }
 
 crate::operators! {
-    [inline] [T: RingNumber + Neg<Output = T> + Div<Output = T>] Complex<T>;
+    [inline] [T: RingNumber + Neg<Output = T>] Complex<T>;
     Neg::neg(x) {
         Self { re: -x.re, im: -x.im }
     }
@@ -58,6 +58,10 @@ crate::operators! {
     Mul::mul(x, y) {
         Self { re: x.re * y.re - x.im * y.im, im: x.re * y.im + x.im * y.re }
     }
+}
+
+crate::operators! {
+    [inline] [T: RingNumber + Neg<Output = T> + Div<Output = T>] Complex<T>;
     // `z conj(w) / |w|^2`: accurate relative to `|z / w|`, not in each part by itself.
     Div::div(x, y) {
         let n = y.norm_sqr();

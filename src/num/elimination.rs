@@ -7,15 +7,22 @@ use super::surd::Surd;
 pub trait Arithmetic {
     /// Its numbers.
     type Number: Clone + PartialEq;
+    /// Zero.
     fn zero(&self) -> Self::Number;
+    /// One.
     fn one(&self) -> Self::Number;
+    /// A sum.
     fn plus(&self, x: &Self::Number, y: &Self::Number) -> Option<Self::Number>;
+    /// A difference.
     fn minus(&self, x: &Self::Number, y: &Self::Number) -> Option<Self::Number>;
+    /// A product.
     fn times(&self, x: &Self::Number, y: &Self::Number) -> Option<Self::Number>;
+    /// The inverse; `None` for zero.
     fn inverse(&self, x: &Self::Number) -> Option<Self::Number>;
 }
 
 /// Sums of square roots.
+#[derive(Debug)]
 pub struct SurdArithmetic;
 
 impl Arithmetic for SurdArithmetic {
@@ -68,8 +75,16 @@ pub type Rows<A> = Vec<Vec<<A as Arithmetic>::Number>>;
 /// Brings rows to echelon form, leading entries one with zeros above them, without zero rows; the columns of these
 /// entries.
 pub fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usize>> {
+    let width = rows.first().map_or(0, Vec::len);
+    let leading = eliminate_first(field, rows, width)?;
+    rows.truncate(leading.len());
+    Some(leading)
+}
+
+/// Brings the first columns to echelon form, leading entries one with zeros above them; the columns of these entries.
+pub fn eliminate_first<A: Arithmetic>(field: &A, rows: &mut Rows<A>, width: usize) -> Option<Vec<usize>> {
     let (zero, mut leading) = (field.zero(), Vec::new());
-    for column in 0..rows.first().map_or(0, Vec::len) {
+    for column in 0..width {
         let rank = leading.len();
         let Some(pivot) = (rank..rows.len()).find(|i| rows[*i][column] != zero) else { continue };
         rows.swap(rank, pivot);
@@ -86,7 +101,6 @@ pub fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usi
         rows[rank] = head;
         leading.push(column);
     }
-    rows.truncate(leading.len());
     Some(leading)
 }
 

@@ -8,8 +8,8 @@ use std::ops::{Div, Mul, Neg, Sub};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
 use num_traits::float::FloatCore;
+use num_traits::{Signed, Zero};
 
 use super::modular::Field;
 
@@ -22,7 +22,7 @@ pub trait ExactNumber: Clone {
     fn product(&self, other: &Self) -> Self;
 
     /// Whether it is zero.
-    fn is_zero(&self) -> bool;
+    fn vanishes(&self) -> bool;
 
     /// A basis of the linear relations between the rows, as in [`relations`].
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>>;
@@ -33,8 +33,8 @@ impl ExactNumber for Rational {
         self * other
     }
 
-    fn is_zero(&self) -> bool {
-        Zero::is_zero(self)
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
 
     fn relations(rows: &[ExactVector]) -> Vec<ExactVector> {
@@ -169,9 +169,9 @@ where
 {
     let (above, below) = rows.split_at_mut(pivot + 1);
     let head = &above[pivot];
-    for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
+    for row in below.iter_mut().filter(|row| !row[column].vanishes()) {
         let factor = &row[column] / &head[column];
-        for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.is_zero()) {
+        for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.vanishes()) {
             *x = &*x - &(&factor * h);
         }
     }
@@ -180,12 +180,11 @@ where
 /// The determinant of a square matrix by rows, at least one.
 pub fn determinant<N: ExactNumber>(mut rows: Vec<Vec<N>>) -> N
 where
-    for<'a> &'a N:
-        Sub<&'a N, Output = N> + Mul<&'a N, Output = N> + Div<&'a N, Output = N> + Neg<Output = N>,
+    for<'a> &'a N: Sub<&'a N, Output = N> + Mul<&'a N, Output = N> + Div<&'a N, Output = N> + Neg<Output = N>,
 {
     let mut product: Option<N> = None;
     for column in 0..rows.len() {
-        let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
+        let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].vanishes()) else {
             return rows[column][column].clone();
         };
         rows.swap(pivot, column);
@@ -208,10 +207,8 @@ pub fn kernel(rows: &[ExactVector]) -> Vec<ExactVector> {
 /// stay zeros.
 pub fn primitive(list: &[Rational]) -> Vec<Rational> {
     let Some(first) = list.iter().find(|x| !x.is_zero()) else { return list.to_vec() };
-    let denominator =
-        list.iter().fold(BigInt::from(1), |l, x| l.lcm(x.denom()));
-    let divisor =
-        list.iter().fold(BigInt::ZERO, |g, x| g.gcd(&(x.numer() * (&denominator / x.denom()))));
+    let denominator = list.iter().fold(BigInt::from(1), |l, x| l.lcm(x.denom()));
+    let divisor = list.iter().fold(BigInt::ZERO, |g, x| g.gcd(&(x.numer() * (&denominator / x.denom()))));
     let factor = Rational::new(denominator, if first.is_negative() { -divisor } else { divisor });
     list.iter().map(|x| x * &factor).collect()
 }

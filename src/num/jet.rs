@@ -22,8 +22,8 @@ pub struct Jet {
     second: bool,
 }
 
-/// The index of the derivative by variables `i <= j`.
-fn place(i: usize, j: usize) -> usize {
+/// The index of the derivative by variables `i <= j`, and of the entry of a symmetric 6 x 6 matrix.
+pub fn place(i: usize, j: usize) -> usize {
     i * (11 - i) / 2 + j
 }
 

@@ -8,7 +8,7 @@
 use std::fmt::Write as _;
 
 use num::algebraic::Algebraic;
-use num::exact::{rank, relations};
+use num::exact::{determinant, rank, relations};
 use platform::manipulator::{AlgebraicVector, ExactLegs};
 
 /// `s(TO) = A s(FROM) + c` with exact numbers and `det A` not zero.

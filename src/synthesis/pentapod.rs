@@ -75,8 +75,7 @@ impl LineLocus {
     pub fn value(&self, position: &[f64; 3], direction: &[f64; 3]) -> f64 {
         let term = |(exponents, c): (&LineExponents, &Rational)| {
             let unknowns = position.iter().chain(direction);
-            exact::nearest(c)
-                * unknowns.zip(exponents).map(|(x, e)| x.powi(i32::from(*e))).product::<f64>()
+            exact::nearest(c) * unknowns.zip(exponents).map(|(x, e)| x.powi(i32::from(*e))).product::<f64>()
         };
         self.polynomial.iter().map(term).sum()
     }

@@ -390,8 +390,9 @@ mod tests {
             let e = [q.w, q.i, q.j, q.k].map(|x| Complex64::new(1.3 * x, 0.0));
             let g = quaternion_product(pure(&p), e);
             let x = [e[0], e[1], e[2], e[3], g[0], g[1], g[2], g[3]];
-            let value =
-                |s: f64| -> Complex64 { leg_row(&a.into(), &b.into(), s).iter().zip(forms(x)).map(|(c, f)| f * *c).sum() };
+            let value = |s: f64| -> Complex64 {
+                leg_row(&a.into(), &b.into(), s).iter().zip(forms(x)).map(|(c, f)| f * *c).sum()
+            };
             assert!(value(s).norm() < 1e-12);
             // the form is N (|R b + p - a|^2 - s), N = 1.69
             assert!((value(s - 1.0) - 1.69).norm() < 1e-12);

@@ -112,7 +112,7 @@ pub fn leg_motions(m: &Manipulator, state: &MotionState) -> [LegMotion; 6] {
 }
 
 /// Inertia of platform and payload in the base frame.
-pub(super) pub(super) fn turned_inertia(bodies: &MovingBodies, state: &MotionState) -> Matrix3<f64> {
+pub(super) fn turned_inertia(bodies: &MovingBodies, state: &MotionState) -> Matrix3<f64> {
     let r = state.pose.rotation.matrix();
     r * bodies.inertia * r.transpose()
 }

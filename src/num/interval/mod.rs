@@ -126,6 +126,12 @@ impl Interval {
         Some(Self::raw(root(self.lo, f64::next_down).max(0.0), root(self.hi, f64::next_up)))
     }
 
+    /// The numbers in both; its own if no number is in both.
+    #[must_use]
+    pub fn narrowed(self, other: Self) -> Self {
+        Self::new(self.lo.max(other.lo), self.hi.min(other.hi)).unwrap_or(self)
+    }
+
     /// Encloses `x / y`; `None` if the divisor contains zero.
     #[must_use]
     #[inline]

@@ -18,6 +18,12 @@ pub fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
     std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
 }
 
+/// `v / |v|`; `None` where the norm may vanish.
+pub fn unit(v: &IntervalVector) -> Option<IntervalVector> {
+    let length = (v[0].square() + v[1].square() + v[2].square()).sqrt()?;
+    Some([v[0].checked_div(length)?, v[1].checked_div(length)?, v[2].checked_div(length)?])
+}
+
 /// `[c]x`.
 pub fn skew(c: &IntervalVector) -> Rotation {
     let z = Interval::ZERO;

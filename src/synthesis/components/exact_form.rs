@@ -504,7 +504,7 @@ mod tests {
                         term = term.times(v);
                     }
                 }
-                out.add(&term, 1);
+                out.add_scaled(&term, &BigInt::from(1));
             }
             out
         };

@@ -74,7 +74,7 @@ where
     }
 
     /// Adds a multiple.
-    fn add_scaled(&mut self, other: &Self, factor: &T) {
+    pub(super) fn add_scaled(&mut self, other: &Self, factor: &T) {
         self.coefficients.iter_mut().zip(&other.coefficients).for_each(|(a, b)| *a += factor * b);
     }
 

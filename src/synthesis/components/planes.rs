@@ -6,9 +6,9 @@ use nalgebra::{Point3, Vector3};
 use super::exact_curve::{ExactCurve, NoExactCurve};
 use super::flats::{ClosedPair, FlatProduct};
 use super::form::{
-    Form, PartKind, RealPart, SingularKind, SplitCurve, common_factor, cross, exponents,
-    incidence, index, line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind,
-    singular_point, split,
+    Form, PartKind, RealPart, SingularKind, SplitCurve, common_factor, cross, exponents, incidence, index,
+    line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind, singular_point,
+    split,
 };
 use super::found::{FoundComponents, View};
 use super::shape::frame;

@@ -6,8 +6,8 @@
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3};
 
 use super::path::{ControlPoint, PathPiece, Sign, SignsAlong, signs_along, signs_on_curve};
-use num::exact::{ExactVector, rank, rational};
 use num::elimination::{SurdArithmetic, eliminate};
+use num::exact::{ExactVector, rank, rational};
 use num::surd::{Surd, combination};
 use platform::geom::Pose;
 use platform::manipulator::{ExactEnds, Manipulator};

@@ -47,9 +47,9 @@ use num_complex::Complex64;
 
 use super::system::SquareData;
 use num::ball::{Disc, TINY, UP, WideDisc};
-use num::vector::RingNumber;
 use num::double_double::DoubleDouble;
 use num::rounding::check_arithmetic;
+use num::vector::RingNumber;
 use platform::manipulator::{Body, Manipulator};
 
 /// Unknowns: `e`, `alpha`, `beta`, `gamma`, `rho`.
