@@ -5,9 +5,9 @@
 //! thread took which problem.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics};
+use num::parallel::parallel;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The number of threads that a batch may use.
@@ -30,15 +30,6 @@ impl Threads {
         };
         most.min(jobs).max(1)
     }
-}
-
-/// One problem of a batch.
-#[derive(Debug, Clone, Copy)]
-pub struct BatchProblem<'a> {
-    /// The design.
-    pub manipulator: &'a Manipulator,
-    /// Squared leg lengths, design units squared.
-    pub squares: &'a SquaredLegLengths,
 }
 
 /// Result of one problem.
@@ -85,47 +76,9 @@ pub fn solve_batch(
     })
 }
 
-/// Solves many problems, each of its own design; result `i` belongs to `problems[i]`.
-#[must_use]
-pub fn solve_problems(
-    solver: &dyn ForwardKinematics,
-    problems: &[BatchProblem<'_>],
-    options: &FkOptions,
-    threads: Threads,
-) -> Vec<BatchResult> {
-    in_order(problems.len(), threads, &|i| {
-        solver.solve(problems[i].manipulator, problems[i].squares, options)
-    })
-}
-
 /// `job(0), .., job(count - 1)`, in this order whatever the threads.
 pub fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
-    let workers = threads.count(count);
-    if workers == 1 {
-        return (0..count).map(job).collect();
-    }
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut done = Vec::with_capacity(count / workers + 1);
-        loop {
-            let i = next.fetch_add(1, Ordering::Relaxed);
-            if i >= count {
-                return done;
-            }
-            done.push((i, job(i)));
-        }
-    };
-    let mut all: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..workers).map(|_| scope.spawn(work)).collect();
-        let mut all = work();
-        for other in others {
-            // a panic in a worker goes on in the caller
-            all.extend(other.join().unwrap_or_else(|payload| std::panic::resume_unwind(payload)));
-        }
-        all
-    });
-    all.sort_unstable_by_key(|(i, _)| *i);
-    all.into_iter().map(|(_, result)| result).collect()
+    parallel(count, threads.count(count), job, &mut |_, _| ())
 }
 
 #[cfg(test)]
@@ -210,7 +163,6 @@ mod tests {
         let (m, squares) = octahedral(2);
         let options = FkOptions::default();
         assert!(solve_batch(&Octic, &m, &[], &options, threads(3)).is_empty());
-        assert!(solve_problems(&Octic, &[], &options, Threads::All).is_empty());
         assert_eq!(solve_batch(&Octic, &m, &squares, &options, threads(9)).len(), 2);
         assert_eq!((threads(9).count(2), threads(9).count(0)), (2, 1));
     }
@@ -222,9 +174,9 @@ mod tests {
         let mut point = || Point3::from(Vector3::from_fn(|_, _| rng.normal()));
         let legs: [Leg; 6] = std::array::from_fn(|_| Leg { base: point(), platform: point() });
         let general = Manipulator::from_legs(legs).unwrap();
-        let problems = [(&m, &squares[0]), (&general, &squares[1]), (&m, &squares[2])]
-            .map(|(manipulator, squares)| BatchProblem { manipulator, squares });
-        let found = solve_problems(&Octic, &problems, &FkOptions::default(), threads(2));
+        let problems = [(&m, &squares[0]), (&general, &squares[1]), (&m, &squares[2])];
+        let options = FkOptions::default();
+        let found = in_order(3, threads(2), &|i| Octic.solve(problems[i].0, problems[i].1, &options));
         assert!(matches!(found[1], Err(FkError::NotApplicable { method: Method::Octic, .. })));
         for i in [0, 2] {
             assert_eq!(found[i].as_ref().unwrap().roots.len(), 16);

@@ -1,6 +1,6 @@
 //! Poses from the exact roots of the closure polynomial.
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use crate::distance::{closure_polynomial, plans};
@@ -43,7 +43,7 @@ pub fn closure_candidates(m: &Manipulator, s: &SquaredLegLengths) -> Vec<Complex
 fn over(m: &Manipulator, s: &SquaredLegLengths, plan: &Sequence, x: Complex64) -> Vec<(f64, ComplexPose)> {
     let virtual_leg = plan.virtual_legs.first().copied();
     let squared = |a: JointIndex, b: JointIndex| match a.across(b) {
-        None => Some(Complex64::from((point(m, a) - point(m, b)).norm_squared())),
+        None => Some(Complex64::from((a.point(m) - b.point(m)).norm_squared())),
         pair if pair == virtual_leg => Some(x),
         Some(pair) => m.pairs().iter().position(|l| *l == pair).map(|i| Complex64::from(s.get()[i])),
     };
@@ -53,7 +53,7 @@ fn over(m: &Manipulator, s: &SquaredLegLengths, plan: &Sequence, x: Complex64) -
         for placed in &partial {
             let position = |j: JointIndex| {
                 let moved = placed.iter().find(|p| p.0 == j).map(|p| p.1);
-                moved.unwrap_or_else(|| point(m, j).coords.map(Complex64::from))
+                moved.unwrap_or_else(|| j.point(m).coords.map(Complex64::from))
             };
             let [Some(a), Some(b), Some(c)] = step.from.map(|j| squared(j, step.place)) else { continue };
             let both = trilaterate(&step.from.map(position), [a, b, c]).into_iter().flatten();
@@ -65,18 +65,11 @@ fn over(m: &Manipulator, s: &SquaredLegLengths, plan: &Sequence, x: Complex64) -
     poses.map(|p| (p.residual(m, s), p)).filter(|p| p.0.is_finite()).collect()
 }
 
-fn point(m: &Manipulator, joint: JointIndex) -> Point3<f64> {
-    match joint {
-        JointIndex::Base(k) => m.base_joints()[k],
-        JointIndex::Platform(k) => m.platform_joints()[k],
-    }
-}
-
 /// The pose that takes three joints of one body to their places in the frame of the other.
 fn pose(m: &Manipulator, placed: &[(JointIndex, Vector3<Complex64>)]) -> Option<ComplexPose> {
     let [(a, pa), (b, pb), (c, pc)] = placed else { return None };
     let frame = |u: Vector3<Complex64>, v: Vector3<Complex64>| Matrix3::from_columns(&[u, v, u.cross(&v)]);
-    let own = |j: &JointIndex| point(m, *j).coords.map(Complex64::from);
+    let own = |j: &JointIndex| j.point(m).coords.map(Complex64::from);
     let from = frame(own(b) - own(a), own(c) - own(a));
     let rotation = frame(pb - pa, pc - pa) * from.try_inverse()?;
     let position = pa - rotation * own(a);
@@ -94,6 +87,7 @@ fn pose(m: &Manipulator, placed: &[(JointIndex, Vector3<Complex64>)]) -> Option<
 mod tests {
     use super::*;
     use crate::{FkOptions, ForwardKinematics, Homotopy};
+    use nalgebra::Point3;
     use platform::topology::catalogue;
 
     #[test]

@@ -57,47 +57,17 @@ pub enum Completeness {
     },
 }
 
-impl Completeness {
-    /// The word for it.
-    #[must_use]
-    pub fn word(&self) -> CompletenessWord {
-        match self {
-            Self::Proved { .. } => CompletenessWord::Proved,
-            Self::ProvedBounded { .. } => CompletenessWord::ProvedBounded,
-            Self::Modular { .. } => CompletenessWord::Modular,
-            Self::Unproved { .. } => CompletenessWord::Unproved,
-        }
-    }
-}
-
-/// Whether all poses are known to be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum CompletenessWord {
-    /// A theorem proves it.
-    Proved,
-    /// A theorem proves it for all real poses, or for all poses up to a distance above theirs.
-    ProvedBounded,
-    /// Counted modulo random primes, with a bound on the probability of error.
-    Modular,
-    /// Not known.
-    Unproved,
-}
-
-impl CompletenessWord {
-    /// The word in JSON and tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Proved => "proved",
-            Self::ProvedBounded => "proved_bounded",
-            Self::Modular => "modular",
-            Self::Unproved => "unproved",
-        }
+num::answer_words! {
+    /// Whether all poses are known to be listed.
+    pub enum CompletenessWord as name of Completeness {
+        /// A theorem proves it.
+        Proved = "proved",
+        /// A theorem proves it for all real poses, or for all poses up to a distance above theirs.
+        ProvedBounded = "proved_bounded",
+        /// Counted modulo random primes, with a bound on the probability of error.
+        Modular = "modular",
+        /// Not known.
+        Unproved = "unproved",
     }
 }
 

@@ -45,7 +45,7 @@ mod template;
 mod trilateration;
 
 pub use batch::in_order;
-pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
+pub use batch::{BatchResult, Threads, solve_batch};
 pub use bounds::pose_bound;
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure, closure_between};

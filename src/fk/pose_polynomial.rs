@@ -13,8 +13,7 @@ use crate::solve::certify::PoseEnclosure;
 use num::ball::{Disc, UP};
 use num::interval::Interval;
 use num::poly::EnclosedRoot;
-use num::surd::{Surd, eliminate};
-use platform::manipulator::{Body, Manipulator};
+use platform::manipulator::{Body, Manipulator, dimension_of_ends};
 
 /// Moduli up to here keep the error bounds of discs valid.
 const LARGEST: f64 = (1u128 << 100) as f64;
@@ -113,7 +112,7 @@ pub fn distance_polynomial(
     };
     let partners: Option<Vec<usize>> = squares.iter().enumerate().map(partner).collect();
     match partners {
-        Some(other) if is_planar(m, Body::Base) && is_planar(m, Body::Platform) => {
+        Some(other) if is_planar(m) => {
             let each_once: Vec<Disc> =
                 squares.iter().zip(0..).filter(|(_, i)| *i < other[*i]).map(|(x, _)| *x).collect();
             PosePolynomial::of(&each_once)
@@ -122,15 +121,10 @@ pub fn distance_polynomial(
     }
 }
 
-/// Whether the joints of a body lie in a plane, exactly; `false` for numbers that are too long.
-fn is_planar(m: &Manipulator, body: Body) -> bool {
-    let rank = || {
-        let ends = m.exact_ends()?.map(|ends| ends[body.index()].clone());
-        let difference = |end: &[Surd; 3]| end.iter().zip(&ends[0]).map(|(x, y)| x.minus(y)).collect();
-        let mut rows = ends[1..].iter().map(difference).collect::<Option<Vec<Vec<Surd>>>>()?;
-        eliminate(&mut rows, 3)
-    };
-    rank().is_some_and(|rank| rank <= 2)
+/// Whether the joints of either body lie in a plane, exactly; `false` for numbers that are too long.
+fn is_planar(m: &Manipulator) -> bool {
+    let in_plane = |ends: &_, body| dimension_of_ends(ends, body).is_some_and(|dimension| dimension <= 2);
+    m.exact_ends().is_some_and(|ends| Body::BOTH.into_iter().all(|body| in_plane(&ends, body)))
 }
 
 /// The values of a number at all poses.

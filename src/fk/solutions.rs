@@ -62,11 +62,7 @@ impl Method {
     }
 }
 
-impl std::fmt::Display for Method {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
+num::displayed!(Method by name);
 
 impl std::str::FromStr for Method {
     type Err = UnknownName;
@@ -76,26 +72,20 @@ impl std::str::FromStr for Method {
     }
 }
 
-/// Whether a root is a real pose (an assembly mode).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reality {
-    /// Imaginary parts vanish to rounding.
-    Real,
-    /// Imaginary parts are far above rounding.
-    NonReal,
-    /// Between: not decided.
-    Undecided,
-}
-
-impl std::fmt::Display for Reality {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Real => "real",
-            Self::NonReal => "not real",
-            Self::Undecided => "real or not: undecided",
-        })
+num::words! {
+    /// Whether a root is a real pose (an assembly mode).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Reality as words {
+        /// Imaginary parts vanish to rounding.
+        Real = "real",
+        /// Imaginary parts are far above rounding.
+        NonReal = "not real",
+        /// Between: not decided.
+        Undecided = "real or not: undecided",
     }
 }
+
+num::displayed!(Reality by words);
 
 /// The kind of set that the finite complex poses form.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,11 +108,7 @@ pub enum SolutionSet {
     },
 }
 
-impl std::fmt::Display for SolutionSet {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
+num::displayed!(SolutionSet by name);
 
 impl SolutionSet {
     /// The name used in JSON.
@@ -182,35 +168,18 @@ impl FkRoot {
     }
 }
 
-/// The end of a homotopy path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum PathEnd {
-    /// A finite pose.
-    Finite,
-    /// `e -> 0`: the position grows without bound.
-    AtInfinity,
-    /// `e.e -> 0` with `e != 0`: no rotation.
-    #[cfg_attr(feature = "serde", serde(rename = "isotropic"))]
-    IsotropicRotation,
-    /// Not tracked to an end; roots may be missing.
-    Failed,
-}
-
-impl PathEnd {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Finite => "finite",
-            Self::AtInfinity => "at_infinity",
-            Self::IsotropicRotation => "isotropic",
-            Self::Failed => "failed",
-        }
+num::answer_words! {
+    /// The end of a homotopy path.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum PathEnd as name {
+        /// A finite pose.
+        Finite = "finite",
+        /// `e -> 0`: the position grows without bound.
+        AtInfinity = "at_infinity",
+        /// `e.e -> 0` with `e != 0`: no rotation.
+        IsotropicRotation = "isotropic",
+        /// Not tracked to an end; roots may be missing.
+        Failed = "failed",
     }
 }
 

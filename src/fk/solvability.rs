@@ -2,8 +2,7 @@
 
 use super::distance::plans;
 use super::pentapod::{LineClass, line_class};
-use num::exact::{Rational, rational};
-use platform::manipulator::{Body, ExactLegs, JointKnowledge, Manipulator, flat_dimension};
+use platform::manipulator::{Body, ExactLegs, Manipulator, flat_dimension};
 use platform::pentapod::{Pentapod, RationalPoint, joints_of_legs, lines_without_one_leg};
 
 /// A part of the platform that some of the legs place, before the others place the rest.
@@ -85,47 +84,25 @@ fn listed(legs: &[usize]) -> String {
     legs.join(", ")
 }
 
-/// The ends of all legs as fractions; `None` where a coordinate is none.
-fn fractions(m: &Manipulator) -> Option<[[RationalPoint; 2]; 6]> {
-    let ends: Vec<[RationalPoint; 2]> = match m.joint_knowledge() {
-        JointKnowledge::Doubles => {
-            let point = |p: nalgebra::Point3<f64>| Some([rational(p.x)?, rational(p.y)?, rational(p.z)?]);
-            m.legs()
-                .iter()
-                .map(|leg| Some([point(leg.base)?, point(leg.platform)?]))
-                .collect::<Option<_>>()?
-        }
-        JointKnowledge::Exact => {
-            let point = |p: &platform::manipulator::SurdPoint| -> Option<RationalPoint> {
-                let list: Option<Vec<Rational>> = p.iter().map(num::surd::Surd::as_rational).collect();
-                list?.try_into().ok()
-            };
-            let ends = m.exact_ends()?;
-            ends.iter().map(|[a, b]| Some([point(a)?, point(b)?])).collect::<Option<_>>()?
-        }
-        JointKnowledge::Enclosed => return None,
-    };
-    ends.try_into().ok()
-}
-
 /// The steps in which the poses of `m` can be found. Lines and joints are those of the exact joints. For joints that
 /// are known between bounds only, the pattern of shared joints decides alone.
 #[must_use]
 pub fn solvability(m: &Manipulator) -> Solvability {
     let mut placed_first = Vec::new();
-    if let Some(exact) = ExactLegs::of(m).or_else(|| ExactLegs::of_doubles(&m.legs())) {
-        let fractions = fractions(m);
+    let known = ExactLegs::of(m);
+    if let Some(exact) = known.clone().or_else(|| ExactLegs::of_doubles(&m.legs())) {
         for body in [Body::Platform, Body::Base] {
             let ends = body.of((&exact.base, &exact.platform));
             let others = body.other().of((&exact.base, &exact.platform));
             let dimension = |legs: &[usize]| flat_dimension(legs.iter().map(|leg| &ends[*leg]));
             let counted = |legs: &[usize]| legs.iter().map(|leg| leg + 1).collect::<Vec<_>>();
             for five in lines_without_one_leg(6, dimension) {
-                let class = fractions.as_ref().and_then(|ends| {
-                    let of = |k: usize| -> Option<[RationalPoint; 5]> {
-                        five.iter().map(|leg| ends[*leg][k].clone()).collect::<Vec<_>>().try_into().ok()
+                let class = known.as_ref().and_then(|known| {
+                    let of = |body: Body| -> Option<[RationalPoint; 5]> {
+                        let points = five.iter().map(|leg| known.fractions(body, *leg));
+                        points.collect::<Option<Vec<_>>>()?.try_into().ok()
                     };
-                    let pentapod = Pentapod { base: of(0)?, platform: of(1)? };
+                    let pentapod = Pentapod { base: of(Body::Base)?, platform: of(Body::Platform)? };
                     line_class(&pentapod.linear_on(body)?)
                 });
                 let other_ends_in_plane = flat_dimension(five.iter().map(|leg| &others[*leg])) == 2;

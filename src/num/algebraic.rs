@@ -3,11 +3,9 @@
 //! [`Surd`] refuses long results, because designs are written and printed with it. Sums, products and quotients always
 //! exist here: [`Algebraic::all`] admits only numbers of one field whose radicands stay below `2^63`.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
 use num_traits::Zero;
 
-use super::exact::{self, ExactNumber, Rational};
+use super::exact::{self, ExactNumber, Rational, clear_below};
 use super::split::{SplitField, degree_of};
 use super::surd::Surd;
 
@@ -85,75 +83,48 @@ impl From<Rational> for Algebraic {
     }
 }
 
-impl Add for &Algebraic {
-    type Output = Algebraic;
-
-    fn add(self, other: Self) -> Algebraic {
-        match (self, other) {
+crate::operators! {
+    [inline] [] &Algebraic => Algebraic;
+    Add::add(x, y) {
+        match (x, y) {
             (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x + y),
-            _ => self.with(other, |x, y| Some(x.sum(y))),
+            _ => x.with(y, |x, y| Some(x.sum(y))),
         }
     }
-}
-
-impl Sub for &Algebraic {
-    type Output = Algebraic;
-
-    fn sub(self, other: Self) -> Algebraic {
-        match (self, other) {
+    Sub::sub(x, y) {
+        match (x, y) {
             (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x - y),
-            _ => self.with(other, |x, y| Some(x.sum(&y.negated()))),
+            _ => x.with(y, |x, y| Some(x.sum(&y.negated()))),
         }
     }
-}
-
-impl Mul for &Algebraic {
-    type Output = Algebraic;
-
-    fn mul(self, other: Self) -> Algebraic {
-        match (self, other) {
+    Mul::mul(x, y) {
+        match (x, y) {
             (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x * y),
-            _ => self.with(other, Surd::product),
+            _ => x.with(y, Surd::product),
         }
     }
-}
-
-/// The divisor is not zero.
-impl Div for &Algebraic {
-    type Output = Algebraic;
-
-    fn div(self, other: Self) -> Algebraic {
-        match (self, other) {
+    // the divisor is not zero
+    Div::div(x, y) {
+        match (x, y) {
             (Algebraic::Rational(x), Algebraic::Rational(y)) => Algebraic::Rational(x / y),
-            _ => self.with(other, |x, y| x.product(&y.reciprocal()?)),
+            _ => x.with(y, |x, y| x.product(&y.reciprocal()?)),
         }
     }
-}
-
-impl Neg for &Algebraic {
-    type Output = Algebraic;
-
-    fn neg(self) -> Algebraic {
-        match self {
+    Neg::neg(x) {
+        match x {
             Algebraic::Rational(x) => Algebraic::Rational(-x),
             Algebraic::Irrational(x) => Algebraic::Irrational(x.negated()),
         }
     }
 }
 
-impl Mul for Algebraic {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        &self * &other
+crate::operators! {
+    [inline] [] Algebraic;
+    Mul::mul(x, y) {
+        &x * &y
     }
-}
-
-impl Sub for Algebraic {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        &self - &other
+    Sub::sub(x, y) {
+        &x - &y
     }
 }
 
@@ -166,6 +137,10 @@ impl std::iter::Sum for Algebraic {
 impl ExactNumber for Algebraic {
     fn product(&self, other: &Self) -> Self {
         self * other
+    }
+
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
 
     /// Rows of fractions are eliminated as such. Other rows are eliminated in the field, unless they are independent
@@ -204,14 +179,7 @@ fn eliminated(rows: &[Vec<Algebraic>]) -> Vec<Vec<Algebraic>> {
     for column in 0..width {
         let Some(pivot) = (rank..count).find(|i| !work[*i][column].is_zero()) else { continue };
         work.swap(rank, pivot);
-        let (top, below) = work.split_at_mut(rank + 1);
-        let head = &top[rank];
-        for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
-            let factor = &row[column] / &head[column];
-            for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.is_zero()) {
-                *x = &*x - &(&factor * h);
-            }
-        }
+        clear_below(&mut work, rank, column);
         rank += 1;
     }
     work.split_off(rank).into_iter().map(|row| row[width..].to_vec()).collect()

@@ -255,39 +255,23 @@ impl WideDisc {
     }
 }
 
-impl<C: BallCentre> Neg for Ball<C> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self { centre: -self.centre, radius: self.radius }
+crate::operators! {
+    [inline] [C: BallCentre] Ball<C>;
+    Neg::neg(x) {
+        Self { centre: -x.centre, radius: x.radius }
     }
-}
-
-impl<C: BallCentre> Add for Ball<C> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        let centre = self.centre + other.centre;
-        Self { centre, radius: (self.radius + other.radius + C::SUM * centre.size() + TINY) * UP }
+    Add::add(x, y) {
+        let centre = x.centre + y.centre;
+        Self { centre, radius: (x.radius + y.radius + C::SUM * centre.size() + TINY) * UP }
     }
-}
-
-impl<C: BallCentre> Sub for Ball<C> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
+    Sub::sub(x, y) {
+        x + -y
     }
-}
-
-impl<C: BallCentre> Mul for Ball<C> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        let (z, w) = (self.centre.size(), other.centre.size());
-        let (r, t) = (self.radius, other.radius);
+    Mul::mul(x, y) {
+        let (z, w) = (x.centre.size(), y.centre.size());
+        let (r, t) = (x.radius, y.radius);
         let radius = (z * t + r * (w + t) + C::PRODUCT * z * w + TINY) * UP;
-        Self { centre: self.centre * other.centre, radius }
+        Self { centre: x.centre * y.centre, radius }
     }
 }
 

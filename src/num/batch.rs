@@ -26,6 +26,12 @@ impl ComplexBatch {
         Self { re: [x; LANES], im: [0.0; LANES] }
     }
 
+    /// One number in all lanes.
+    #[inline(always)]
+    pub fn all(z: Complex64) -> Self {
+        Self { re: [z.re; LANES], im: [z.im; LANES] }
+    }
+
     /// The number in lane `k`.
     #[inline(always)]
     pub fn lane(&self, k: usize) -> Complex64 {
@@ -116,35 +122,19 @@ impl ComplexBatch {
     }
 }
 
-impl std::ops::Add for ComplexBatch {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| (a + c, b + d))
+crate::operators! {
+    [inline(always)] [] ComplexBatch;
+    Add::add(x, y) {
+        x.zip(y, |a, b, c, d| (a + c, b + d))
     }
-}
-
-impl std::ops::Sub for ComplexBatch {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| (a - c, b - d))
+    Sub::sub(x, y) {
+        x.zip(y, |a, b, c, d| (a - c, b - d))
     }
-}
-
-impl std::ops::Mul for ComplexBatch {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| (a * c - b * d, a * d + b * c))
+    Mul::mul(x, y) {
+        x.zip(y, |a, b, c, d| (a * c - b * d, a * d + b * c))
     }
-}
-
-impl std::ops::Neg for ComplexBatch {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.map(|re, im| (-re, -im))
+    Neg::neg(x) {
+        x.map(|re, im| (-re, -im))
     }
 }
 

@@ -3,9 +3,11 @@
 //! Complex numbers in double are those of `num_complex`. Its generic type requires remainders and parsing of its parts,
 //! which double-double and octuple numbers lack. This type requires only sums and products.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Div, Neg};
 
 use num_complex::Complex64;
+
+use super::vector::RingNumber;
 
 /// `re + i im`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,7 +18,7 @@ pub struct Complex<T> {
     pub im: T,
 }
 
-impl<T: Copy + Neg<Output = T> + Add<Output = T> + Mul<Output = T>> Complex<T> {
+impl<T: RingNumber + Neg<Output = T>> Complex<T> {
     /// The complex conjugate.
     #[must_use]
     pub fn conj(self) -> Self {
@@ -42,43 +44,28 @@ impl<T: From<f64>> From<Complex64> for Complex<T> {
     }
 }
 
-impl<T: Neg<Output = T>> Neg for Complex<T> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { re: -self.re, im: -self.im }
+crate::operators! {
+    [inline] [T: RingNumber + Neg<Output = T>] Complex<T>;
+    Neg::neg(x) {
+        Self { re: -x.re, im: -x.im }
+    }
+    Add::add(x, y) {
+        Self { re: x.re + y.re, im: x.im + y.im }
+    }
+    Sub::sub(x, y) {
+        Self { re: x.re - y.re, im: x.im - y.im }
+    }
+    Mul::mul(x, y) {
+        Self { re: x.re * y.re - x.im * y.im, im: x.re * y.im + x.im * y.re }
     }
 }
 
-impl<T: Add<Output = T>> Add for Complex<T> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl<T: Sub<Output = T>> Sub for Complex<T> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
-    }
-}
-
-impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Mul for Complex<T> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
-}
-
-impl<T> Div for Complex<T>
-where
-    T: Copy + Neg<Output = T> + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Div<Output = T>,
-{
-    type Output = Self;
-    /// `z conj(w) / |w|^2`: accurate relative to `|z / w|`, not in each part by itself.
-    fn div(self, other: Self) -> Self {
-        let n = other.norm_sqr();
-        let z = self * other.conj();
+crate::operators! {
+    [inline] [T: RingNumber + Neg<Output = T> + Div<Output = T>] Complex<T>;
+    // `z conj(w) / |w|^2`: accurate relative to `|z / w|`, not in each part by itself.
+    Div::div(x, y) {
+        let n = y.norm_sqr();
+        let z = x * y.conj();
         Self { re: z.re / n, im: z.im / n }
     }
 }

@@ -68,33 +68,25 @@ pub enum ConicAnswer {
     Failed(SolverFailure),
 }
 
-/// The reason why the conic solver gave no answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum SolverFailure {
-    /// The data were refused.
-    Data,
-    /// Claimed unbounded.
-    Unbounded,
-    /// Iteration or time limit.
-    Limit,
-    /// Numerical trouble or no progress.
-    Numerical,
-    /// The point returned violates the constraints more than the accepted residual.
-    Residual,
-}
-
-impl std::fmt::Display for SolverFailure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Data => "the conic solver refused the data",
-            Self::Unbounded => "the conic solver called the subproblem unbounded",
-            Self::Limit => "the conic solver reached its iteration limit",
-            Self::Numerical => "the conic solver met numerical trouble",
-            Self::Residual => "the conic solver's point does not satisfy the constraints",
-        })
+crate::words! {
+    /// The reason why the conic solver gave no answer.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum SolverFailure as words {
+        /// The data were refused.
+        Data = "the conic solver refused the data",
+        /// Claimed unbounded.
+        Unbounded = "the conic solver called the subproblem unbounded",
+        /// Iteration or time limit.
+        Limit = "the conic solver reached its iteration limit",
+        /// Numerical trouble or no progress.
+        Numerical = "the conic solver met numerical trouble",
+        /// The point returned violates the constraints more than the accepted residual.
+        Residual = "the conic solver's point does not satisfy the constraints",
     }
 }
+
+crate::displayed!(SolverFailure by words);
 
 /// Counts the programs of a search; clones count together.
 #[derive(Debug, Clone, Default)]

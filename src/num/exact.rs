@@ -3,10 +3,13 @@
 //! Every finite double is a rational number, so linear relations between data given as doubles are true or false
 //! without any tolerance.
 
+use std::ops::{Div, Mul, Neg, Sub};
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::float::FloatCore;
+use num_traits::{Signed, Zero};
 
 use super::modular::Field;
 
@@ -18,6 +21,9 @@ pub trait ExactNumber: Clone {
     /// The product of two.
     fn product(&self, other: &Self) -> Self;
 
+    /// Whether it is zero.
+    fn vanishes(&self) -> bool;
+
     /// A basis of the linear relations between the rows, as in [`relations`].
     fn relations(rows: &[Vec<Self>]) -> Vec<Vec<Self>>;
 }
@@ -25,6 +31,10 @@ pub trait ExactNumber: Clone {
 impl ExactNumber for Rational {
     fn product(&self, other: &Self) -> Self {
         self * other
+    }
+
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
 
     fn relations(rows: &[ExactVector]) -> Vec<ExactVector> {
@@ -42,7 +52,7 @@ pub fn rational(x: f64) -> Option<Rational> {
     }
     let (mantissa, exponent, sign) = x.integer_decode();
     if mantissa == 0 {
-        return Some(zero());
+        return Some(Rational::zero());
     }
     let twos = mantissa.trailing_zeros();
     let numerator = BigInt::from(mantissa >> twos) * sign;
@@ -63,8 +73,9 @@ pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     if is_power(a, m) || is_power(b, n) { BigInt::from(1) << m.min(n) } else { a.gcd(b) }
 }
 
-fn zero() -> Rational {
-    Rational::from_integer(0.into())
+/// An integer as a fraction.
+pub fn integer(x: i64) -> Rational {
+    Rational::from_integer(x.into())
 }
 
 /// A basis of the linear relations between the rows: vectors `c` with `sum_i c_i row_i = 0`, exactly.
@@ -85,7 +96,7 @@ fn relations_of_fractions(rows: &[ExactVector]) -> Vec<ExactVector> {
     let count = rows.len();
     let width = rows.first().map_or(0, Vec::len);
     let mut work = integers(rows);
-    if full_rank_modulo(Field::MERSENNE, &work) {
+    if rank_modulo(&work) == count {
         return Vec::new(); // a minor that is nonzero modulo a prime is nonzero
     }
     for (i, row) in work.iter_mut().enumerate() {
@@ -145,24 +156,66 @@ fn integers(rows: &[Vec<Rational>]) -> Vec<Vec<BigInt>> {
     out
 }
 
-/// Whether the rows are independent modulo the prime; then they are independent.
-fn full_rank_modulo(field: Field, rows: &[Vec<BigInt>]) -> bool {
-    let prime = BigInt::from(field.prime());
-    let residue = |x: &BigInt| x.mod_floor(&prime).iter_u64_digits().next().unwrap_or(0);
-    let residues: Vec<Vec<u64>> = rows.iter().map(|row| row.iter().map(residue).collect()).collect();
-    field.rank(residues) == rows.len()
+/// The rank of rows of integers modulo a prime, at most their rank.
+pub fn rank_modulo(rows: &[Vec<BigInt>]) -> usize {
+    let field = Field::MERSENNE;
+    field.rank(rows.iter().map(|row| row.iter().map(|x| field.residue(x)).collect::<Vec<_>>()).collect())
+}
+
+/// Subtracts multiples of a row from those below it, whose entries in the column become zero.
+pub(crate) fn clear_below<N: ExactNumber>(rows: &mut [Vec<N>], pivot: usize, column: usize)
+where
+    for<'a> &'a N: Sub<&'a N, Output = N> + Mul<&'a N, Output = N> + Div<&'a N, Output = N>,
+{
+    let (above, below) = rows.split_at_mut(pivot + 1);
+    let head = &above[pivot];
+    for row in below.iter_mut().filter(|row| !row[column].vanishes()) {
+        let factor = &row[column] / &head[column];
+        for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.vanishes()) {
+            *x = &*x - &(&factor * h);
+        }
+    }
+}
+
+/// The determinant of a square matrix by rows, at least one.
+pub fn determinant<N: ExactNumber>(mut rows: Vec<Vec<N>>) -> N
+where
+    for<'a> &'a N: Sub<&'a N, Output = N> + Mul<&'a N, Output = N> + Div<&'a N, Output = N> + Neg<Output = N>,
+{
+    let mut product: Option<N> = None;
+    for column in 0..rows.len() {
+        let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].vanishes()) else {
+            return rows[column][column].clone();
+        };
+        rows.swap(pivot, column);
+        let head = &rows[column][column];
+        let next = product.map_or_else(|| head.clone(), |product| &product * head);
+        product = Some(if pivot == column { next } else { -&next });
+        clear_below(&mut rows, column, column);
+    }
+    product.unwrap_or_else(|| unreachable!("a matrix has rows"))
+}
+
+/// A basis of the vectors that all rows annul.
+pub fn kernel(rows: &[ExactVector]) -> Vec<ExactVector> {
+    let width = rows.first().map_or(0, Vec::len);
+    let column = |j: usize| rows.iter().map(|row| row[j].clone()).collect();
+    relations(&(0..width).map(column).collect::<Vec<_>>())
 }
 
 /// The multiple of a list that consists of integers without a common factor, with a positive first nonzero entry; zeros
 /// stay zeros.
 pub fn primitive(list: &[Rational]) -> Vec<Rational> {
-    let Some(first) = list.iter().find(|x| **x != zero()) else { return list.to_vec() };
-    let denominator =
-        list.iter().fold(Rational::from_integer(1.into()).numer().clone(), |l, x| l.lcm(x.denom()));
-    let divisor =
-        list.iter().fold(zero().numer().clone(), |g, x| g.gcd(&(x.numer() * (&denominator / x.denom()))));
-    let factor = Rational::new(denominator, if *first < zero() { -divisor } else { divisor });
+    let Some(first) = list.iter().find(|x| !x.is_zero()) else { return list.to_vec() };
+    let denominator = list.iter().fold(BigInt::from(1), |l, x| l.lcm(x.denom()));
+    let divisor = list.iter().fold(BigInt::ZERO, |g, x| g.gcd(&(x.numer() * (&denominator / x.denom()))));
+    let factor = Rational::new(denominator, if first.is_negative() { -divisor } else { divisor });
     list.iter().map(|x| x * &factor).collect()
+}
+
+/// The numerators of the [`primitive`] multiple.
+pub fn primitive_integers(list: &[Rational]) -> Vec<BigInt> {
+    primitive(list).iter().map(|x| x.numer().clone()).collect()
 }
 
 /// `digits * 10^exponent`; `None` for texts other than digits, and exponents above a thousand.
@@ -187,7 +240,7 @@ pub fn nearest(x: &Rational) -> f64 {
     let exponent = (-shift - 1).clamp(-4000, 4000) as i32;
     let half = exponent / 2;
     let scaled = rounded * 2f64.powi(half) * 2f64.powi(exponent - half);
-    if *x < zero() { -scaled } else { scaled }
+    if x.is_negative() { -scaled } else { scaled }
 }
 
 /// An upper bound of the distance of a double from the numbers between `low` and `high`; zero if they are the double.
@@ -217,7 +270,7 @@ pub fn approximate(x: &Rational) -> f64 {
     let exponent = (-shift).clamp(-4000, 4000) as i32;
     let half = exponent / 2;
     let scaled = leading * 2f64.powi(half) * 2f64.powi(exponent - half);
-    if *x < zero() { -scaled } else { scaled }
+    if x.is_negative() { -scaled } else { scaled }
 }
 
 #[cfg(test)]
@@ -276,7 +329,7 @@ mod tests {
         let found = relations(&[row(&a), row(&b), exact.clone()]);
         assert_eq!(found.len(), 1);
         let c = &found[0];
-        assert!(c[0] == c[1] && &c[0] + &c[2] == zero() && c[2] != zero());
+        assert!(c[0] == c[1] && &c[0] + &c[2] == integer(0) && c[2] != integer(0));
         let rounded = row(&[0.1 + 1e20, 0.2 + 3.0, 0.3 - 0.7, 0.5]);
         assert!(rounded != exact && relations(&[row(&a), row(&b), rounded]).is_empty());
     }

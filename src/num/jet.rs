@@ -3,8 +3,6 @@
 //! Forward differentiation (Wengert 1964) in outward-rounded intervals: each component of a result encloses that of the
 //! exact function at every point of the box.
 
-use std::ops::{Add, Mul, Neg, Sub};
-
 use super::interval::Interval;
 pub use super::smooth::{cross, dot, norm_squared};
 
@@ -24,8 +22,8 @@ pub struct Jet {
     second: bool,
 }
 
-/// The index of the derivative by variables `i <= j`.
-fn place(i: usize, j: usize) -> usize {
+/// The index of the derivative by variables `i <= j`, and of the entry of a symmetric 6 x 6 matrix.
+pub fn place(i: usize, j: usize) -> usize {
     i * (11 - i) / 2 + j
 }
 
@@ -215,37 +213,20 @@ impl Jet {
     }
 }
 
-// the operators are inlined and their implementations are not, so that the large operands are not copied
-
-impl Add for Jet {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        self.sum(&other)
+crate::operators! {
+    [inline] [] Jet;
+    // the operators are inlined and their implementations are not, so that the large operands are not copied
+    Add::add(x, y) {
+        x.sum(&y)
     }
-}
-
-impl Sub for Jet {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self.difference(&other)
+    Sub::sub(x, y) {
+        x.difference(&y)
     }
-}
-
-impl Neg for Jet {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        self.alike(Interval::ZERO).difference(&self)
+    Neg::neg(x) {
+        x.alike(Interval::ZERO).difference(&x)
     }
-}
-
-impl Mul for Jet {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        self.product(&other)
+    Mul::mul(x, y) {
+        x.product(&y)
     }
 }
 

@@ -21,6 +21,7 @@ pub mod cosine;
 pub mod dense;
 pub mod double_double;
 pub mod echelon;
+pub mod elimination;
 pub mod exact;
 #[cfg(feature = "clarabel")]
 pub mod farkas;
@@ -32,6 +33,7 @@ pub mod names;
 #[cfg(feature = "serde")]
 mod number;
 pub mod octuple;
+mod operators;
 pub mod ordered;
 pub mod parallel;
 pub mod poly;
@@ -44,6 +46,7 @@ pub mod smooth;
 pub mod split;
 pub mod stream;
 pub mod surd;
+pub mod vector;
 pub mod vector_unit;
 
 #[cfg(feature = "serde")]

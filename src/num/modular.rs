@@ -3,6 +3,8 @@
 //! Arithmetic modulo `p` is exact and of fixed size. A minor that is nonzero modulo one prime is nonzero. A minor that
 //! is zero modulo primes whose product exceeds its absolute value is zero.
 
+use num_bigint::{BigInt, Sign};
+
 use super::Rng;
 
 /// The field of integers modulo a prime below `2^61`.
@@ -44,6 +46,14 @@ impl Field {
     /// The prime.
     pub fn prime(self) -> u64 {
         self.0
+    }
+
+    /// The residue of an integer of any size.
+    pub fn residue(self, x: &BigInt) -> u64 {
+        let p = u128::from(self.0);
+        let digits = x.magnitude().iter_u64_digits().rev();
+        let r = digits.fold(0u128, |r, d| ((r << 64) | u128::from(d)) % p) as u64;
+        if x.sign() == Sign::Minus { self.sub(0, r) } else { r }
     }
 
     /// The residue of an integer.

@@ -5,7 +5,7 @@
 //! of a quotient four times that. The results prove nothing; the exponent has 32 bits and does not overflow in
 //! practice.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div};
 
 use num_complex::Complex64;
 
@@ -134,11 +134,16 @@ impl From<f64> for Octuple {
     }
 }
 
-impl Neg for Octuple {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self { negative: !self.negative, ..self }
+crate::operators! {
+    [inline] [] Octuple;
+    Neg::neg(x) {
+        Self { negative: !x.negative, ..x }
+    }
+    Sub::sub(x, y) {
+        x + -y
+    }
+    Mul::mul(x, y) {
+        x.times(y)
     }
 }
 
@@ -181,22 +186,6 @@ impl Add for Octuple {
             (out[k], borrow) = (rest, a | b);
         }
         Self::normalised(large.negative, large.exponent, out)
-    }
-}
-
-impl Sub for Octuple {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for Octuple {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        self.times(other)
     }
 }
 

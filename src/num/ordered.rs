@@ -1,6 +1,6 @@
 //! Number types for formulas of margins: plain, with a gradient, and enclosures.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Sub};
 
 use nalgebra::Vector3;
 
@@ -86,36 +86,20 @@ impl From<f64> for Sloped {
     }
 }
 
-impl Add for Sloped {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, slope: self.slope + other.slope }
+crate::operators! {
+    [inline] [] Sloped;
+    Add::add(x, y) {
+        Self { value: x.value + y.value, slope: x.slope + y.slope }
     }
-}
-
-impl Neg for Sloped {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self { value: -self.value, slope: -self.slope }
+    Neg::neg(x) {
+        Self { value: -x.value, slope: -x.slope }
     }
-}
-
-impl Sub for Sloped {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
+    Sub::sub(x, y) {
+        x + -y
     }
-}
-
-impl Mul for Sloped {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        let slope = self.slope * other.value + other.slope * self.value;
-        Self { value: self.value * other.value, slope }
+    Mul::mul(x, y) {
+        let slope = x.slope * y.value + y.slope * x.value;
+        Self { value: x.value * y.value, slope }
     }
 }
 

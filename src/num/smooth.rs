@@ -1,15 +1,15 @@
 //! Number types for formulas with products: plain, enclosures, and both with derivatives.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::Neg;
 
 use super::interval::{self, Interval};
 use super::jet::Jet;
 use super::ordered::Sloped;
+use super::vector::RingNumber;
+pub use super::vector::{cross, dot};
 
 /// Numbers with products and square roots.
-pub trait SmoothNumber:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self> + Mul<Output = Self>
-{
+pub trait SmoothNumber: RingNumber + Neg<Output = Self> {
     /// Constant factors.
     type Factor: From<f64>;
 
@@ -119,17 +119,7 @@ impl SmoothNumber for Jet {
     }
 }
 
-/// `a . b`.
-pub fn dot<N: SmoothNumber>(a: &[N; 3], b: &[N; 3]) -> N {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 /// `a . a`.
 pub fn norm_squared<N: SmoothNumber>(a: &[N; 3]) -> N {
     a[0].square() + a[1].square() + a[2].square()
-}
-
-/// `a x b`.
-pub fn cross<N: SmoothNumber>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -130,13 +130,13 @@ impl SplitField {
     /// The residue of a number whose square roots and cosines were given; `None` if the prime divides its denominator.
     pub fn residue(&self, x: &Surd) -> Option<u64> {
         let field = self.field;
-        let denominator = self.integer(x.denominator());
+        let denominator = field.residue(x.denominator());
         if denominator == 0 {
             return None;
         }
         let mut sum = 0;
         for (of, c) in x.terms() {
-            let mut term = self.integer(c);
+            let mut term = field.residue(c);
             for (n, k) in of.cosines() {
                 term = field.mul(term, cosine(field, &self.turns, n, k)?);
             }
@@ -151,10 +151,6 @@ impl SplitField {
             sum = field.add(sum, term);
         }
         Some(field.mul(sum, field.inverse(denominator)))
-    }
-
-    fn integer(&self, x: &BigInt) -> u64 {
-        x.mod_floor(&BigInt::from(self.field.prime())).iter_u64_digits().next().unwrap_or(0)
     }
 }
 

@@ -357,29 +357,6 @@ pub fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
     weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
 }
 
-/// Reduces the first `width` columns to an identity above zeros as far as possible, and returns the rank. `None` if
-/// numbers become too long.
-pub fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
-    let mut rank = 0;
-    for column in 0..width {
-        let Some(pivot) = (rank..rows.len()).find(|i| !rows[*i][column].is_zero()) else { continue };
-        rows.swap(rank, pivot);
-        let inverse = rows[rank][column].inverse()?;
-        let head: Vec<Surd> = rows[rank].iter().map(|x| x.times(&inverse)).collect::<Option<_>>()?;
-        for (i, row) in rows.iter_mut().enumerate() {
-            let factor = row[column].clone();
-            if i != rank && !factor.is_zero() {
-                for (x, h) in row.iter_mut().zip(&head) {
-                    *x = x.minus(&factor.times(h)?)?;
-                }
-            }
-        }
-        rows[rank] = head;
-        rank += 1;
-    }
-    Some(rank)
-}
-
 /// Degree of the field of cosine and sine of `a / 1440` of a turn: of `2cos(360 / n)` with `n` a multiple of four.
 fn degree(a: u32) -> usize {
     let n = (1440 / a.gcd(&1440)).lcm(&4);

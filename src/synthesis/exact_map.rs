@@ -8,7 +8,7 @@
 use std::fmt::Write as _;
 
 use num::algebraic::Algebraic;
-use num::exact::{rank, relations};
+use num::exact::{determinant, rank, relations};
 use platform::manipulator::{AlgebraicVector, ExactLegs};
 
 /// `s(TO) = A s(FROM) + c` with exact numbers and `det A` not zero.
@@ -77,7 +77,7 @@ impl ExactMap {
             let taken: Algebraic = a[i].iter().enumerate().map(|(k, x)| x * &from.squares(k)).sum();
             &to.squares(i) - &taken
         });
-        Self { c: c.collect(), determinant: determinant(&a), a }
+        Self { c: c.collect(), determinant: determinant(a.clone()), a }
     }
 
     /// Greatest number of bits of a numerator or denominator in `A` and `c`.
@@ -102,7 +102,7 @@ impl ExactMap {
         for (i, column) in columns {
             a[*i] = (0..6).map(|l| Algebraic::integer(i64::from(l == *column))).collect();
         }
-        determinant(&a)
+        determinant(a)
     }
 
     /// The share `t` at which the determinant vanishes, if row `i` has only `1 - t` and `t`: `det A` is affine in `t`.
@@ -158,30 +158,6 @@ impl ExactMap {
         // no choice gives a regular matrix: singular for all shares
         Some(if text.is_empty() { "0".into() } else { text })
     }
-}
-
-fn determinant(a: &[AlgebraicVector]) -> Algebraic {
-    let mut rows = a.to_vec();
-    let mut product = Algebraic::integer(1);
-    for column in 0..rows.len() {
-        let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
-            return Algebraic::integer(0);
-        };
-        if pivot != column {
-            rows.swap(pivot, column);
-            product = -&product;
-        }
-        product = &product * &rows[column][column];
-        let (above, below) = rows.split_at_mut(column + 1);
-        let head = &above[column];
-        for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
-            let factor = &row[column] / &head[column];
-            for (x, h) in row.iter_mut().zip(head).skip(column).filter(|(_, h)| !h.is_zero()) {
-                *x = &*x - &(&factor * h);
-            }
-        }
-    }
-    product
 }
 
 #[cfg(test)]

@@ -118,22 +118,19 @@ impl AffineLegMap {
     }
 }
 
-/// The relation of two platforms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum Relation {
-    /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: equal poses, equal singularities.
-    Equivalent,
-    /// The legs of FROM or of TO are dependent: one of the two is architecturally singular.
-    Singular,
-    /// Some leg of TO is not an affine function of the legs of FROM.
-    Unrelated,
-    /// Undecided: the relation holds only within rounding, or a singular design is within rounding.
-    Undecided,
+num::answer_words! {
+    /// The relation of two platforms.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Relation as name {
+        /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: equal poses, equal singularities.
+        Equivalent = "equivalent",
+        /// The legs of FROM or of TO are dependent: one of the two is architecturally singular.
+        Singular = "singular",
+        /// Some leg of TO is not an affine function of the legs of FROM.
+        Unrelated = "unrelated",
+        /// Undecided: the relation holds only within rounding, or a singular design is within rounding.
+        Undecided = "undecided",
+    }
 }
 
 impl Relation {
@@ -141,24 +138,9 @@ impl Relation {
     pub fn decided(self) -> Option<Self> {
         Some(self).filter(|r| *r != Self::Undecided)
     }
-
-    /// `"equivalent"`, `"singular"`, `"unrelated"` or `"undecided"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equivalent => "equivalent",
-            Self::Singular => "singular",
-            Self::Unrelated => "unrelated",
-            Self::Undecided => "undecided",
-        }
-    }
 }
 
-impl std::fmt::Display for Relation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
+num::displayed!(Relation by name);
 
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -13,7 +13,7 @@
 
 use std::collections::BTreeMap;
 
-use num::exact::{ExactVector, Rational, rank};
+use num::exact::{self, ExactVector, Rational, integer, rank};
 use num_traits::{One, Zero};
 use platform::manipulator::Body;
 use platform::pentapod::{
@@ -75,15 +75,10 @@ impl LineLocus {
     pub fn value(&self, position: &[f64; 3], direction: &[f64; 3]) -> f64 {
         let term = |(exponents, c): (&LineExponents, &Rational)| {
             let unknowns = position.iter().chain(direction);
-            num::exact::nearest(c)
-                * unknowns.zip(exponents).map(|(x, e)| x.powi(i32::from(*e))).product::<f64>()
+            exact::nearest(c) * unknowns.zip(exponents).map(|(x, e)| x.powi(i32::from(*e))).product::<f64>()
         };
         self.polynomial.iter().map(term).sum()
     }
-}
-
-fn integer(x: i64) -> Rational {
-    Rational::from_integer(x.into())
 }
 
 /// The rows of `F` below those of the legs: entries are constants or multiples of one unknown.
@@ -138,7 +133,7 @@ fn determinant(legs: &[ExactVector; 5]) -> LinePolynomial {
         for j in i + 1..LINE_NUMBERS {
             for k in j + 1..LINE_NUMBERS {
                 let rest: Vec<usize> = (0..LINE_NUMBERS).filter(|c| ![i, j, k].contains(c)).collect();
-                let minor = exact_determinant(
+                let minor = exact::determinant(
                     legs.iter().map(|row| rest.iter().map(|c| row[*c].clone()).collect()).collect(),
                 );
                 if minor.is_zero() {
@@ -160,27 +155,6 @@ fn determinant(legs: &[ExactVector; 5]) -> LinePolynomial {
                     add(&mut out, &term, &(&minor * integer(sign * parity)));
                 }
             }
-        }
-    }
-    out
-}
-
-fn exact_determinant(mut rows: Vec<ExactVector>) -> Rational {
-    let mut out = Rational::one();
-    for column in 0..rows.len() {
-        let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
-            return Rational::zero();
-        };
-        if pivot != column {
-            rows.swap(pivot, column);
-            out = -out;
-        }
-        let (top, below) = rows.split_at_mut(column + 1);
-        let head = &top[column];
-        out *= &head[column];
-        for row in below {
-            let factor = &row[column] / &head[column];
-            row.iter_mut().zip(head).for_each(|(x, h)| *x -= &factor * h);
         }
     }
     out
@@ -210,7 +184,7 @@ fn with_unit_length(polynomial: &LinePolynomial, square: &Rational) -> LinePolyn
 
 fn primitive(polynomial: LinePolynomial) -> LinePolynomial {
     let (exponents, coefficients): (Vec<_>, Vec<_>) = polynomial.into_iter().unzip();
-    exponents.into_iter().zip(num::exact::primitive(&coefficients)).collect()
+    exponents.into_iter().zip(exact::primitive(&coefficients)).collect()
 }
 
 /// A sixth leg that allows a solution of the platform in steps, each a polynomial of low degree.

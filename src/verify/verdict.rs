@@ -94,46 +94,27 @@ impl Counterexample {
     }
 }
 
-/// The reason for an undecided verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InconclusiveReason {
-    /// The map holds within rounding, but some sample could not be solved completely.
-    SolverIncomplete,
-    /// The map holds within rounding, but the poses found contradict it.
-    Contradiction,
-    /// The map holds within its tolerance, but its regularity is undecided.
-    MapUndecided,
-    /// No samples were requested, so only the map decides.
-    NoSamples,
-    /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
-    WithinRounding,
-    /// There is no map, but no pose was found that distinguishes the platforms.
-    NoCounterexample,
-}
-
-impl InconclusiveReason {
-    /// One sentence.
-    #[must_use]
-    pub fn sentence(self) -> &'static str {
-        match self {
-            Self::SolverIncomplete => {
-                "the leg map holds within rounding, but forward kinematics may have missed poses of a sample"
-            }
-            Self::Contradiction => {
-                "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
-                 nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)"
-            }
-            Self::MapUndecided => {
-                "the leg map is not decided: a singular platform is within rounding of one of the two"
-            }
-            Self::NoSamples => "no sets of lengths were compared: forward kinematics has said nothing",
-            Self::WithinRounding => {
-                "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees"
-            }
-            Self::NoCounterexample => {
-                "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly"
-            }
-        }
+num::words! {
+    /// The reason for an undecided verdict.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum InconclusiveReason as sentence {
+        /// The map holds within rounding, but some sample could not be solved completely.
+        SolverIncomplete =
+            "the leg map holds within rounding, but forward kinematics may have missed poses of a sample",
+        /// The map holds within rounding, but the poses found contradict it.
+        Contradiction =
+            "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
+                 nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)",
+        /// The map holds within its tolerance, but its regularity is undecided.
+        MapUndecided = "the leg map is not decided: a singular platform is within rounding of one of the two",
+        /// No samples were requested, so only the map decides.
+        NoSamples = "no sets of lengths were compared: forward kinematics has said nothing",
+        /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
+        WithinRounding =
+            "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees",
+        /// There is no map, but no pose was found that distinguishes the platforms.
+        NoCounterexample =
+            "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly",
     }
 }
 
@@ -168,17 +149,6 @@ impl std::fmt::Display for Verdict {
 }
 
 impl Verdict {
-    /// The verdict as a word.
-    #[must_use]
-    pub fn word(&self) -> VerdictWord {
-        match self {
-            Self::Equivalent => VerdictWord::Equivalent,
-            Self::NotEquivalent(_) => VerdictWord::NotEquivalent,
-            Self::Singular => VerdictWord::Singular,
-            Self::Inconclusive(_) => VerdictWord::Inconclusive,
-        }
-    }
-
     /// The word of the command line.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -186,34 +156,17 @@ impl Verdict {
     }
 }
 
-/// Whether two designs are kinematically equivalent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum VerdictWord {
-    /// They are equivalent.
-    Equivalent,
-    /// They are not equivalent.
-    NotEquivalent,
-    /// One of them is architecturally singular.
-    Singular,
-    /// Undecided.
-    Inconclusive,
-}
-
-impl VerdictWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equivalent => "equivalent",
-            Self::NotEquivalent => "not_equivalent",
-            Self::Singular => "singular",
-            Self::Inconclusive => "inconclusive",
-        }
+num::answer_words! {
+    /// Whether two designs are kinematically equivalent.
+    pub enum VerdictWord as name of Verdict {
+        /// They are equivalent.
+        Equivalent = "equivalent",
+        /// They are not equivalent.
+        NotEquivalent = "not_equivalent",
+        /// One of them is architecturally singular.
+        Singular = "singular",
+        /// Undecided.
+        Inconclusive = "inconclusive",
     }
 }
 

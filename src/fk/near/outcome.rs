@@ -82,45 +82,19 @@ pub enum NearOutcome {
     },
 }
 
-/// Outcome of following a pose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum NearWord {
-    /// The pose for the lengths asked for.
-    Tracked,
-    /// A singularity lies on the way or at its end.
-    NearSingularity,
-    /// Given up.
-    Lost,
-}
-
-impl NearWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tracked => "tracked",
-            Self::NearSingularity => "near_singularity",
-            Self::Lost => "lost",
-        }
+num::answer_words! {
+    /// Outcome of following a pose.
+    pub enum NearWord as name of NearOutcome {
+        /// The pose for the lengths asked for.
+        Tracked = "tracked",
+        /// A singularity lies on the way or at its end.
+        NearSingularity = "near_singularity",
+        /// Given up.
+        Lost = "lost",
     }
 }
 
 impl NearOutcome {
-    /// The word for it.
-    #[must_use]
-    pub fn word(&self) -> NearWord {
-        match self {
-            Self::Tracked { .. } => NearWord::Tracked,
-            Self::NearSingularity { .. } => NearWord::NearSingularity,
-            Self::Lost { .. } => NearWord::Lost,
-        }
-    }
-
     /// The pose for the lengths asked for, when it was reached.
     #[must_use]
     pub fn tracked(&self) -> Option<&Pose> {
@@ -151,10 +125,6 @@ impl NearOutcome {
     /// The name used in JSON.
     #[must_use]
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Tracked { .. } => "tracked",
-            Self::NearSingularity { .. } => "near_singularity",
-            Self::Lost { .. } => "lost",
-        }
+        self.word().name()
     }
 }

@@ -10,6 +10,7 @@ use super::solver::{FramedTriangle, OcticSolver};
 use super::{minor, resultant};
 use num::batch::{ComplexBatch, LANES};
 use num::poly::octic_roots;
+pub(super) use num::vector::{cross, dot};
 use platform::geom::ComplexPose;
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
@@ -23,16 +24,6 @@ pub(super) const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2
 /// Three complex coordinates in eight lanes.
 pub(super) type Points = [ComplexBatch; 3];
 const ORIGIN: Points = [ComplexBatch::ZERO; 3];
-
-#[inline(always)]
-pub(super) fn dot(a: &Points, b: &Points) -> ComplexBatch {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross(a: &Points, b: &Points) -> Points {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 #[inline(always)]
 fn horner(c: &[f64; 5], x: ComplexBatch) -> ComplexBatch {

@@ -17,48 +17,32 @@
 mod quotient;
 
 use nalgebra::Vector3;
-use num_bigint::BigInt;
 use num_complex::Complex64;
-use num_integer::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 use thiserror::Error;
 
 use self::quotient::{ByOneForm, Quadric, Quotient};
-use num::exact::{ExactVector, Rational, nearest, relations};
-use num::poly::{ComplexRoot, Dyadic, IntPoly, complex_roots};
+use num::exact::{self, ExactVector, Rational, integer, kernel, nearest, primitive_integers, relations};
+use num::poly::{ComplexRoot, IntPoly, complex_roots};
 use platform::pentapod::{LINE_NUMBERS, LinearPentapod, RationalPoint, cross};
 
-/// The equation that gives the poses of the line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-#[non_exhaustive]
-pub enum LineClass {
-    /// A quadratic equation, each root two mirror poses: joints of the other body in a plane.
-    Quadratic,
-    /// A cubic equation, each root two mirror poses: joints of the other body in a plane.
-    Cubic,
-    /// A quartic equation, each root two mirror poses: joints of the other body in a plane.
-    Quartic,
-    /// Three quadrics with up to eight poses: joints of the other body in no plane.
-    Octic,
+num::answer_words! {
+    /// The equation that gives the poses of the line.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum LineClass as name {
+        /// A quadratic equation, each root two mirror poses: joints of the other body in a plane.
+        Quadratic = "quadratic",
+        /// A cubic equation, each root two mirror poses: joints of the other body in a plane.
+        Cubic = "cubic",
+        /// A quartic equation, each root two mirror poses: joints of the other body in a plane.
+        Quartic = "quartic",
+        /// Three quadrics with up to eight poses: joints of the other body in no plane.
+        Octic = "octic",
+    }
 }
 
 impl LineClass {
-    /// The word in JSON and text.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Quadratic => "quadratic",
-            Self::Cubic => "cubic",
-            Self::Quartic => "quartic",
-            Self::Octic => "octic",
-        }
-    }
-
     /// Poses of the line, real and complex, for generic lengths: no more than these for any.
     #[must_use]
     pub fn poses(self) -> usize {
@@ -121,10 +105,6 @@ const FORMS: [[i64; 3]; 4] = [[1, 3, 7], [5, -2, 3], [4, 9, -1], [-7, 11, 13]];
 /// Bits of the roots beyond those of the coefficients.
 const BITS: u64 = 128;
 
-fn integer(x: i64) -> Rational {
-    Rational::from_integer(x.into())
-}
-
 /// The equation that gives the poses of the line; `None` for dependent legs.
 #[must_use]
 pub fn line_class(p: &LinearPentapod) -> Option<LineClass> {
@@ -144,7 +124,7 @@ pub fn line_class(p: &LinearPentapod) -> Option<LineClass> {
     let mut equations = moved.rows().to_vec();
     equations.push([zeros(2), normal.to_vec(), zeros(3)].concat());
     equations.push([zeros(5), normal.to_vec()].concat());
-    let [n] = <[ExactVector; 1]>::try_from(solutions(&equations)).ok()?;
+    let [n] = <[ExactVector; 1]>::try_from(kernel(&equations)).ok()?;
     let (along, turning) = (&n[2..5], &n[5..8]);
     let crossed = |i: usize, j: usize| &along[i] * &turning[j] - &along[j] * &turning[i];
     if [(0, 1), (1, 2), (2, 0)].into_iter().any(|(i, j)| !crossed(i, j).is_zero()) {
@@ -161,14 +141,6 @@ fn normal(points: &[RationalPoint; 5]) -> Option<RationalPoint> {
     let from_first = |i: usize| -> RationalPoint { std::array::from_fn(|k| &points[i][k] - &points[0][k]) };
     let pairs = (1..5).flat_map(|i| (i + 1..5).map(move |j| (i, j)));
     pairs.map(|(i, j)| cross(&from_first(i), &from_first(j))).find(|n| n.iter().any(|x| !x.is_zero()))
-}
-
-/// A basis of the vectors that all rows take to zero.
-fn solutions(rows: &[ExactVector]) -> Vec<ExactVector> {
-    let width = rows.first().map_or(0, Vec::len);
-    let columns: Vec<ExactVector> =
-        (0..width).map(|j| rows.iter().map(|row| row[j].clone()).collect()).collect();
-    relations(&columns)
 }
 
 /// All poses of the line for these leg lengths.
@@ -189,7 +161,7 @@ fn solutions(rows: &[ExactVector]) -> Vec<ExactVector> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn line_poses(p: &LinearPentapod, lengths: &[f64; 5]) -> Result<LinePoses, NoLinePoses> {
-    let squared = |l: &f64| num::exact::rational(*l).filter(|l| !l.is_negative()).map(|l| &l * &l);
+    let squared = |l: &f64| exact::rational(*l).filter(|l| !l.is_negative()).map(|l| &l * &l);
     let squared: Option<ExactVector> = lengths.iter().map(squared).collect();
     of_squares(p, &squared.ok_or(NoLinePoses::Length)?)
 }
@@ -217,7 +189,7 @@ fn quotient(p: &LinearPentapod, squared: &[Rational]) -> Result<(Affine, Quotien
     if !relations(&rows).is_empty() {
         return Err(NoLinePoses::Dependent);
     }
-    let along = solutions(&rows).iter().map(|x| num::exact::primitive(x)).collect::<Vec<_>>();
+    let along = kernel(&rows).iter().map(|x| exact::primitive(x)).collect::<Vec<_>>();
     let along: [ExactVector; 3] = along.try_into().map_err(|_| NoLinePoses::Dependent)?;
     // a solution of the inhomogeneous equations is one of the homogeneous ones in a ninth number, which is 1
     let constants = p.constants();
@@ -226,7 +198,7 @@ fn quotient(p: &LinearPentapod, squared: &[Rational]) -> Result<(Affine, Quotien
         .zip(constants.iter().zip(squared))
         .map(|(row, (constant, s))| row.iter().cloned().chain([constant - s]).collect())
         .collect();
-    let with_one = solutions(&beside);
+    let with_one = kernel(&beside);
     let whole = with_one.iter().find(|x| !x[LINE_NUMBERS].is_zero()).ok_or(NoLinePoses::Dependent)?;
     let at_zero = whole[..LINE_NUMBERS].iter().map(|x| x / &whole[LINE_NUMBERS]).collect();
     let affine = Affine { at_zero, along };
@@ -295,9 +267,7 @@ fn of_squares(p: &LinearPentapod, squared: &[Rational]) -> Result<LinePoses, NoL
     }
     let by = FORMS.iter().find_map(|form| quotient.by(form)).ok_or(NoLinePoses::NotSeparated)?;
     let polynomials = affine.polynomials(&by);
-    let common = by.polynomial.iter().fold(BigInt::one(), |l, x| l.lcm(x.denom()));
-    let coefficients = by.polynomial.iter().map(|x| x.numer() * (&common / x.denom())).collect();
-    let polynomial = IntPoly::new(coefficients).primitive();
+    let polynomial = IntPoly::new(primitive_integers(&by.polynomial)).primitive();
     // a coefficient of so many bits loses as many of the root
     let size = |x: &Rational| x.numer().bits().saturating_sub(x.denom().bits());
     let bits = BITS + polynomials.iter().flatten().map(size).max().unwrap_or(0);
@@ -310,15 +280,6 @@ fn of_squares(p: &LinearPentapod, squared: &[Rational]) -> Result<LinePoses, NoL
 /// A complex number with rational parts.
 type ExactComplex = [Rational; 2];
 
-fn exact(x: &Dyadic) -> Rational {
-    let power = BigInt::one() << x.exponent().unsigned_abs();
-    if x.exponent() < 0 {
-        Rational::new(x.mantissa().clone(), power)
-    } else {
-        Rational::from_integer(x.mantissa() * power)
-    }
-}
-
 /// The value of a polynomial, by Horner's rule.
 fn value(polynomial: &[Rational], z: &ExactComplex) -> ExactComplex {
     polynomial.iter().rev().fold([Rational::zero(), Rational::zero()], |[re, im], c| {
@@ -328,7 +289,7 @@ fn value(polynomial: &[Rational], z: &ExactComplex) -> ExactComplex {
 
 /// The pose at one root: values at the centre of its disc, and how far they can be from those at the root.
 fn pose(root: &ComplexRoot, polynomials: &[ExactVector], square: &Rational) -> LinePose {
-    let z = [exact(&root.re), exact(&root.im)];
+    let z = [root.re.to_rational(), root.im.to_rational()];
     let values: Vec<ExactComplex> = polynomials.iter().map(|g| value(g, &z)).collect();
     let doubles = values.iter().map(|[re, im]| Complex64::new(nearest(re), nearest(im))).collect::<Vec<_>>();
     // |g(root) - g(centre)| <= r sum k |c_k| (|centre| + r)^(k - 1)

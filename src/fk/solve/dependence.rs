@@ -8,8 +8,9 @@
 //! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. For joints
 //! known only between bounds one statement is possible: they are far from any relation.
 
+use num::elimination::{SurdArithmetic, eliminate_first};
 use num::exact::{ExactVector, Rational, rational, relations};
-use num::surd::{Surd, combination, eliminate};
+use num::surd::{Surd, combination};
 use platform::manipulator::{
     Body, ExactLeg, JointKnowledge, Manipulator, SquaredLegLengths, squares_of_ends, vector_of_ends,
 };
@@ -87,7 +88,7 @@ fn dependence_of_exact(m: &Manipulator, s: &SquaredLegLengths) -> Option<LegDepe
         let slack = squares.plus(&length)?.times(&number(&rounding)?)?;
         slacks.push(slack.plus(&number(&rational(s.radius()[i])?)?)?);
     }
-    let rank = eliminate(&mut rows, 16)?;
+    let rank = eliminate_first(&SurdArithmetic, &mut rows, 16)?.len();
     if rank == 6 {
         return Some(LegDependence::Nearly);
     }

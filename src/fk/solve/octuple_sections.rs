@@ -3,7 +3,7 @@
 
 use num_complex::Complex64;
 
-use super::sections::{FORMS, ScaledFrames, Sections};
+use super::sections::{FORMS, ScaledFrames, Sections, leg_row, quaternion_product};
 use num::octuple::{ComplexOctuple, Octuple};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -19,39 +19,8 @@ pub(crate) struct OctupleSections {
     pub rows: [OctupleRow; 6],
 }
 
-type Point = [Octuple; 3];
-
 fn dot<const N: usize>(a: &[Octuple; N], b: &[Octuple; N]) -> Octuple {
     a.iter().zip(b).fold(Octuple::ZERO, |sum, (x, y)| sum + *x * *y)
-}
-
-/// The coefficient vector of one leg equation, as [`leg_row`](super::sections::leg_row).
-fn leg_row(a: &Point, b: &Point, s: Octuple) -> OctupleRow {
-    let gamma = |i: usize, j: usize| -(a[i] * b[j]).scaled(1);
-    let trace = gamma(0, 0) + gamma(1, 1) + gamma(2, 2);
-    let delta = dot(a, a) + dot(b, b) - s;
-    let m = |k: usize| (b[k] - a[k]).scaled(1);
-    let n = |k: usize| -(a[k] + b[k]).scaled(1);
-    let diagonal = |k: usize| gamma(k, k).scaled(1) - trace + delta;
-    [
-        trace + delta,
-        gamma(2, 1) - gamma(1, 2),
-        gamma(0, 2) - gamma(2, 0),
-        gamma(1, 0) - gamma(0, 1),
-        diagonal(0),
-        gamma(0, 1) + gamma(1, 0),
-        gamma(0, 2) + gamma(2, 0),
-        diagonal(1),
-        gamma(1, 2) + gamma(2, 1),
-        diagonal(2),
-        m(0),
-        m(1),
-        m(2),
-        n(0),
-        n(1),
-        n(2),
-        Octuple::ONE,
-    ]
 }
 
 impl ScaledFrames {
@@ -62,7 +31,7 @@ impl ScaledFrames {
             return None;
         }
         let scale = Octuple::ONE / Octuple::from(self.scale);
-        let centred = |p: &nalgebra::Point3<f64>, o: &nalgebra::Vector3<f64>| -> Point {
+        let centred = |p: &nalgebra::Point3<f64>, o: &nalgebra::Vector3<f64>| -> [Octuple; 3] {
             std::array::from_fn(|k| (Octuple::from(p[k]) - Octuple::from(o[k])) * scale)
         };
         let legs = m.legs();
@@ -89,8 +58,8 @@ impl ScaledFrames {
             [ComplexOctuple::ZERO, part(0), part(1), part(2)]
         };
         let e = [x[0], x[1], x[2], x[3]];
-        let left = product(&pure(&self.base_origin), &e);
-        let right = product(&e, &pure(&self.platform_origin));
+        let left = quaternion_product(pure(&self.base_origin), e);
+        let right = quaternion_product(e, pure(&self.platform_origin));
         let scale = Octuple::from(self.scale);
         let mut out = *x;
         for k in 0..4 {
@@ -98,16 +67,6 @@ impl ScaledFrames {
         }
         out
     }
-}
-
-/// The product of quaternions, scalar part first.
-fn product(p: &[ComplexOctuple; 4], q: &[ComplexOctuple; 4]) -> [ComplexOctuple; 4] {
-    [
-        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
-    ]
 }
 
 /// Modified Gram-Schmidt; with so many digits once is enough.
@@ -135,31 +94,6 @@ impl OctupleSections {
     pub(crate) fn rounded(&self) -> Sections {
         Sections { rows: self.rows.map(|row| row.map(|x| Complex64::new(x.rounded(), 0.0))) }
     }
-}
-
-/// The 17 forms at `(e, g)`, as [`forms`](super::sections::forms).
-pub(crate) fn octuple_forms(x: &[ComplexOctuple; 8]) -> [ComplexOctuple; FORMS] {
-    let [e0, e1, e2, e3, g0, g1, g2, g3] = *x;
-    let twice = |z: ComplexOctuple| z.scaled(1);
-    [
-        e0 * e0,
-        twice(e0 * e1),
-        twice(e0 * e2),
-        twice(e0 * e3),
-        e1 * e1,
-        twice(e1 * e2),
-        twice(e1 * e3),
-        e2 * e2,
-        twice(e2 * e3),
-        e3 * e3,
-        g1 * e0 - e1 * g0,
-        g2 * e0 - e2 * g0,
-        g3 * e0 - e3 * g0,
-        e2 * g3 - e3 * g2,
-        e3 * g1 - e1 * g3,
-        e1 * g2 - e2 * g1,
-        g0 * g0 + g1 * g1 + g2 * g2 + g3 * g3,
-    ]
 }
 
 #[cfg(test)]
@@ -195,7 +129,7 @@ mod tests {
                 }
             }
             let x: [Complex64; 8] = std::array::from_fn(|_| Complex64::new(rng.normal(), rng.normal()));
-            for (p, q) in octuple_forms(&x.map(Into::into)).iter().zip(forms(x)) {
+            for (p, q) in forms::<ComplexOctuple>(x.map(Into::into)).iter().zip(forms(x)) {
                 assert!((p.rounded() - q).norm() < 1e-14 * (1.0 + q.norm()));
             }
         }

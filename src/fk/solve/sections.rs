@@ -14,12 +14,15 @@
 //! six coefficient vectors matters. They are made orthonormal, which removes the scale of each equation and the
 //! dependence on the leg order up to rounding.
 
-use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
+use std::ops::Neg;
+
+use nalgebra::{Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
 use crate::solve::planar::Planes;
 use num::Rng;
 use num::small::bounded_svd;
+use num::vector::{RingNumber, dot};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
 /// Number of quadratic forms.
@@ -95,7 +98,7 @@ impl ScaledFrames {
                 // zero up to rounding, or there were no planes
                 (a.z, b.z) = (0.0, 0.0);
             }
-            *row = leg_row(&a, &b, s / (self.scale * self.scale));
+            *row = leg_row(&a.into(), &b.into(), s / (self.scale * self.scale)).map(Complex64::from);
         }
         rows
     }
@@ -210,7 +213,7 @@ pub fn split(x: [Complex64; 8]) -> ([Complex64; 4], [Complex64; 4]) {
 }
 
 /// Quaternion product, scalar part first.
-pub fn quaternion_product(p: [Complex64; 4], q: [Complex64; 4]) -> [Complex64; 4] {
+pub fn quaternion_product<T: RingNumber>(p: [T; 4], q: [T; 4]) -> [T; 4] {
     [
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
         p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
@@ -219,34 +222,40 @@ pub fn quaternion_product(p: [Complex64; 4], q: [Complex64; 4]) -> [Complex64; 4
     ]
 }
 
-/// The coefficient vector of one leg equation.
-pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> FormRow {
-    let gamma: Matrix3<f64> = a * b.transpose() * -2.0;
-    let delta = a.norm_squared() + b.norm_squared() - s;
-    let trace = gamma.trace();
-    let g = |i: usize, j: usize| gamma[(i, j)];
-    let m = (b - a) * 2.0;
-    let n = (a + b) * -2.0;
+fn twice<T: RingNumber>(x: T) -> T {
+    x + x
+}
+
+/// The coefficient vector of one leg equation, in doubles or with more digits.
+pub(crate) fn leg_row<T>(a: &[T; 3], b: &[T; 3], s: T) -> [T; FORMS]
+where
+    T: RingNumber + Neg<Output = T> + From<f64>,
+{
+    let gamma = |i: usize, j: usize| -twice(a[i] * b[j]);
+    let trace = gamma(0, 0) + gamma(1, 1) + gamma(2, 2);
+    let delta = dot(a, a) + dot(b, b) - s;
+    let m = |k: usize| twice(b[k] - a[k]);
+    let n = |k: usize| -twice(a[k] + b[k]);
+    let diagonal = |k: usize| twice(gamma(k, k)) - trace + delta;
     [
         trace + delta,
-        g(2, 1) - g(1, 2),
-        g(0, 2) - g(2, 0),
-        g(1, 0) - g(0, 1),
-        2.0 * g(0, 0) - trace + delta,
-        g(0, 1) + g(1, 0),
-        g(0, 2) + g(2, 0),
-        2.0 * g(1, 1) - trace + delta,
-        g(1, 2) + g(2, 1),
-        2.0 * g(2, 2) - trace + delta,
-        m.x,
-        m.y,
-        m.z,
-        n.x,
-        n.y,
-        n.z,
-        1.0,
+        gamma(2, 1) - gamma(1, 2),
+        gamma(0, 2) - gamma(2, 0),
+        gamma(1, 0) - gamma(0, 1),
+        diagonal(0),
+        gamma(0, 1) + gamma(1, 0),
+        gamma(0, 2) + gamma(2, 0),
+        diagonal(1),
+        gamma(1, 2) + gamma(2, 1),
+        diagonal(2),
+        m(0),
+        m(1),
+        m(2),
+        n(0),
+        n(1),
+        n(2),
+        T::from(1.0),
     ]
-    .map(|x| Complex64::new(x, 0.0))
 }
 
 impl Sections {
@@ -319,31 +328,25 @@ impl Sections {
 pub(crate) const NORM_FORMS: [usize; 4] = [0, 4, 7, 9];
 
 /// The 17 forms at `x`, such that `q(x) = sum_k row_k forms_k`.
-pub(super) fn forms(x: [Complex64; 8]) -> FormRow {
-    let (e, g) = split(x);
-    let ev = Vector3::new(e[1], e[2], e[3]);
-    let gv = Vector3::new(g[1], g[2], g[3]);
-    let dm = gv * e[0] - ev * g[0];
-    let dn = ev.cross(&gv);
-    let two = 2.0;
+pub(super) fn forms<T: RingNumber>([e0, e1, e2, e3, g0, g1, g2, g3]: [T; 8]) -> [T; FORMS] {
     [
-        e[0] * e[0],
-        e[0] * e[1] * two,
-        e[0] * e[2] * two,
-        e[0] * e[3] * two,
-        e[1] * e[1],
-        e[1] * e[2] * two,
-        e[1] * e[3] * two,
-        e[2] * e[2],
-        e[2] * e[3] * two,
-        e[3] * e[3],
-        dm.x,
-        dm.y,
-        dm.z,
-        dn.x,
-        dn.y,
-        dn.z,
-        g.iter().map(|z| z * z).sum(),
+        e0 * e0,
+        twice(e0 * e1),
+        twice(e0 * e2),
+        twice(e0 * e3),
+        e1 * e1,
+        twice(e1 * e2),
+        twice(e1 * e3),
+        e2 * e2,
+        twice(e2 * e3),
+        e3 * e3,
+        g1 * e0 - e1 * g0,
+        g2 * e0 - e2 * g0,
+        g3 * e0 - e3 * g0,
+        e2 * g3 - e3 * g2,
+        e3 * g1 - e1 * g3,
+        e1 * g2 - e2 * g1,
+        g0 * g0 + g1 * g1 + g2 * g2 + g3 * g3,
     ]
 }
 
@@ -387,8 +390,9 @@ mod tests {
             let e = [q.w, q.i, q.j, q.k].map(|x| Complex64::new(1.3 * x, 0.0));
             let g = quaternion_product(pure(&p), e);
             let x = [e[0], e[1], e[2], e[3], g[0], g[1], g[2], g[3]];
-            let value =
-                |s: f64| -> Complex64 { leg_row(&a, &b, s).iter().zip(forms(x)).map(|(c, f)| c * f).sum() };
+            let value = |s: f64| -> Complex64 {
+                leg_row(&a.into(), &b.into(), s).iter().zip(forms(x)).map(|(c, f)| f * *c).sum()
+            };
             assert!(value(s).norm() < 1e-12);
             // the form is N (|R b + p - a|^2 - s), N = 1.69
             assert!((value(s - 1.0) - 1.69).norm() < 1e-12);

@@ -5,39 +5,23 @@ use nalgebra::{Matrix6, Vector6};
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
 use num::names::{UnknownName, named};
 
-/// The loss of a distance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum Loss {
-    /// The square of the distance.
-    #[default]
-    Squares,
-    /// The square up to a threshold, linear beyond (Huber 1964).
-    Huber,
-    /// Logarithmic far out.
-    Cauchy,
-    /// Constant beyond a threshold, so that points there have no weight.
-    Tukey,
+num::answer_words! {
+    /// The loss of a distance.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Loss as name {
+        /// The square of the distance.
+        #[default]
+        Squares = "squares",
+        /// The square up to a threshold, linear beyond (Huber 1964).
+        Huber = "huber",
+        /// Logarithmic far out.
+        Cauchy = "cauchy",
+        /// Constant beyond a threshold, so that points there have no weight.
+        Tukey = "tukey",
+    }
 }
 
 impl Loss {
-    const ALL: [Self; 4] = [Self::Squares, Self::Huber, Self::Cauchy, Self::Tukey];
-
-    /// Its name: `"squares"`, `"huber"`, `"cauchy"`, `"tukey"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Squares => "squares",
-            Self::Huber => "huber",
-            Self::Cauchy => "cauchy",
-            Self::Tukey => "tukey",
-        }
-    }
-
     /// The threshold of a standard normal number that keeps 95 % of the efficiency of least squares (Holland, Welsch
     /// 1977).
     fn threshold(self) -> f64 {

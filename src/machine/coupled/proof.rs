@@ -25,10 +25,6 @@ const ROUNDS: usize = 12;
 /// Factor between successive sizes of the tried neighbourhood.
 const WIDER: f64 = 30.0;
 
-fn met(a: Interval, b: Interval) -> Interval {
-    Interval::new(a.lo().max(b.lo()), a.hi().min(b.hi())).unwrap_or(a)
-}
-
 /// A neighbourhood of a pose: translations and rotations within `reach`, each coordinate in its unit.
 struct Neighbourhood {
     rotation: Rotation,
@@ -70,7 +66,7 @@ impl CoupledLegs {
             for end in (0..2).filter(|end| self.needs(*end)) {
                 // the first rounds may give no enclosure where the offsets are large
                 if let Some(next) = placed.direction(end, &ends[1 - end]) {
-                    ends[end] = std::array::from_fn(|k| met(next[k], ends[end][k]));
+                    ends[end] = std::array::from_fn(|k| next[k].narrowed(ends[end][k]));
                 }
             }
         }

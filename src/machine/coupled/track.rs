@@ -39,18 +39,6 @@ impl CoupledStatus {
         matches!(self, Self::Proved(_) | Self::Unproved)
     }
 
-    /// The status as a word.
-    #[must_use]
-    pub fn word(&self) -> DriveSolutionWord {
-        match self {
-            Self::Proved(_) => DriveSolutionWord::Proved,
-            Self::Unproved => DriveSolutionWord::Unproved,
-            Self::NotContracting => DriveSolutionWord::NotContracting,
-            Self::NotTracked => DriveSolutionWord::NotTracked,
-            Self::NoLength(_) => DriveSolutionWord::NoLength,
-        }
-    }
-
     /// Why there is no pose.
     #[must_use]
     pub fn failure(&self) -> Option<String> {
@@ -76,24 +64,20 @@ impl CoupledStatus {
     }
 }
 
-/// The status of the pose for drive lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum DriveSolutionWord {
-    /// There is exactly one pose with these lengths in a neighbourhood, within the bound.
-    Proved,
-    /// The corrections converged, and no bound is proved.
-    Unproved,
-    /// The corrections did not converge.
-    NotContracting,
-    /// The solver could not follow the pose for the distances.
-    NotTracked,
-    /// A drive has no length at a pose on the way.
-    NoLength,
+num::answer_words! {
+    /// The status of the pose for drive lengths.
+    pub enum DriveSolutionWord as name of CoupledStatus {
+        /// There is exactly one pose with these lengths in a neighbourhood, within the bound.
+        Proved = "proved",
+        /// The corrections converged, and no bound is proved.
+        Unproved = "unproved",
+        /// The corrections did not converge.
+        NotContracting = "not_contracting",
+        /// The solver could not follow the pose for the distances.
+        NotTracked = "not_tracked",
+        /// A drive has no length at a pose on the way.
+        NoLength = "no_length",
+    }
 }
 
 /// The pose for lengths of drives.

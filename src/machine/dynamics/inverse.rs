@@ -41,20 +41,20 @@ pub struct LegMotion {
 }
 
 /// A leg in motion: the quantities that all its equations need.
-struct MovingLeg {
+pub(super) struct MovingLeg {
     /// Arm of the head from the platform origin, base frame.
     arm: Vector3<f64>,
     /// Unit vector from base joint to platform joint.
-    along: Vector3<f64>,
-    motion: LegMotion,
+    pub(super) along: Vector3<f64>,
+    pub(super) motion: LegMotion,
     /// Angular velocity and acceleration without spin.
-    turning: Vector3<f64>,
+    pub(super) turning: Vector3<f64>,
     turning_acceleration: Vector3<f64>,
 }
 
 impl MovingLeg {
     /// A leg of length zero has no direction: its numbers are NaN.
-    fn new(leg: &Leg, state: &MotionState) -> Self {
+    pub(super) fn new(leg: &Leg, state: &MotionState) -> Self {
         let arm = state.pose.rotation * leg.platform.coords;
         let line = arm + state.pose.position - leg.base.coords;
         let length = line.norm();
@@ -72,12 +72,12 @@ impl MovingLeg {
     }
 
     /// Distance of the centre of the rod from the base joint.
-    fn rod_at(&self, bodies: &MovingBodies) -> f64 {
+    pub(super) fn rod_at(&self, bodies: &MovingBodies) -> f64 {
         self.motion.length - bodies.leg.rod.center
     }
 
     /// `J_1 + J_2`.
-    fn inertia(&self, bodies: &MovingBodies) -> f64 {
+    pub(super) fn inertia(&self, bodies: &MovingBodies) -> f64 {
         let (cylinder, rod) = (&bodies.leg.cylinder, &bodies.leg.rod);
         cylinder.inertia
             + cylinder.mass * cylinder.center.powi(2)
@@ -150,33 +150,4 @@ pub fn drive_forces(
     let pushes = jacobian(m, &state.pose, size).transpose().lu().solve(&right)?;
     let forces: [f64; 6] = std::array::from_fn(|i| pushes[i] + legs[i].own(bodies));
     forces.iter().all(|x| x.is_finite()).then_some(forces)
-}
-
-/// Kinetic energy of platform, payload and legs, kilograms times design units squared per second squared.
-#[must_use]
-pub fn kinetic_energy(m: &Manipulator, bodies: &MovingBodies, state: &MotionState) -> f64 {
-    let center = state.pose.rotation * bodies.center.coords;
-    let (velocity, _) = state.of_arm(&center);
-    let turning = state.angular_velocity;
-    let platform =
-        bodies.mass * velocity.norm_squared() + turning.dot(&(turned_inertia(bodies, state) * turning));
-    let legs = m.legs().map(|leg| {
-        let leg = MovingLeg::new(&leg, state);
-        leg.inertia(bodies) * leg.turning.norm_squared()
-            + (bodies.leg.rod.mass + bodies.leg.reflected) * leg.motion.speed.powi(2)
-    });
-    0.5 * (platform + legs.iter().sum::<f64>())
-}
-
-/// Potential energy of the weights, zero for bodies at the origin of the base frame.
-#[must_use]
-pub fn potential_energy(m: &Manipulator, bodies: &MovingBodies, state: &MotionState) -> f64 {
-    let center = state.pose.transform(&bodies.center).coords;
-    let legs = m.legs().map(|leg| {
-        let moving = MovingLeg::new(&leg, state);
-        let at = |distance: f64| leg.base.coords + moving.along * distance;
-        bodies.leg.cylinder.mass * at(bodies.leg.cylinder.center)
-            + bodies.leg.rod.mass * at(moving.rod_at(bodies))
-    });
-    -bodies.gravity.dot(&(bodies.mass * center + legs.iter().sum::<Vector3<f64>>()))
 }

@@ -8,39 +8,27 @@ use thiserror::Error;
 use super::MotionState;
 use platform::geom::Pose;
 
-/// A freedom of the platform: along an axis of the base frame, or about the line through the platform origin that is
-/// parallel to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum PlatformFreedom {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-    /// Along z.
-    Z,
-    /// About x.
-    Roll,
-    /// About y.
-    Pitch,
-    /// About z.
-    Yaw,
+num::answer_words! {
+    /// A freedom of the platform: along an axis of the base frame, or about the line through the platform origin that
+    /// is parallel to it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum PlatformFreedom as name {
+        /// Along x.
+        X = "x",
+        /// Along y.
+        Y = "y",
+        /// Along z.
+        Z = "z",
+        /// About x.
+        Roll = "roll",
+        /// About y.
+        Pitch = "pitch",
+        /// About z.
+        Yaw = "yaw",
+    }
 }
 
 impl PlatformFreedom {
-    /// Every freedom.
-    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Roll, Self::Pitch, Self::Yaw];
-
-    /// Its word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        ["x", "y", "z", "roll", "pitch", "yaw"][self as usize]
-    }
-
     /// `true` for the three rotations, whose amounts are in degrees.
     #[must_use]
     pub fn is_turn(self) -> bool {

@@ -13,7 +13,7 @@ mod spline;
 mod tests;
 
 pub use extremes::{DriveExtremes, Extreme, LegExtremes, LegInstant};
-pub use inverse::{LegMotion, drive_forces, kinetic_energy, leg_motions, potential_energy};
+pub use inverse::{LegMotion, drive_forces, leg_motions};
 pub use manoeuvre::{InvalidManoeuvre, Manoeuvre, PlatformFreedom};
 pub use spline::{InvalidPath, PathEnds, PosePath};
 

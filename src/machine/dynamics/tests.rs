@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
+use super::inverse::{MovingLeg, turned_inertia};
 use super::*;
 use crate::requirements::{
     ForceUnit, Hardware, LegMasses, LegPart, LegsWeight, Load, MassUnit, Payload, PlateMass, Requirements,
@@ -487,4 +488,31 @@ fn what_a_requirement_looks_at_is_what_the_stiffness_matrix_says() {
         let near = vibration(&m, &pose, leg, &mass_matrix(&m, &point, &pose)).unwrap()[0].frequency;
         assert!((slow / near - 1.0).abs() < 1e-6, "{slow} {near}");
     }
+}
+
+/// Kinetic energy of platform, payload and legs, kilograms times design units squared per second squared.
+fn kinetic_energy(m: &Manipulator, bodies: &MovingBodies, state: &MotionState) -> f64 {
+    let center = state.pose.rotation * bodies.center.coords;
+    let (velocity, _) = state.of_arm(&center);
+    let turning = state.angular_velocity;
+    let platform =
+        bodies.mass * velocity.norm_squared() + turning.dot(&(turned_inertia(bodies, state) * turning));
+    let legs = m.legs().map(|leg| {
+        let leg = MovingLeg::new(&leg, state);
+        leg.inertia(bodies) * leg.turning.norm_squared()
+            + (bodies.leg.rod.mass + bodies.leg.reflected) * leg.motion.speed.powi(2)
+    });
+    0.5 * (platform + legs.iter().sum::<f64>())
+}
+
+/// Potential energy of the weights, zero for bodies at the origin of the base frame.
+fn potential_energy(m: &Manipulator, bodies: &MovingBodies, state: &MotionState) -> f64 {
+    let center = state.pose.transform(&bodies.center).coords;
+    let legs = m.legs().map(|leg| {
+        let moving = MovingLeg::new(&leg, state);
+        let at = |distance: f64| leg.base.coords + moving.along * distance;
+        bodies.leg.cylinder.mass * at(bodies.leg.cylinder.center)
+            + bodies.leg.rod.mass * at(moving.rod_at(bodies))
+    });
+    -bodies.gravity.dot(&(bodies.mass * center + legs.iter().sum::<Vector3<f64>>()))
 }

@@ -27,36 +27,24 @@ use platform::manipulator::{InvalidManipulator, Leg, LegLengths, Manipulator, ja
 
 pub use tracker::RotaryTracker;
 
-/// A side of a crank.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case"),
-    schemars(rename = "ElbowWord")
-)]
-pub enum Elbow {
-    // between crank and the plane of axis and platform joint
-    /// The greater of the two angles.
-    // `q_0 + w`
-    Plus,
-    /// The smaller one.
-    // `q_0 - w`
-    Minus,
+num::answer_words! {
+    /// A side of a crank.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "serde", schemars(rename = "ElbowWord"))]
+    pub enum Elbow as name {
+        // between crank and the plane of axis and platform joint
+        /// The greater of the two angles.
+        // `q_0 + w`
+        Plus = "plus",
+        /// The smaller one.
+        // `q_0 - w`
+        Minus = "minus",
+    }
 }
 
 impl Elbow {
     /// Both sides.
     pub const BOTH: [Self; 2] = [Self::Plus, Self::Minus];
-
-    /// The name: `"plus"` or `"minus"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Plus => "plus",
-            Self::Minus => "minus",
-        }
-    }
 
     /// The other side.
     #[must_use]

@@ -13,8 +13,6 @@
 //! `2^-400` and `2^400` in modulus, or zero, are safe (low parts of products then stay normal). Results do not depend
 //! on a fused multiply-add: the exact product is Dekker's unless the target has one.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
 use num_complex::Complex64;
 
 use super::complex::Complex;
@@ -123,56 +121,35 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-impl Neg for DoubleDouble {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self { hi: -self.hi, lo: -self.lo }
+crate::operators! {
+    [inline] [] DoubleDouble;
+    Neg::neg(x) {
+        Self { hi: -x.hi, lo: -x.lo }
     }
-}
-
-impl Add for DoubleDouble {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        let (sh, sl) = two_sum(self.hi, other.hi);
-        let (th, tl) = two_sum(self.lo, other.lo);
+    Add::add(x, y) {
+        let (sh, sl) = two_sum(x.hi, y.hi);
+        let (th, tl) = two_sum(x.lo, y.lo);
         let (vh, vl) = fast_two_sum(sh, sl + th);
         let (hi, lo) = fast_two_sum(vh, tl + vl);
         Self { hi, lo }
     }
-}
-
-impl Sub for DoubleDouble {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
+    Sub::sub(x, y) {
+        x + -y
     }
-}
-
-impl Mul for DoubleDouble {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        let (ch, cl) = two_product(self.hi, other.hi);
-        let cross = self.hi * other.lo + self.lo * other.hi;
+    Mul::mul(x, y) {
+        let (ch, cl) = two_product(x.hi, y.hi);
+        let cross = x.hi * y.lo + x.lo * y.hi;
         let (hi, lo) = fast_two_sum(ch, cl + cross);
         Self { hi, lo }
     }
-}
-
-impl Div for DoubleDouble {
-    type Output = Self;
-    #[inline]
-    fn div(self, other: Self) -> Self {
+    Div::div(x, y) {
         // q1 = first quotient digit, remainder computed with an exact product, q2 = second digit
-        let q1 = self.hi / other.hi;
-        let (ph, pl) = two_product(other.hi, q1);
-        let product_low = pl + other.lo * q1;
+        let q1 = x.hi / y.hi;
+        let (ph, pl) = two_product(y.hi, q1);
+        let product_low = pl + y.lo * q1;
         let (rh, rl) = fast_two_sum(ph, product_low);
-        let (dh, dl) = ((self.hi - rh), (self.lo - rl));
-        let (hi, lo) = fast_two_sum(q1, (dh + dl) / other.hi);
+        let (dh, dl) = ((x.hi - rh), (x.lo - rl));
+        let (hi, lo) = fast_two_sum(q1, (dh + dl) / y.hi);
         Self { hi, lo }
     }
 }

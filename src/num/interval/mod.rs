@@ -8,8 +8,6 @@
 //!
 //! Empty intervals do not exist: operations that could yield one return `Option`.
 
-use std::ops::{Add, Mul, Neg, Sub};
-
 /// The closed interval `[lo, hi]` of reals, `lo <= hi`; an infinite end means unbounded on that side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -128,6 +126,12 @@ impl Interval {
         Some(Self::raw(root(self.lo, f64::next_down).max(0.0), root(self.hi, f64::next_up)))
     }
 
+    /// The numbers in both; its own if no number is in both.
+    #[must_use]
+    pub fn narrowed(self, other: Self) -> Self {
+        Self::new(self.lo.max(other.lo), self.hi.min(other.hi)).unwrap_or(self)
+    }
+
     /// Encloses `x / y`; `None` if the divisor contains zero.
     #[must_use]
     #[inline]
@@ -214,48 +218,32 @@ impl From<f64> for Interval {
     }
 }
 
-impl Neg for Interval {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self::raw(-self.hi, -self.lo)
+crate::operators! {
+    [inline] [] Interval;
+    Neg::neg(x) {
+        Self::raw(-x.hi, -x.lo)
     }
-}
-
-impl Add for Interval {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        if self == Self::ZERO {
-            return other;
+    Add::add(x, y) {
+        if x == Self::ZERO {
+            return y;
         }
-        if other == Self::ZERO {
-            return self;
+        if y == Self::ZERO {
+            return x;
         }
-        Self::raw((self.lo + other.lo).next_down(), (self.hi + other.hi).next_up())
+        Self::raw((x.lo + y.lo).next_down(), (x.hi + y.hi).next_up())
     }
-}
-
-impl Sub for Interval {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
+    Sub::sub(x, y) {
+        x + -y
     }
-}
-
-impl Mul for Interval {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        let (a, b, c, d) = (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi);
+    Mul::mul(x, y) {
+        let (a, b, c, d) = (x.lo * y.lo, x.lo * y.hi, x.hi * y.lo, x.hi * y.hi);
         let (lo, hi) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
         // rounding is monotone, so only the ends are rounded; zeros (exact or underflow) and unbounded ends are handled
         // product by product
         if lo != 0.0 && hi != 0.0 && lo > f64::NEG_INFINITY && hi < f64::INFINITY {
             return Self::raw(below(lo), above(hi));
         }
-        self.product_by_ends(other)
+        x.product_by_ends(y)
     }
 }
 

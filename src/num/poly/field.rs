@@ -167,7 +167,7 @@ impl FieldPoly {
     }
 
     fn sign_at(&self, x: &Dyadic) -> Ordering {
-        let x = Algebraic::Rational(rational(x));
+        let x = Algebraic::Rational(x.to_rational());
         let value = self.0.iter().rev().fold(Algebraic::integer(0), |sum, c| &(&sum * &x) + c);
         value.surd().sign()
     }
@@ -213,15 +213,6 @@ pub fn without_common_factor(numbers: &[Algebraic], lead: Option<&Algebraic>) ->
     let backwards = list.iter().find(|x| !x.is_zero()).is_some_and(Signed::is_negative);
     let whole = primitive(&list).into_iter().map(|x| if backwards { -x } else { x });
     whole.map(Algebraic::Rational).collect()
-}
-
-fn rational(x: &Dyadic) -> Rational {
-    let power = BigInt::from(1) << x.exponent().unsigned_abs();
-    if x.exponent() < 0 {
-        Rational::new(x.mantissa().clone(), power)
-    } else {
-        Rational::from_integer(x.mantissa() * power)
-    }
 }
 
 /// The Sturm chain of a square-free polynomial.

@@ -11,5 +11,4 @@ pub use integer::{
     squarefree_factors, sturm_count, sturm_count_of_line,
 };
 pub use octic::{octic_roots, repulsion, roots_in_lanes};
-pub use roots::approximate_roots;
-pub use roots::{RootsError, roots};
+pub use roots::{RootsError, approximate_roots, newton_quotients, roots};

@@ -135,11 +135,10 @@ impl pulp::WithSimd for Sweeps<'_> {
     }
 }
 
-/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`; for `|x| > 1` from the reversed polynomial,
-/// see [`newton_correction`].
+/// Numerator and denominator of `p / p'` at eight points; for `|x| > 1` from the reversed polynomial `q`:
+/// `p / p' = x q / (n q - q' / x)` with `q`, `q'` at `1 / x`.
 #[inline(always)]
-fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBatch {
-    let constant = |z: Complex64| ComplexBatch { re: [z.re; LANES], im: [z.im; LANES] };
+pub fn newton_quotients(c: &[Complex64], x: &ComplexBatch) -> [ComplexBatch; 2] {
     let n = c.len() - 1;
     let size = x.norm_sqr();
     let mut outside = [false; LANES];
@@ -148,14 +147,20 @@ fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBat
     }
     let inverse = x.reciprocal();
     let y = inverse.select(*x, outside);
-    let coefficient = |k: usize| constant(c[n - k]).select(constant(c[k]), outside);
+    let coefficient = |k: usize| ComplexBatch::all(c[n - k]).select(ComplexBatch::all(c[k]), outside);
     let (mut p, mut d) = (coefficient(n), ComplexBatch::ZERO);
     for k in (0..n).rev() {
         d = d * y + p;
         p = p * y + coefficient(k);
     }
     let reversed = p.times(n as f64) - d * inverse;
-    let (top, bottom) = ((p * *x).select(p, outside), reversed.select(d, outside));
+    [(p * *x).select(p, outside), reversed.select(d, outside)]
+}
+
+/// `N / (1 - N sum 1 / (x_k - z_j))` for `x` among the `z`, `N = p / p'`.
+#[inline(always)]
+fn corrections(c: &[Complex64], x: &ComplexBatch, z: &[Complex64]) -> ComplexBatch {
+    let [top, bottom] = newton_quotients(c, x);
     let mut repulsion = ComplexBatch::ZERO;
     for other in z {
         for k in 0..LANES {

@@ -4,6 +4,7 @@ use nalgebra::{Matrix6, UnitQuaternion};
 
 use super::Pose;
 use num::interval::Interval;
+pub use num::vector::{cross, dot};
 
 /// Three coordinates.
 pub type IntervalVector = [Interval; 3];
@@ -12,19 +13,15 @@ pub type Rotation = [IntervalVector; 3];
 /// A 6 x 6 matrix by rows.
 pub type IntervalMatrix = [[Interval; 6]; 6];
 
-/// `a . b`.
-pub fn dot(a: &IntervalVector, b: &IntervalVector) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// `a x b`.
-pub fn cross(a: &IntervalVector, b: &IntervalVector) -> IntervalVector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// `f(0..3, 0..3)`.
 pub fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
     std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
+}
+
+/// `v / |v|`; `None` where the norm may vanish.
+pub fn unit(v: &IntervalVector) -> Option<IntervalVector> {
+    let length = (v[0].square() + v[1].square() + v[2].square()).sqrt()?;
+    Some([v[0].checked_div(length)?, v[1].checked_div(length)?, v[2].checked_div(length)?])
 }
 
 /// `[c]x`.

@@ -6,56 +6,35 @@ use super::Pose;
 use super::rotation_vector::turn_between;
 use num::Rng;
 
-/// The shape of a region of poses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case"),
-    schemars(rename = "RegionWord")
-)]
-pub enum Region {
-    /// A box.
-    // every component of translation and rotation within its half width
-    #[default]
-    Box,
-    /// An ellipsoid.
-    // translations in one, rotation vectors in another, with the half widths as half axes; every translation with every
-    // rotation
-    Ellipsoid,
-}
-
-impl Region {
-    /// The word: `"box"` or `"ellipsoid"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Ellipsoid => "ellipsoid",
-        }
+num::answer_words! {
+    /// The shape of a region of poses.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[cfg_attr(feature = "serde", schemars(rename = "RegionWord"))]
+    pub enum Region as name {
+        /// A box.
+        // every component of translation and rotation within its half width
+        #[default]
+        Box = "box",
+        /// An ellipsoid.
+        // translations in one, rotation vectors in another, with the half widths as half axes; every translation with
+        // every rotation
+        Ellipsoid = "ellipsoid",
     }
 }
 
-/// The reference of the listed poses of a workspace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ListedFrom {
-    /// The base frame: they stay fixed when home moves.
-    #[default]
-    Base,
-    /// Home: they move with it, like the region.
-    Home,
+num::words! {
+    /// The reference of the listed poses of a workspace.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum ListedFrom as name {
+        /// The base frame: they stay fixed when home moves.
+        #[default]
+        Base = "base",
+        /// Home: they move with it, like the region.
+        Home = "home",
+    }
 }
 
 impl ListedFrom {
-    /// The word in design files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Base => "base",
-            Self::Home => "home",
-        }
-    }
-
     /// The pose in the base frame of one listed as `(R, p)`: itself, or `(R R0, p0 + p)` from home `(R0, p0)`.
     ///
     /// Displacements from home are along the axes of the base frame, like those of the region.

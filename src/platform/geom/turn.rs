@@ -11,6 +11,7 @@
 
 use super::enclosed::{IntervalVector, Rotation, matrix, skew};
 use num::interval::Interval;
+use num::smooth::norm_squared;
 
 /// Number of terms of the series; beyond it the terms fall for every `s <= LARGEST`.
 const TERMS: usize = 30;
@@ -137,10 +138,6 @@ pub fn arc_cosine(cosine: Interval) -> Interval {
 /// `[w]x^2 = w w^T - s I`, without the terms of the diagonal that cancel.
 fn double_cross(w: &IntervalVector) -> Rotation {
     matrix(|i, j| if i == j { -(w[(i + 1) % 3].square() + w[(i + 2) % 3].square()) } else { w[i] * w[j] })
-}
-
-fn norm_squared(w: &IntervalVector) -> Interval {
-    w[0].square() + w[1].square() + w[2].square()
 }
 
 /// Encloses `exp([w]x)`.

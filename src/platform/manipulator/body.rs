@@ -62,11 +62,7 @@ impl Body {
     }
 }
 
-impl std::fmt::Display for Body {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
+num::displayed!(Body by name);
 
 impl FromStr for Body {
     type Err = NoSuchBody;

@@ -186,6 +186,13 @@ impl ExactLegs {
         body.of((&self.base, &self.platform))
     }
 
+    /// The coordinates of the end of a leg as fractions; `None` where one is irrational.
+    pub fn fractions(&self, body: Body, leg: usize) -> Option<[Rational; 3]> {
+        let point: Option<ExactVector> =
+            self.ends(body)[leg][1..].iter().map(|x| x.as_rational().cloned()).collect();
+        point?.try_into().ok()
+    }
+
     /// Dimension of the flat of the ends of some legs on `body`.
     pub fn dimension(&self, body: Body, legs: &[usize]) -> usize {
         flat_dimension(legs.iter().map(|i| &self.ends(body)[*i]))

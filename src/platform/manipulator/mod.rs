@@ -28,5 +28,5 @@ pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
 pub use level::Level;
 pub use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
-pub use values::{ExactEnds, JointKnowledge, squares_of_ends, vector_of_ends};
+pub use values::{ExactEnds, JointKnowledge, dimension_of_ends, squares_of_ends, vector_of_ends};
 pub use values::{JointValues, SurdPoint};

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::Point3;
 
 use super::{Body, InvalidManipulator, Leg, Level, Manipulator};
+use num::elimination::{Rows, SurdArithmetic, eliminate};
 use num::interval::Interval;
 use num::surd::Surd;
 
@@ -23,6 +24,15 @@ pub fn vector_of_ends(leg: &ExactEnds) -> Option<Vec<Surd>> {
 /// `|a|^2 + |b|^2`; `None` if it becomes too long.
 pub fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
     leg.iter().flatten().try_fold(Surd::zero(), |sum, x| sum.plus(&x.times(x)?))
+}
+
+/// Dimension of the flat of the ends on a body: 0 a point, 1 a line, 2 a plane, 3 space; `None` if numbers become too
+/// long.
+pub fn dimension_of_ends(ends: &[ExactEnds; 6], body: Body) -> Option<usize> {
+    let [first, others @ ..] = ends.each_ref().map(|end| &end[body.index()]);
+    let difference = |end: &SurdPoint| end.iter().zip(first).map(|(x, y)| x.minus(y)).collect();
+    let mut rows = others.into_iter().map(difference).collect::<Option<Rows<SurdArithmetic>>>()?;
+    Some(eliminate(&SurdArithmetic, &mut rows)?.len())
 }
 
 /// The joints behind the doubles of a [`Manipulator`].

@@ -22,27 +22,21 @@ pub struct Topology {
     platform: [u8; 6],
 }
 
-/// Reasons why six legs can never hold a platform: the Jacobian has rank 5 or less at every pose, for all joints.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlwaysSingular {
-    /// Two legs join the same two joints, so their lines coincide.
-    CoincidentLegs,
-    /// Four lines through one point have rank 3.
-    FourLegsAtOneJoint,
-    /// All six legs pass through two joints, so every leg meets the line of the two, about which the platform can
-    /// rotate.
-    TwoJointsHoldAllLegs,
-}
-
-impl std::fmt::Display for AlwaysSingular {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::CoincidentLegs => "two legs join the same two joints",
-            Self::FourLegsAtOneJoint => "four or more legs meet in one joint",
-            Self::TwoJointsHoldAllLegs => "two joints hold all six legs",
-        })
+num::words! {
+    /// Reasons why six legs can never hold a platform: the Jacobian has rank 5 or less at every pose, for all joints.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum AlwaysSingular as words {
+        /// Two legs join the same two joints, so their lines coincide.
+        CoincidentLegs = "two legs join the same two joints",
+        /// Four lines through one point have rank 3.
+        FourLegsAtOneJoint = "four or more legs meet in one joint",
+        /// All six legs pass through two joints, so every leg meets the line of the two, about which the platform can
+        /// rotate.
+        TwoJointsHoldAllLegs = "two joints hold all six legs",
     }
 }
+
+num::displayed!(AlwaysSingular by words);
 
 impl Topology {
     /// The topology of six legs given by joint indices.

@@ -14,5 +14,5 @@ pub use catalogue::{NamedTopology, Recognised, catalogue, recognise};
 pub use graph::{AlwaysSingular, Topology};
 pub use layout::Layout;
 pub use nesting::{Dependence, Nesting, StepDependence};
-pub use search::sequences;
+pub use search::{sequences, triples};
 pub use sequence::{JointIndex, Sequence, Step};

@@ -104,7 +104,8 @@ impl<'a> SequenceSearch<'a> {
 }
 
 /// Every triple from `list`, in order.
-fn triples(list: &[JointIndex]) -> Vec<[JointIndex; 3]> {
+#[must_use]
+pub fn triples(list: &[JointIndex]) -> Vec<[JointIndex; 3]> {
     let n = list.len();
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
     pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| [list[i], list[j], list[k]])).collect()

@@ -3,8 +3,11 @@
 //! A point with known distances to three placed points has two possible places. It has one if the four are points of
 //! one body of known orientation. Source: Porta, Thomas, sec. II.
 
+use nalgebra::Point3;
+
 use super::graph::Topology;
 use super::search::sequences;
+use crate::manipulator::Manipulator;
 
 /// A joint of a [`Topology`], numbered as in [`Topology::legs`], or of a design, numbered as in the design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -28,6 +31,15 @@ impl JointIndex {
         match (self, other) {
             (Self::Base(a), Self::Platform(b)) | (Self::Platform(b), Self::Base(a)) => Some((a, b)),
             _ => None,
+        }
+    }
+
+    /// The joint in the frame of its body.
+    #[must_use]
+    pub fn point(self, m: &Manipulator) -> Point3<f64> {
+        match self {
+            Self::Base(k) => m.base_joints()[k],
+            Self::Platform(k) => m.platform_joints()[k],
         }
     }
 }

@@ -4,11 +4,10 @@ use nalgebra::Vector3;
 use num_bigint::BigInt;
 
 use super::exact_form::{
-    CubicPoint, ExactForm, ExactKind, Place, RationalPart, bits, cross, cubic_point, integers, rank_modulo,
-    rationals, split,
+    CubicPoint, ExactForm, ExactKind, Place, RationalPart, bits, cubic_point, rationals, split,
 };
-use super::form::{SingularKind, exponents, laplace, power};
-use num::exact::{ExactVector, rank, relations};
+use super::form::{SingularKind, cross, exponents, power};
+use num::exact::{ExactVector, kernel, primitive_integers, rank, rank_modulo, relations};
 use platform::manipulator::{AlgebraicVector, Body, ExactLegs};
 
 /// Bits of coefficients up to which greatest common divisors of minors are computed.
@@ -129,14 +128,12 @@ fn matrix(near: &[ExactVector], far: &[ExactVector]) -> Vec<Vec<ExactForm>> {
         .zip(far)
         .map(|(x, y)| x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect())
         .collect();
-    let columns: Vec<ExactVector> =
-        (0..3 * width).map(|c| rows.iter().map(|r| r[c].clone()).collect()).collect();
     let entry = |n: &[BigInt], q: usize| ExactForm {
         degree: 1,
         coefficients: (0..3).map(|p| n[p * width + q].clone()).collect(),
     };
-    let equations = relations(&columns);
-    let equations = equations.iter().map(|n| integers(n));
+    let equations = kernel(&rows);
+    let equations = equations.iter().map(|n| primitive_integers(n));
     equations.map(|n| (0..width).map(|q| entry(&n, q)).collect()).collect()
 }
 
@@ -147,10 +144,10 @@ fn generic_rank(m: &[Vec<ExactForm>]) -> usize {
     let mut best = 0;
     for (x, y) in (0..5i32).flat_map(|x| (0..5 - x).map(move |y| (x, y))) {
         let p: Place = [4 - x - y, x, y].map(BigInt::from);
-        let rows: Vec<ExactVector> =
-            m.iter().map(|r| rationals(&r.iter().map(|f| f.value(&p)).collect::<Vec<_>>())).collect();
+        let rows: Vec<Vec<BigInt>> = m.iter().map(|r| r.iter().map(|f| f.value(&p)).collect()).collect();
         let lower = rank_modulo(&rows);
-        best = best.max(if lower < most { rank(&rows) } else { lower });
+        let exactly = || rank(&rows.iter().map(|r| rationals(r)).collect::<Vec<_>>());
+        best = best.max(if lower < most { exactly() } else { lower });
         if best == most {
             break;
         }
@@ -172,11 +169,10 @@ fn common_minor(m: &[Vec<ExactForm>], order: usize) -> Result<ExactForm, NoExact
         for columns in subsets(width, order) {
             let part: Vec<Vec<ExactForm>> =
                 rows.iter().map(|r| columns.iter().map(|c| m[*r][*c].clone()).collect()).collect();
-            let Some(minor) = laplace(&part, &ExactForm::times, &ExactForm::add).filter(|f| !f.is_zero())
-            else {
+            let minor = ExactForm::determinant(&part).primitive();
+            if minor.is_zero() {
                 continue;
-            };
-            let minor = minor.primitive();
+            }
             let long = bits(&minor.coefficients);
             divisor = Some(match divisor {
                 None => minor,
@@ -208,7 +204,7 @@ impl ExactCurve {
         let m = matrix(&near, &far);
         let generic_rank = generic_rank(&m);
         let form = common_minor(&m, generic_rank)?;
-        let joints: Vec<Vec<BigInt>> = near.iter().map(|p| integers(p)).collect();
+        let joints: Vec<Vec<BigInt>> = near.iter().map(|p| primitive_integers(p)).collect();
         let mut lines: Vec<ExactForm> = Vec::new();
         for (k, p) in joints.iter().enumerate() {
             for q in joints[..k].iter().filter(|q| *q != p) {

@@ -6,28 +6,24 @@
 
 use num_bigint::BigInt;
 
-use super::form::{exponents, index, laplace};
-use num::exact::{ExactVector, Rational, approximate, primitive, rank, relations};
-use num::modular::Field;
+use super::form::{TernaryForm, cross, exponents, index};
+use num::exact::{
+    ExactVector, Rational, approximate, integer, kernel, primitive_integers, rank, rank_modulo, relations,
+};
 use num::poly::{IntPoly, real_roots};
 
-/// A form like [`Form`](super::form::Form), with the same order of the monomials.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct ExactForm {
-    pub(super) degree: usize,
-    pub(super) coefficients: Vec<BigInt>,
-}
+/// A form with coefficients of any length.
+pub(super) type ExactForm = TernaryForm<BigInt>;
 
 /// Homogeneous coordinates in a plane.
 pub(super) type Place = [BigInt; 3];
 
-/// Coprime integers with the same ratios; the first nonzero one is positive.
-pub(super) fn integers(list: &[Rational]) -> Vec<BigInt> {
-    primitive(list).iter().map(|x| x.numer().clone()).collect()
-}
-
 pub(super) fn rationals(list: &[BigInt]) -> ExactVector {
     list.iter().map(|x| Rational::from_integer(x.clone())).collect()
+}
+
+fn integer_relations(rows: &[Vec<BigInt>]) -> Vec<ExactVector> {
+    relations(&rows.iter().map(|row| rationals(row)).collect::<Vec<_>>())
 }
 
 /// Bits of the longest number.
@@ -35,83 +31,18 @@ pub(super) fn bits(list: &[BigInt]) -> u64 {
     list.iter().map(BigInt::bits).max().unwrap_or(0)
 }
 
-pub(super) fn cross(p: &[BigInt], q: &[BigInt]) -> Place {
-    [0, 1, 2].map(|i| &p[(i + 1) % 3] * &q[(i + 2) % 3] - &p[(i + 2) % 3] * &q[(i + 1) % 3])
-}
-
 impl ExactForm {
-    pub(super) fn zero(degree: usize) -> Self {
-        Self { degree, coefficients: vec![BigInt::ZERO; (degree + 1) * (degree + 2) / 2] }
-    }
-
     pub(super) fn one() -> Self {
-        Self { degree: 0, coefficients: vec![1.into()] }
-    }
-
-    fn monomial(e: [usize; 3]) -> Self {
-        let mut out = Self::zero(e.iter().sum());
-        out.coefficients[index(e)] = 1.into();
-        out
+        Self::constant(1.into())
     }
 
     /// The multiple with coprime coefficients.
     pub(super) fn primitive(&self) -> Self {
-        Self { degree: self.degree, coefficients: integers(&rationals(&self.coefficients)) }
+        Self { degree: self.degree, coefficients: primitive_integers(&rationals(&self.coefficients)) }
     }
 
     pub(super) fn is_zero(&self) -> bool {
         self.coefficients.iter().all(|c| *c == BigInt::ZERO)
-    }
-
-    fn terms(&self) -> impl Iterator<Item = ([usize; 3], &BigInt)> {
-        exponents(self.degree).zip(&self.coefficients).filter(|(_, c)| **c != BigInt::ZERO)
-    }
-
-    pub(super) fn times(&self, other: &Self) -> Self {
-        let mut out = Self::zero(self.degree + other.degree);
-        for (e, a) in self.terms() {
-            for (f, b) in other.terms() {
-                out.coefficients[index([e[0] + f[0], e[1] + f[1], e[2] + f[2]])] += a * b;
-            }
-        }
-        out
-    }
-
-    /// Adds a multiple.
-    pub(super) fn add(&mut self, other: &Self, factor: i32) {
-        self.coefficients.iter_mut().zip(&other.coefficients).for_each(|(a, b)| *a += b * factor);
-    }
-
-    pub(super) fn gradient(&self) -> [Self; 3] {
-        [0, 1, 2].map(|variable| {
-            let mut out = Self::zero(self.degree.saturating_sub(1));
-            for (mut e, c) in self.terms().filter(|(e, _)| e[variable] > 0) {
-                let factor = e[variable];
-                e[variable] -= 1;
-                out.coefficients[index(e)] += c * factor;
-            }
-            out
-        })
-    }
-
-    /// Coefficients in `s` of the form at `p + s q`.
-    pub(super) fn on_line(&self, p: &Place, q: &Place) -> Vec<BigInt> {
-        let mut out = vec![BigInt::ZERO; self.degree + 1];
-        for (e, c) in self.terms() {
-            let mut term = vec![c.clone()];
-            for (k, n) in e.iter().enumerate() {
-                for _ in 0..*n {
-                    let mut next = vec![BigInt::ZERO; term.len() + 1];
-                    for (i, t) in term.iter().enumerate() {
-                        next[i] += t * &p[k];
-                        next[i + 1] += t * &q[k];
-                    }
-                    term = next;
-                }
-            }
-            out.iter_mut().zip(term).for_each(|(o, t)| *o += t);
-        }
-        out
     }
 
     pub(super) fn value(&self, p: &Place) -> BigInt {
@@ -129,20 +60,15 @@ impl ExactForm {
         pair.is_some_and(|(i, j)| self.on_line(&points[i], &points[j]).iter().all(|c| *c == BigInt::ZERO))
     }
 
-    /// Products with all monomials of a degree.
-    fn shifts(&self, degree: usize) -> Vec<ExactVector> {
-        exponents(degree).map(|e| rationals(&self.times(&Self::monomial(e)).coefficients)).collect()
-    }
-
     /// The quotient with coprime coefficients, if the divisor divides the form.
     pub(super) fn divided(&self, divisor: &Self) -> Option<Self> {
         let degree = self.degree.checked_sub(divisor.degree)?;
         let mut rows = divisor.shifts(degree);
-        rows.push(rationals(&self.coefficients));
+        rows.push(self.coefficients.clone());
         // products of a form with the monomials are independent: one relation at most
-        let mut relation = relations(&rows).pop()?;
+        let mut relation = integer_relations(&rows).pop()?;
         relation.pop()?;
-        Some(Self { degree, coefficients: integers(&relation) })
+        Some(Self { degree, coefficients: primitive_integers(&relation) })
     }
 
     /// The greatest common divisor of two nonzero forms; `None` if elimination needs numbers of more than `longest`
@@ -162,8 +88,8 @@ impl ExactForm {
             if bits(&self.coefficients).max(bits(&other.coefficients)) > longest {
                 return None;
             }
-            let Some(relation) = relations(&rows).pop() else { continue };
-            let cofactor = Self { degree: h, coefficients: integers(&relation[first..]) };
+            let Some(relation) = integer_relations(&rows).pop() else { continue };
+            let cofactor = Self { degree: h, coefficients: primitive_integers(&relation[first..]) };
             if let Some(divisor) = self.divided(&cofactor) {
                 return Some(divisor);
             }
@@ -182,34 +108,8 @@ impl ExactForm {
     }
 }
 
-/// A lower bound of the rank of rows of integers: that modulo `2^61 - 1`.
-pub(super) fn rank_modulo(rows: &[ExactVector]) -> usize {
-    let field = Field::MERSENNE;
-    let residue = |x: &Rational| {
-        let r = x.numer() % field.prime();
-        let size = r.iter_u64_digits().next().unwrap_or(0);
-        if r < BigInt::ZERO { field.sub(0, size) } else { size }
-    };
-    let mut rows: Vec<Vec<u64>> = rows.iter().map(|r| r.iter().map(residue).collect()).collect();
-    let width = rows.first().map_or(0, Vec::len);
-    let mut rank = 0;
-    for column in 0..width {
-        let Some(found) = (rank..rows.len()).find(|i| rows[*i][column] != 0) else { continue };
-        rows.swap(rank, found);
-        let scale = field.inverse(rows[rank][column]);
-        let (top, below) = rows.split_at_mut(rank + 1);
-        let head = &top[rank];
-        for row in below.iter_mut().filter(|r| r[column] != 0) {
-            let factor = field.mul(row[column], scale);
-            row.iter_mut().zip(head).for_each(|(x, h)| *x = field.sub(*x, field.mul(factor, *h)));
-        }
-        rank += 1;
-    }
-    rank
-}
-
 /// The products of the partial derivatives with the monomials of degree `2 deg - 4` (for a cubic: 18 quartics).
-fn jacobian_products(form: &ExactForm) -> Vec<ExactVector> {
+fn jacobian_products(form: &ExactForm) -> Vec<Vec<BigInt>> {
     form.gradient().iter().flat_map(|d| d.shifts((2 * form.degree).saturating_sub(4))).collect()
 }
 
@@ -439,8 +339,8 @@ fn is_smooth(form: &ExactForm) -> bool {
 /// A cubic without rational lines.
 fn cubic_kind(form: &ExactForm) -> ExactKind {
     let rows: Vec<Vec<ExactForm>> = form.gradient().iter().map(|d| d.gradient().to_vec()).collect();
-    let hessian = laplace(&rows, &ExactForm::times, &ExactForm::add);
-    if !hessian.is_some_and(|h| proportional(&h.coefficients, &form.coefficients)) {
+    let hessian = ExactForm::determinant(&rows);
+    if !proportional(&hessian.coefficients, &form.coefficients) {
         return ExactKind::Cubic;
     }
     // a line meets three lines in as many real points as there are real lines, unless it passes an intersection
@@ -468,10 +368,8 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
     if bits(&form.coefficients) > LONG {
         return CubicPoint::TooLong;
     }
-    let products = jacobian_products(form);
-    let columns: Vec<ExactVector> =
-        (0..15).map(|m| products.iter().map(|r| r[m].clone()).collect()).collect();
-    let dual = relations(&columns);
+    let products: Vec<ExactVector> = jacobian_products(form).iter().map(|row| rationals(row)).collect();
+    let dual = kernel(&products);
     if dual.is_empty() {
         return CubicPoint::None;
     }
@@ -490,7 +388,6 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
 /// The point from the functionals on quartics that vanish on the products of the derivatives; `None` where `l` vanishes
 /// at it.
 fn eigenvalues(dual: &[ExactVector], l: [i32; 3]) -> Option<Place> {
-    let zero = || Rational::from_integer(BigInt::ZERO);
     // functionals on cubics, by multiplication with a linear form
     let times = |d: &ExactVector, l: [i32; 3]| -> ExactVector {
         let at = |e: [usize; 3], k: usize| {
@@ -504,7 +401,7 @@ fn eigenvalues(dual: &[ExactVector], l: [i32; 3]) -> Option<Place> {
     if rank(&with_l) < dual.len() {
         return None;
     }
-    let mut traces = [zero(), zero(), zero()];
+    let mut traces = [0; 3].map(integer);
     for (k, trace) in traces.iter_mut().enumerate() {
         for (i, d) in dual.iter().enumerate() {
             let mut rows = with_l.clone();
@@ -515,7 +412,7 @@ fn eigenvalues(dual: &[ExactVector], l: [i32; 3]) -> Option<Place> {
             *trace += &relation[i] / &own;
         }
     }
-    integers(&traces).try_into().ok()
+    primitive_integers(&traces).try_into().ok()
 }
 
 #[cfg(test)]
@@ -550,9 +447,9 @@ mod tests {
 
     #[test]
     fn the_rank_modulo_a_prime_is_that_of_integer_rows() {
-        let rows = [[1, 2, 3], [4, 5, 6], [7, 8, -9]].map(|r| rationals(&r.map(BigInt::from)));
+        let rows = [[1, 2, 3], [4, 5, 6], [7, 8, -9]].map(|r| r.map(BigInt::from).to_vec());
         assert_eq!((rank_modulo(&rows), rank_modulo(&rows[..2])), (3, 2));
-        let dependent = [[1, 2, -3], [-2, -4, 6]].map(|r| rationals(&r.map(BigInt::from)));
+        let dependent = [[1, 2, -3], [-2, -4, 6]].map(|r| r.map(BigInt::from).to_vec());
         assert_eq!(rank_modulo(&dependent), 1);
     }
 
@@ -607,7 +504,7 @@ mod tests {
                         term = term.times(v);
                     }
                 }
-                out.add(&term, 1);
+                out.add_scaled(&term, &BigInt::from(1));
             }
             out
         };

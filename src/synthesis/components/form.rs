@@ -2,6 +2,8 @@
 //!
 //! A curve is split into lines, conics and the rest; its singular points are found and classified.
 
+use std::ops::{AddAssign, Mul, Sub};
+
 use nalgebra::Matrix3;
 
 use super::spectrum::{SAME, Spectrum, dot, least_squares, norm, orthonormal, real_roots, unit, without};
@@ -10,11 +12,14 @@ use num::linalg::LinalgError;
 use num::small::symmetric_eigen3;
 
 /// `sum c_ijk x0^i x1^j x2^k` with `i + j + k = degree`; `i` falls first, then `j`.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Form {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct TernaryForm<T> {
     pub(super) degree: usize,
-    pub(super) coefficients: Vec<f64>,
+    pub(super) coefficients: Vec<T>,
 }
+
+/// A form with coefficients in doubles.
+pub(super) type Form = TernaryForm<f64>;
 
 /// Exponents in the order of the coefficients.
 pub(super) fn exponents(degree: usize) -> impl Iterator<Item = [usize; 3]> {
@@ -36,52 +41,115 @@ fn factorial(n: usize) -> f64 {
     (1..=n).map(|k| k as f64).product()
 }
 
-impl Form {
+impl<T> TernaryForm<T>
+where
+    T: Clone + PartialEq + Default + From<i32> + AddAssign,
+    for<'a> &'a T: Mul<&'a T, Output = T>,
+{
     pub(super) fn zero(degree: usize) -> Self {
-        Self { degree, coefficients: vec![0.0; (degree + 1) * (degree + 2) / 2] }
+        Self { degree, coefficients: vec![T::default(); (degree + 1) * (degree + 2) / 2] }
     }
 
-    pub(super) fn constant(c: f64) -> Self {
+    pub(super) fn constant(c: T) -> Self {
         Self { degree: 0, coefficients: vec![c] }
     }
 
-    pub(super) fn linear(c: &[f64]) -> Self {
+    pub(super) fn linear(c: &[T]) -> Self {
         Self { degree: 1, coefficients: c.to_vec() }
     }
 
-    pub(super) fn value(&self, x: &[f64]) -> f64 {
-        let terms = exponents(self.degree).zip(&self.coefficients);
-        terms.map(|(e, c)| c * power(x[0], e[0]) * power(x[1], e[1]) * power(x[2], e[2])).sum()
+    fn terms(&self) -> impl Iterator<Item = ([usize; 3], &T)> {
+        let zero = T::default();
+        exponents(self.degree).zip(&self.coefficients).filter(move |(_, c)| **c != zero)
     }
 
     pub(super) fn times(&self, other: &Self) -> Self {
         let mut out = Self::zero(self.degree + other.degree);
-        for (e, a) in exponents(self.degree).zip(&self.coefficients) {
-            for (f, b) in exponents(other.degree).zip(&other.coefficients) {
+        for (e, a) in self.terms() {
+            for (f, b) in other.terms() {
                 out.coefficients[index([e[0] + f[0], e[1] + f[1], e[2] + f[2]])] += a * b;
             }
         }
         out
     }
 
-    fn add_scaled(&mut self, other: &Self, factor: f64) {
+    /// Adds a multiple.
+    pub(super) fn add_scaled(&mut self, other: &Self, factor: &T) {
         self.coefficients.iter_mut().zip(&other.coefficients).for_each(|(a, b)| *a += factor * b);
     }
 
-    fn derivative(&self, variable: usize) -> Self {
-        let mut out = Self::zero(self.degree.saturating_sub(1));
-        for (mut e, c) in exponents(self.degree).zip(&self.coefficients) {
-            if e[variable] > 0 {
-                let factor = e[variable] as f64;
+    pub(super) fn gradient(&self) -> [Self; 3] {
+        [0, 1, 2].map(|variable| {
+            let mut out = Self::zero(self.degree.saturating_sub(1));
+            for (mut e, c) in self.terms().filter(|(e, _)| e[variable] > 0) {
+                let factor = T::from(e[variable] as i32);
                 e[variable] -= 1;
-                out.coefficients[index(e)] += factor * c;
+                out.coefficients[index(e)] += &factor * c;
             }
+            out
+        })
+    }
+
+    /// Coefficients in `s` of the form at `p + s q`.
+    pub(super) fn on_line(&self, p: &[T], q: &[T]) -> Vec<T> {
+        let mut out = vec![T::default(); self.degree + 1];
+        for (e, c) in self.terms() {
+            let mut term = vec![c.clone()];
+            for (k, n) in e.iter().enumerate() {
+                for _ in 0..*n {
+                    let mut next = vec![T::default(); term.len() + 1];
+                    for (i, t) in term.iter().enumerate() {
+                        next[i] += t * &p[k];
+                        next[i + 1] += t * &q[k];
+                    }
+                    term = next;
+                }
+            }
+            out.iter_mut().zip(term).for_each(|(o, t)| *o += t);
         }
         out
     }
 
-    pub(super) fn gradient(&self) -> [Self; 3] {
-        [0, 1, 2].map(|k| self.derivative(k))
+    /// Coefficients of the products with all monomials of a degree.
+    pub(super) fn shifts(&self, degree: usize) -> Vec<Vec<T>> {
+        let shifted = |e: [usize; 3]| {
+            let mut monomial = Self::zero(degree);
+            monomial.coefficients[index(e)] = T::from(1);
+            self.times(&monomial).coefficients
+        };
+        exponents(degree).map(shifted).collect()
+    }
+
+    /// Determinant of a square matrix of forms of one degree, by expansion along the first row.
+    pub(super) fn determinant(matrix: &[Vec<Self>]) -> Self {
+        let mut out: Option<Self> = None;
+        for k in 0..matrix.len() {
+            let without = |row: &Vec<Self>| [&row[..k], &row[k + 1..]].concat();
+            let minor: Vec<Vec<Self>> = matrix[1..].iter().map(without).collect();
+            let cofactor = Self::determinant(&minor);
+            let term = if minor.is_empty() { matrix[0][k].clone() } else { matrix[0][k].times(&cofactor) };
+            match &mut out {
+                // the first term has the sign plus
+                None => out = Some(term),
+                Some(out) => out.add_scaled(&term, &T::from(if k % 2 == 0 { 1 } else { -1 })),
+            }
+        }
+        out.unwrap_or_else(|| Self::constant(T::from(1)))
+    }
+}
+
+/// Cross product of two vectors of length three.
+pub(super) fn cross<T: Sub<Output = T>>(a: &[T], b: &[T]) -> [T; 3]
+where
+    for<'a> &'a T: Mul<&'a T, Output = T>,
+{
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &a[i] * &b[j] - &a[j] * &b[i])
+}
+
+impl Form {
+    pub(super) fn value(&self, x: &[f64]) -> f64 {
+        let terms = exponents(self.degree).zip(&self.coefficients);
+        terms.map(|(e, c)| c * power(x[0], e[0]) * power(x[1], e[1]) * power(x[2], e[2])).sum()
     }
 
     /// The norm of Bombieri, which rotations of the three variables leave unchanged.
@@ -102,21 +170,6 @@ impl Form {
         Self { degree: self.degree, coefficients: self.coefficients.iter().map(|c| c * factor).collect() }
     }
 
-    /// Coefficients in `s` of the form at `p + s q`.
-    pub(super) fn on_line(&self, p: &[f64], q: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; self.degree + 1];
-        for (e, c) in exponents(self.degree).zip(&self.coefficients) {
-            let mut term = vec![*c];
-            for (k, n) in e.iter().enumerate() {
-                for _ in 0..*n {
-                    term = convolve(&term, &[p[k], q[k]]);
-                }
-            }
-            out.iter_mut().zip(term).for_each(|(o, t)| *o += t);
-        }
-        out
-    }
-
     /// Norm of the form on a line (given as a linear form) over its own norm: zero if it contains the line.
     fn residual_on_line(&self, line: &[f64]) -> f64 {
         let [p, q] = line_basis(line);
@@ -130,36 +183,10 @@ impl Form {
     /// The quotient by `divisor` in the sense of least squares, and the relative remainder.
     pub(super) fn divided(&self, divisor: &Self) -> Result<(Self, f64), LinalgError> {
         let degree = self.degree - divisor.degree;
-        let columns: Vec<Vec<f64>> = shifts(divisor, degree);
+        let columns = divisor.shifts(degree);
         let (coefficients, rest) = least_squares(&columns, &self.coefficients)?;
         Ok((Self { degree, coefficients }, rest))
     }
-}
-
-/// Products of a form with all monomials of a degree.
-fn shifts(form: &Form, degree: usize) -> Vec<Vec<f64>> {
-    let monomial = |e: [usize; 3]| {
-        let mut m = Form::zero(degree);
-        m.coefficients[index(e)] = 1.0;
-        form.times(&m).coefficients
-    };
-    exponents(degree).map(monomial).collect()
-}
-
-/// Product of two polynomials in one unknown.
-fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; a.len() + b.len() - 1];
-    for (i, x) in a.iter().enumerate() {
-        for (j, y) in b.iter().enumerate() {
-            out[i + j] += x * y;
-        }
-    }
-    out
-}
-
-/// Cross product of two vectors of length three.
-pub(super) fn cross(a: &[f64], b: &[f64]) -> Vec<f64> {
-    vec![a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Two orthonormal points of a line.
@@ -173,37 +200,6 @@ pub(super) fn line_basis(line: &[f64]) -> [Vec<f64>; 2] {
     [p, q]
 }
 
-/// Determinant of a square matrix of forms of one degree.
-pub(super) fn determinant(matrix: &[Vec<Form>]) -> Form {
-    let add = |out: &mut Form, term: &Form, sign: i32| out.add_scaled(term, f64::from(sign));
-    laplace(matrix, &Form::times, &add).unwrap_or_else(|| Form::constant(1.0))
-}
-
-/// Determinant by expansion along the first row; `add` adds a term or subtracts it. `None` for no rows.
-pub(super) fn laplace<F: Clone>(
-    matrix: &[Vec<F>],
-    times: &impl Fn(&F, &F) -> F,
-    add: &impl Fn(&mut F, &F, i32),
-) -> Option<F> {
-    if matrix.len() == 1 {
-        return Some(matrix[0][0].clone());
-    }
-    let mut out: Option<F> = None;
-    for k in 0..matrix.len() {
-        let minor: Vec<Vec<F>> = matrix[1..]
-            .iter()
-            .map(|row| row.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, f)| f.clone()).collect())
-            .collect();
-        let term = times(&matrix[0][k], &laplace(&minor, times, add)?);
-        match &mut out {
-            // the first term has the sign plus
-            None => out = Some(term),
-            Some(out) => add(out, &term, if k % 2 == 0 { 1 } else { -1 }),
-        }
-    }
-    out
-}
-
 /// The greatest common divisor of two forms of equal degree, with the singular values on either side of the decision.
 ///
 /// `g f1 = h f2` has a solution with `deg g = deg h = e` exactly if the divisor has at least degree `deg f - e`.
@@ -215,8 +211,8 @@ pub(super) fn common_factor(
     let (f1, f2) = (f1.normalised(), f2.normalised());
     let mut above = None;
     for e in 0..f1.degree {
-        let mut columns = shifts(&f1, e);
-        columns.extend(shifts(&f2, e));
+        let mut columns = f1.shifts(e);
+        columns.extend(f2.shifts(e));
         let rows: Vec<Vec<f64>> =
             (0..columns[0].len()).map(|i| columns.iter().map(|c| c[i]).collect()).collect();
         let n = columns.len();
@@ -242,13 +238,13 @@ pub(super) fn random_minor(m: &[Vec<Form>], order: usize, rng: &mut Rng) -> Form
         let mut sum = Form::zero(1);
         for (row, x) in m.iter().zip(l) {
             for (f, y) in row.iter().zip(r) {
-                sum.add_scaled(f, x * y);
+                sum.add_scaled(f, &(x * y));
             }
         }
         sum
     };
     let rows: Vec<Vec<Form>> = left.iter().map(|l| right.iter().map(|r| entry(l, r)).collect()).collect();
-    determinant(&rows)
+    Form::determinant(&rows)
 }
 
 /// A form with random coefficients for tests and generic combinations.
@@ -274,41 +270,28 @@ pub(super) struct RealPart {
     pub(super) measure: f64,
 }
 
-/// Kinds of parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PartKind {
-    /// A real line.
-    Line,
-    /// A conic with real points.
-    Conic,
-    /// A conic without real points.
-    EmptyConic,
-    /// Two conjugate complex lines: one real point.
-    ComplexLines,
-    /// A cubic that contains no real line.
-    Cubic,
-    /// A curve of higher degree that contains no real line.
-    Higher,
+num::words! {
+    /// Kinds of parts.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum PartKind as name {
+        /// A real line.
+        Line = "line",
+        /// A conic with real points.
+        Conic = "conic",
+        /// A conic without real points.
+        EmptyConic = "conic_without_real_points",
+        /// Two conjugate complex lines: one real point.
+        ComplexLines = "conjugate_lines",
+        /// A cubic that contains no real line.
+        Cubic = "cubic",
+        /// A curve of higher degree that contains no real line.
+        Higher = "higher",
+    }
 }
 
 #[cfg(feature = "serde")]
 num::written_as_word!(PartKind);
-
-impl PartKind {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Line => "line",
-            Self::Conic => "conic",
-            Self::EmptyConic => "conic_without_real_points",
-            Self::ComplexLines => "conjugate_lines",
-            Self::Cubic => "cubic",
-            Self::Higher => "higher",
-        }
-    }
-}
 
 /// A curve in parts.
 #[derive(Debug, Clone, Default)]
@@ -381,7 +364,7 @@ fn best_line(
     };
     for (k, p) in points.iter().enumerate() {
         for q in &points[..k] {
-            consider(&mut best, cross(&unit(p), &unit(q)));
+            consider(&mut best, cross(&unit(p), &unit(q)).to_vec());
         }
     }
     // a nearby, less accurate line must not replace a fitting line through two known points
@@ -396,7 +379,7 @@ fn best_line(
     }
     for p in &sections[0] {
         for q in &sections[1] {
-            consider(&mut best, cross(&unit(p), &unit(q)));
+            consider(&mut best, cross(&unit(p), &unit(q)).to_vec());
         }
     }
     Ok(best)
@@ -436,35 +419,24 @@ pub(super) fn conic_frame(form: &Form) -> [Vec<f64>; 3] {
     [x, others.next().unwrap_or_default(), z]
 }
 
-/// The kind of a singular point of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SingularKind {
-    /// Two real branches cross.
-    Crossing,
-    /// An isolated real point: two complex branches.
-    Isolated,
-    /// The two branches share a tangent: a cusp, or touching parts.
-    Cusp,
-    /// Three branches or a multiple part.
-    Triple,
+num::words! {
+    /// The kind of a singular point of a curve.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum SingularKind as name {
+        /// Two real branches cross.
+        Crossing = "crossing",
+        /// An isolated real point: two complex branches.
+        Isolated = "isolated",
+        /// The two branches share a tangent: a cusp, or touching parts.
+        Cusp = "cusp",
+        /// Three branches or a multiple part.
+        Triple = "triple",
+    }
 }
 
 #[cfg(feature = "serde")]
 num::written_as_word!(SingularKind);
-
-impl SingularKind {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Crossing => "crossing",
-            Self::Isolated => "isolated",
-            Self::Cusp => "cusp",
-            Self::Triple => "triple",
-        }
-    }
-}
 
 /// Kind of the singular point `p` of `form`, from the second derivatives along the tangent plane at `p`.
 pub(super) fn singular_kind(form: &Form, p: &[f64]) -> SingularKind {

@@ -6,9 +6,9 @@ use nalgebra::{Point3, Vector3};
 use super::exact_curve::{ExactCurve, NoExactCurve};
 use super::flats::{ClosedPair, FlatProduct};
 use super::form::{
-    Form, PartKind, RealPart, SingularKind, SplitCurve, common_factor, cross, determinant, exponents,
-    incidence, index, line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind,
-    singular_point, split,
+    Form, PartKind, RealPart, SingularKind, SplitCurve, common_factor, cross, exponents, incidence, index,
+    line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind, singular_point,
+    split,
 };
 use super::found::{FoundComponents, View};
 use super::shape::frame;
@@ -43,7 +43,7 @@ fn minors(view: &View<'_>, rank: usize, rng: &mut Rng) -> Vec<Form> {
     let m = view.product.forms();
     let (height, width) = (m.len(), m.first().map_or(0, Vec::len));
     if height == rank && width == rank {
-        return vec![determinant(&m)];
+        return vec![Form::determinant(&m)];
     }
     let mut one = || random_minor(&m, rank, rng);
     vec![one(), one()]

@@ -4,6 +4,7 @@
 use nalgebra::Point3;
 
 use num::Rng;
+pub(super) use num::exact::integer;
 use num::exact::{ExactVector, Rational, rank, relations};
 use platform::manipulator::{Body, ExactLeg, InvalidManipulator, Manipulator, flat_dimension};
 
@@ -13,10 +14,6 @@ pub(super) struct DesignSample {
     base: Vec<ExactVector>,
     platform: Vec<ExactVector>,
     legs: [(usize, usize); 6],
-}
-
-pub(super) fn integer(x: i64) -> Rational {
-    Rational::from_integer(x.into())
 }
 
 /// The same point with the first coordinate 1; `None` at infinity.

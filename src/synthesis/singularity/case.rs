@@ -317,26 +317,20 @@ fn projective_within(a: &[[f64; 3]], b: &[[f64; 3]]) -> Result<bool, LinalgError
     Ok(s[8] <= NEGLIGIBLE * s[0])
 }
 
-/// The map from one planar set of points to another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PlanarMap {
-    /// A similarity: all distances in one ratio.
-    Similar,
-    /// An affine map.
-    Affine,
-    /// A projectivity.
-    Projective,
-}
-
-impl std::fmt::Display for PlanarMap {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Similar => "similar images",
-            Self::Affine => "affine images",
-            Self::Projective => "projective images",
-        })
+num::words! {
+    /// The map from one planar set of points to another.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum PlanarMap as words {
+        /// A similarity: all distances in one ratio.
+        Similar = "similar images",
+        /// An affine map.
+        Affine = "affine images",
+        /// A projectivity.
+        Projective = "projective images",
     }
 }
+
+num::displayed!(PlanarMap by words);
 
 /// The most special regular map with `b_i` the image of `a_i`, points `(1, x, y, z)`; both sets span planes.
 fn planar_map(a: &[AlgebraicVector], b: &[AlgebraicVector]) -> Option<PlanarMap> {

@@ -1,7 +1,9 @@
 //! Exact linear relations between the leg vectors `v = (1, a) (x) (1, b)`.
 
+use num_traits::{Signed, Zero};
+
 use num::algebraic::Algebraic;
-use num::exact::{Rational, approximate, relations};
+use num::exact::{Rational, integer, primitive, relations};
 use platform::manipulator::{Body, ExactLegs, SquaredLegLengths};
 
 /// A minimal set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper subset is dependent.
@@ -31,10 +33,6 @@ impl Dependency {
         let (sum, moduli) = terms.fold((0.0, self.constant.abs()), |(x, y), t| (x + t, y + f64::abs(t)));
         (sum - self.constant) / moduli
     }
-}
-
-fn one() -> Rational {
-    Rational::from_integer(1.into())
 }
 
 /// All minimal dependent sets, fewest legs first.
@@ -91,27 +89,17 @@ fn scaled_to_one(c: &[Algebraic]) -> Vec<Algebraic> {
     if negative { ratios.iter().map(|x| -x).collect() } else { ratios }
 }
 
-/// A multiple of `c` with a positive first entry: integers below a million without a common factor, or a largest
-/// modulus of 1.
+/// A multiple of `c` with a positive first nonzero entry: integers below a million without a common factor, the least
+/// at most 60, or a largest modulus of 1.
 fn scaled(c: &[Rational]) -> Vec<Rational> {
-    let zero = Rational::from_integer(0.into());
-    let Some(first) = c.iter().find(|x| **x != zero) else { return c.to_vec() };
-    // ratios to the smallest entry are integers for the usual small relations
-    let modulus = |x: &Rational| if *x < zero { -x } else { x.clone() };
-    let least = c.iter().filter(|x| **x != zero).map(modulus).min().unwrap_or_else(one);
-    let most = c.iter().map(modulus).max().unwrap_or_else(one);
-    let sign = if *first < zero { -one() } else { one() };
-    let ratio = approximate(&(&most / &least));
-    if ratio < 1e6 {
-        let ratios: Vec<Rational> = c.iter().map(|x| x * &sign / &least).collect();
-        for k in (1..=60u32).take_while(|k| ratio * f64::from(*k) < 1e6) {
-            let tried: Vec<Rational> = ratios.iter().map(|x| x * Rational::from_integer(k.into())).collect();
-            if tried.iter().all(Rational::is_integer) {
-                return tried;
-            }
-        }
+    let whole = primitive(c);
+    let moduli = || whole.iter().filter(|x| !x.is_zero()).map(Signed::abs);
+    let (Some(least), Some(most)) = (moduli().min(), moduli().max()) else { return whole };
+    // the usual small relations have a small entry
+    if least <= integer(60) && most < integer(1_000_000) {
+        return whole;
     }
-    c.iter().map(|x| x * &sign / &most).collect()
+    whole.iter().map(|x| x / &most).collect()
 }
 
 #[cfg(test)]

@@ -6,37 +6,32 @@
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3};
 
 use super::path::{ControlPoint, PathPiece, Sign, SignsAlong, signs_along, signs_on_curve};
+use num::elimination::{SurdArithmetic, eliminate};
 use num::exact::{ExactVector, rank, rational};
-use num::surd::{Surd, combination, eliminate};
+use num::surd::{Surd, combination};
 use platform::geom::Pose;
 use platform::manipulator::{ExactEnds, Manipulator};
 
-/// The evidence that a pose is singular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case"),
-    schemars(rename = "SingularEvidenceWord")
-)]
-pub enum SingularEvidence {
-    /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
-    Zero,
-    /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
-    SignChange,
-    /// det J is not above its rounding errors.
-    Rounding,
-}
-
-impl std::fmt::Display for SingularEvidence {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Zero => "det J = 0, proved in exact arithmetic",
-            Self::SignChange => "det J changes its sign there",
-            Self::Rounding => "det J = 0 to rounding",
-        })
+num::words! {
+    /// The evidence that a pose is singular.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case"),
+        schemars(rename = "SingularEvidenceWord")
+    )]
+    pub enum SingularEvidence as words {
+        /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
+        Zero = "det J = 0, proved in exact arithmetic",
+        /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
+        SignChange = "det J changes its sign there",
+        /// det J is not above its rounding errors.
+        Rounding = "det J = 0 to rounding",
     }
 }
+
+num::displayed!(SingularEvidence by words);
 
 /// Whether the legs hold the platform at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -197,7 +192,7 @@ pub(super) fn exact_rank(m: &Manipulator, pose: &Pose) -> Option<usize> {
         rows.iter().map(|row| row.iter().map(Surd::as_rational).collect()).collect();
     match fractions {
         Some(rows) => Some(rank(&rows)),
-        None => eliminate(&mut rows, 6),
+        None => Some(eliminate(&SurdArithmetic, &mut rows)?.len()),
     }
 }
 

@@ -13,7 +13,7 @@ use num_complex::Complex64;
 
 use super::legs::{complex, perpendicular};
 use num::batch::{ComplexBatch, LANES};
-use num::poly::repulsion;
+use num::poly::{newton_quotients, repulsion};
 
 /// A leg whose platform end is at `b` from the known joint.
 #[derive(Debug, Clone, Copy)]
@@ -247,7 +247,9 @@ fn octic_roots(c: &[Complex64; LANES + 1], start: Option<ComplexBatch>) -> Optio
     }
     let mut z = start.unwrap_or_else(|| circle((c[0].norm() / c[LANES].norm()).powf(1.0 / LANES as f64)));
     for _ in 0..SWEEPS {
-        let step = corrections(c, &z);
+        // N / (1 - N sum 1 / (z_k - z_j)), N = p / p'
+        let [top, bottom] = newton_quotients(c, &z);
+        let step = top * (bottom - top * repulsion(&z)).reciprocal();
         let (moved, size) = (step.norm_sqr(), z.norm_sqr());
         let finite = moved.map(f64::is_finite);
         // two roots in one place repel each other infinitely: they stay
@@ -267,29 +269,6 @@ fn circle(radius: f64) -> ComplexBatch {
         (z.re[k], z.im[k]) = (point.re, point.im);
     }
     z
-}
-
-/// `N / (1 - N sum 1 / (z_k - z_j))`, `N = p / p'`; where `|z| > 1` from the reversed polynomial.
-#[inline(always)]
-fn corrections(c: &[Complex64; LANES + 1], z: &ComplexBatch) -> ComplexBatch {
-    let outside = z.norm_sqr().map(|n| n > 1.0);
-    let inverse = z.reciprocal();
-    let y = inverse.select(*z, outside);
-    let coefficient = |k: usize| all(c[LANES - k]).select(all(c[k]), outside);
-    let (mut p, mut d) = (coefficient(LANES), ComplexBatch::ZERO);
-    for k in (0..LANES).rev() {
-        d = d * y + p;
-        p = p * y + coefficient(k);
-    }
-    // p/p' = z q / (8 q - q'/z) for the reversed polynomial q at 1/z
-    let reversed = p.times(LANES as f64) - d * inverse;
-    let (top, bottom) = ((p * *z).select(p, outside), reversed.select(d, outside));
-    top * (bottom - top * repulsion(z)).reciprocal()
-}
-
-#[inline(always)]
-fn all(c: Complex64) -> ComplexBatch {
-    ComplexBatch { re: [c.re; LANES], im: [c.im; LANES] }
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::number::{LaneNumber, TrilateratedPlaces, Vector, along, cross, dot, minus, squared_distance};
-use crate::distance::plan::coordinates;
 use num::batch::{ComplexBatch, LANES};
 use num::vector_unit::on_vector_unit;
 use platform::geom::ComplexPose;
@@ -108,7 +107,7 @@ impl TrilaterationChain {
         closure: Option<[JointIndex; 2]>,
     ) -> Option<Self> {
         let size = m.size();
-        let local = |j: JointIndex| coordinates(m, j).coords / size;
+        let local = |j: JointIndex| j.point(m).coords / size;
         let on_first = |j: &JointIndex| j.same_body(s.start[0]);
         let placed = s.steps.iter().map(|t| t.place);
         let first: Vec<JointIndex> = s.start.iter().copied().chain(placed.filter(on_first)).collect();

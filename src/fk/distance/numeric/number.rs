@@ -2,16 +2,13 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use std::ops::{Add, Mul, Sub};
-
 use num_complex::Complex64;
 
-use num::batch::{ComplexBatch, LANES};
+use num::batch::ComplexBatch;
+pub(super) use num::vector::{RingNumber, cross, dot, minus};
 
-/// One complex number, or [`LANES`] of them.
-pub(super) trait LaneNumber:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
+/// One complex number, or those of a [`ComplexBatch`].
+pub(super) trait LaneNumber: RingNumber {
     /// The same number everywhere.
     fn constant(z: Complex64) -> Self;
     /// Not a number where it is zero.
@@ -52,7 +49,7 @@ impl LaneNumber for Complex64 {
 impl LaneNumber for ComplexBatch {
     #[inline(always)]
     fn constant(z: Complex64) -> Self {
-        Self { re: [z.re; LANES], im: [z.im; LANES] }
+        Self::all(z)
     }
 
     #[inline(always)]
@@ -73,21 +70,6 @@ impl LaneNumber for ComplexBatch {
 
 /// A point or vector.
 pub(super) type Vector<T> = [T; 3];
-
-#[inline(always)]
-pub(super) fn minus<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
-    [x[0] - y[0], x[1] - y[1], x[2] - y[2]]
-}
-
-#[inline(always)]
-pub(super) fn dot<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> T {
-    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
-}
-
-#[inline(always)]
-pub(super) fn cross<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
-    [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
-}
 
 /// `x + c y`.
 #[inline(always)]

@@ -1,11 +1,9 @@
 //! The choice of the trilateration sequence for a design.
 
-use nalgebra::Point3;
 use thiserror::Error;
 
-use super::cayley_menger::Base;
 use platform::manipulator::Manipulator;
-use platform::topology::{JointIndex, Nesting, Sequence, sequences};
+use platform::topology::{JointIndex, Nesting, Sequence, sequences, triples};
 
 /// Why a design has no trilateration sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -27,7 +25,7 @@ pub enum NoPlan {
 /// The sequences with fewest virtual legs for this design, best first: least [`Nesting`], then the fattest triangles.
 ///
 /// Joints are numbered as in the design; those without a leg are left out. The start triangle and the bases of rigid
-/// steps are the fattest there are, and never collinear ([`Base::Collinear`]).
+/// steps are the fattest there are, and never collinear within rounding.
 ///
 /// # Errors
 /// [`NoPlan`] when more than `allowed` virtual legs are needed, or all triangles are collinear.
@@ -55,18 +53,21 @@ pub fn fit(m: &Manipulator, s: &Sequence) -> Option<(f64, Sequence)> {
     fitted(m, s.clone())
 }
 
-/// Coordinates of a joint in the frame of its body.
-pub(super) fn coordinates(m: &Manipulator, joint: JointIndex) -> Point3<f64> {
-    match joint {
-        JointIndex::Base(k) => m.base_joints()[k],
-        JointIndex::Platform(k) => m.platform_joints()[k],
-    }
-}
+/// Fatness up to which three joints count as collinear, far above rounding.
+const COLLINEAR: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// [`Base::fatness`] of three joints of one body.
+/// Sixteen times the squared area of three joints of one body, in squares of the longest squared side: 3 for an
+/// equilateral triangle, zero for collinear joints.
 fn fatness(m: &Manipulator, three: [JointIndex; 3]) -> f64 {
-    let p = three.map(|j| coordinates(m, j));
-    Base::fatness([(0, 1), (0, 2), (1, 2)].map(|(i, j)| (p[i] - p[j]).norm_squared()))
+    let p = three.map(|j| j.point(m));
+    let [ij, ik, jk] = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| (p[i] - p[j]).norm_squared());
+    let largest = ij.max(ik).max(jk);
+    if !(largest > 0.0) {
+        return 0.0;
+    }
+    let (x, y, z) = (ij / largest, ik / largest, jk / largest);
+    let twice_uv = x + y - z;
+    4.0 * x * y - twice_uv * twice_uv
 }
 
 /// The sequence with the fattest start triangle, and the fatness of the leanest triangle that it needs; `None` when
@@ -81,8 +82,7 @@ fn fitted(m: &Manipulator, mut s: Sequence) -> Option<(f64, Sequence)> {
     let bases = s.unoriented().map(|t| t.from).filter(|f| f[0].same_body(f[1]) && f[0].same_body(f[2]));
     let needed = bases.chain([start, second]);
     let leanest = needed.map(|t| fatness(m, t)).fold(f64::INFINITY, f64::min);
-    let proper = |t: [JointIndex; 3]| fatness(m, t) > 2f64.powi(-40);
-    if !proper(start) || leanest <= 2f64.powi(-40) {
+    if leanest <= COLLINEAR {
         return None;
     }
     let others: Vec<JointIndex> = first.iter().copied().filter(|j| !start.contains(j)).collect();
@@ -97,10 +97,8 @@ fn fitted(m: &Manipulator, mut s: Sequence) -> Option<(f64, Sequence)> {
 
 /// The fattest triangle of joints of one body, the first of equal ones.
 fn best_triangle(m: &Manipulator, joints: &[JointIndex]) -> Option<(f64, [JointIndex; 3])> {
-    let n = joints.len();
-    let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-    let all = pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| [i, j, k])).map(|t| t.map(|i| joints[i]));
-    all.map(|t| (fatness(m, t), t)).fold(None, |best: Option<(f64, [JointIndex; 3])>, t| match best {
+    let all = triples(joints).into_iter().map(|t| (fatness(m, t), t));
+    all.fold(None, |best: Option<(f64, [JointIndex; 3])>, t| match best {
         Some(b) if b.0 >= t.0 => Some(b),
         _ => Some(t),
     })

@@ -1,6 +1,7 @@
 //! Plans for designs of all topologies.
 
 use super::*;
+use nalgebra::Point3;
 use num::Rng;
 use platform::topology::catalogue;
 

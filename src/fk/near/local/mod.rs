@@ -10,19 +10,10 @@
 //! ```
 
 use super::{NearSolver, ScaledPose};
+use num::vector::{cross, dot};
 
 type Vector = [f64; 3];
 type Matrix6 = [[f64; 6]; 6];
-
-#[inline]
-fn dot(a: &Vector, b: &Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline]
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 #[inline]
 fn norm(a: &Vector) -> f64 {

@@ -14,6 +14,7 @@ use num::ball::WideDisc;
 use num::ball::{Disc, UP};
 use num::double_double::{ComplexDoubleDouble, DoubleDouble};
 use num::octuple::{ComplexOctuple, Octuple};
+use num::vector::RingNumber;
 use platform::geom::ComplexPose;
 
 /// Below this `|e.e| / |e|^2` a pose is computed in double-double.
@@ -89,14 +90,7 @@ pub(super) fn study_at(x: &[Complex64; 8], unit: f64) -> Result<Study<f64>, WhyU
 
 /// Numerators of `R` (row by row) and `p` over `N = e.e`, and `N`, for anything with ring operations.
 #[inline(always)]
-pub(super) fn pose_numerators<T>(x: &[T; 8]) -> ([T; 9], [T; 3], T)
-where
-    T: Copy
-        + std::ops::Add<Output = T>
-        + std::ops::Sub<Output = T>
-        + std::ops::Mul<Output = T>
-        + std::ops::Neg<Output = T>,
-{
+pub(super) fn pose_numerators<T: RingNumber>(x: &[T; 8]) -> ([T; 9], [T; 3], T) {
     let [w, x1, x2, x3, g0, g1, g2, g3] = *x;
     let (ww, xx, yy, zz) = (w * w, x1 * x1, x2 * x2, x3 * x3);
     let twice = |a: T| a + a;

@@ -42,8 +42,6 @@
 //!
 //! `G_0(c)` and the `p_k` are in discs about double-doubles, `G'(X)` in discs about doubles.
 
-use std::ops::{Add, Mul, Sub};
-
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex64;
 
@@ -51,6 +49,7 @@ use super::system::SquareData;
 use num::ball::{Disc, TINY, UP, WideDisc};
 use num::double_double::DoubleDouble;
 use num::rounding::check_arithmetic;
+use num::vector::RingNumber;
 use platform::manipulator::{Body, Manipulator};
 
 /// Unknowns: `e`, `alpha`, `beta`, `gamma`, `rho`.
@@ -82,7 +81,7 @@ const PAIR_RADII: [f64; 3] = [1e-9, 1e-2, 32.0];
 const WIDENED: usize = 4;
 
 /// Numbers of the equations.
-trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+trait Ring: RingNumber {
     fn of(x: f64) -> Self;
     fn wide(x: WideDisc) -> Self;
     fn scaled(self, x: f64) -> Self;
@@ -138,28 +137,19 @@ impl<T: Ring> Dual<T> {
     }
 }
 
-impl<T: Ring> Add for Dual<T> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        let by = std::array::from_fn(|k| self.by[k] + other.by[k]);
-        Self { value: self.value + other.value, by }
+num::operators! {
+    [inline] [T: Ring] Dual<T>;
+    Add::add(x, y) {
+        let by = std::array::from_fn(|k| x.by[k] + y.by[k]);
+        Self { value: x.value + y.value, by }
     }
-}
-
-impl<T: Ring> Sub for Dual<T> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        let by = std::array::from_fn(|k| self.by[k] - other.by[k]);
-        Self { value: self.value - other.value, by }
+    Sub::sub(x, y) {
+        let by = std::array::from_fn(|k| x.by[k] - y.by[k]);
+        Self { value: x.value - y.value, by }
     }
-}
-
-impl<T: Ring> Mul for Dual<T> {
-    type Output = Self;
-    #[allow(clippy::suspicious_arithmetic_impl)] // the product rule
-    fn mul(self, other: Self) -> Self {
-        let by = std::array::from_fn(|k| self.by[k] * other.value + self.value * other.by[k]);
-        Self { value: self.value * other.value, by }
+    Mul::mul(x, y) {
+        let by = std::array::from_fn(|k| x.by[k] * y.value + x.value * y.by[k]);
+        Self { value: x.value * y.value, by }
     }
 }
 

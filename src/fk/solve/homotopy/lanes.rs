@@ -7,7 +7,7 @@
 use num_complex::Complex64;
 use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
-use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use std::ops::{AddAssign, SubAssign};
 
 /// Most lanes of any unit; per-lane bookkeeping is kept in arrays of this length.
 pub(super) const MOST_LANES: usize = 8;
@@ -126,43 +126,27 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-impl<S: Simd> Add for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        let s = self.simd;
-        Self { re: s.add_f64s(self.re, o.re), im: s.add_f64s(self.im, o.im), simd: s }
+num::operators! {
+    [inline(always)] [S: Simd] Lanes<S>;
+    Neg::neg(x) {
+        let s = x.simd;
+        Self { re: s.neg_f64s(x.re), im: s.neg_f64s(x.im), simd: s }
     }
-}
-
-impl<S: Simd> Sub for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        let s = self.simd;
-        Self { re: s.sub_f64s(self.re, o.re), im: s.sub_f64s(self.im, o.im), simd: s }
+    Add::add(x, y) {
+        let s = x.simd;
+        Self { re: s.add_f64s(x.re, y.re), im: s.add_f64s(x.im, y.im), simd: s }
     }
-}
-
-impl<S: Simd> Mul for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        let s = self.simd;
+    Sub::sub(x, y) {
+        let s = x.simd;
+        Self { re: s.sub_f64s(x.re, y.re), im: s.sub_f64s(x.im, y.im), simd: s }
+    }
+    Mul::mul(x, y) {
+        let s = x.simd;
         Self {
-            re: s.negate_mul_add_e_f64s(self.im, o.im, s.mul_f64s(self.re, o.re)),
-            im: s.mul_add_e_f64s(self.re, o.im, s.mul_f64s(self.im, o.re)),
+            re: s.negate_mul_add_e_f64s(x.im, y.im, s.mul_f64s(x.re, y.re)),
+            im: s.mul_add_e_f64s(x.re, y.im, s.mul_f64s(x.im, y.re)),
             simd: s,
         }
-    }
-}
-
-impl<S: Simd> Neg for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        let s = self.simd;
-        Self { re: s.neg_f64s(self.re), im: s.neg_f64s(self.im), simd: s }
     }
 }
 

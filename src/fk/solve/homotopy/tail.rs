@@ -13,8 +13,8 @@ use super::lanes::{Lanes, Vec8, norm_sqr};
 use super::lu::Lu;
 use super::paths::EndKind;
 use super::system::{ORDER, SectionHomotopy, blank_series, derivative_matrix, taylor};
-use crate::solve::octuple_sections::{OctupleSections, octuple_forms};
-use crate::solve::sections::{FORMS, FormRow, Sections};
+use crate::solve::octuple_sections::OctupleSections;
+use crate::solve::sections::{FORMS, FormRow, Sections, forms};
 use num::octuple::{ComplexOctuple, Octuple, OctupleLu};
 
 /// Values of the forms.
@@ -198,7 +198,7 @@ impl CornerTail {
 
     /// Values of the six sections and of `e.g` at `t = parameter corner`.
     fn residual(&self, x: &[ComplexOctuple; 8], parameter: ComplexOctuple) -> [ComplexOctuple; 7] {
-        let forms = octuple_forms(x);
+        let forms = forms(*x);
         let t = parameter * self.corner;
         let mut out = [ComplexOctuple::ZERO; 7];
         for i in 0..6 {
@@ -277,7 +277,7 @@ impl CornerTail {
         // F(x, y) of forms with the values `own` and `other` at x and y
         let polar =
             |x: &[ComplexOctuple; 8], own: &Forms17, y: &[ComplexOctuple; 8], other: &Forms17| -> Forms17 {
-                let sum = octuple_forms(&std::array::from_fn(|k| x[k] + y[k]));
+                let sum = forms(std::array::from_fn(|k| x[k] + y[k]));
                 std::array::from_fn(|n| sum[n] - own[n] - other[n])
             };
         let study = |x: &[ComplexOctuple; 8], y: &[ComplexOctuple; 8]| {
@@ -287,7 +287,7 @@ impl CornerTail {
             (0..FORMS).fold(ComplexOctuple::ZERO, |sum, k| sum + forms[k].times(rows[i][k]))
         };
         let mut series = [[ComplexOctuple::ZERO; 8]; ORDER];
-        let at_point = octuple_forms(x);
+        let at_point = forms(*x);
         let mut at_terms = [at_point; ORDER];
         let mut full = at_point;
         for k in 1..=ORDER {
@@ -313,7 +313,7 @@ impl CornerTail {
             }
             rhs[6] = -crossed;
             series[k - 1] = lu.solve(&rhs);
-            at_terms[k - 1] = octuple_forms(&series[k - 1]);
+            at_terms[k - 1] = forms(series[k - 1]);
             let f = polar(x, &at_point, &series[k - 1], &at_terms[k - 1]);
             full = std::array::from_fn(|n| inner[n] + f[n]);
         }

@@ -17,7 +17,6 @@
 //! The counts here are exact: butterflies by lines that cover the legs, inversions of two planar bodies by ranks over
 //! the field of the joints.
 
-mod arithmetic;
 mod lines;
 mod planes;
 

@@ -16,11 +16,11 @@
 //! inversion. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
 
 use super::Residues;
-use super::arithmetic::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
 use num::Rng;
+use num::elimination::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
 use num::modular::Field;
 use num::surd::Surd;
-use platform::manipulator::ExactEnds;
+use platform::manipulator::{Body, ExactEnds, dimension_of_ends};
 
 /// Products of two and of three of three unknowns.
 const QUADRATIC: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
@@ -64,8 +64,7 @@ pub(super) fn are_affine_images(
         vec![Surd::integer(1), x, y, z, w]
     };
     let mut rows: Vec<Vec<Surd>> = (0..6).map(row).collect();
-    let planar = (0..2).all(|body| is_planar(ends, body, charts[body].corners).unwrap_or(false));
-    Some(planar && eliminate(&SurdArithmetic, &mut rows)?.len() == 3)
+    Some(are_planar(ends) && eliminate(&SurdArithmetic, &mut rows)?.len() == 3)
 }
 
 /// The number of inversions beside `butterflies`, which are such matrices of rank one. `None` when numbers become too
@@ -86,7 +85,7 @@ pub(super) fn inversions(
         return None;
     }
     // modulo the prime it is so: now over the field of the joints
-    if !(0..2).all(|body| is_planar(ends, body, charts[body].corners).unwrap_or(false)) {
+    if !are_planar(ends) {
         return None;
     }
     let plane = |leg: usize, body: usize| charts[body].axes.map(|k| ends[leg][body][k].clone());
@@ -98,8 +97,6 @@ pub(super) fn inversions(
 /// Affine coordinates of the plane of a body: two of the three coordinates.
 pub(super) struct PlaneChart {
     axes: [usize; 2],
-    /// Legs whose ends are not on a line.
-    corners: [usize; 3],
     /// The quadratic form of `pi`, in the order `pi_0^2, pi_0 pi_1, pi_1^2`, that vanishes where the two isotropic
     /// vectors with this projection are one.
     ramification: [u64; 3],
@@ -134,22 +131,15 @@ fn chart(field: Field, residues: &Residues, body: usize) -> Option<PlaneChart> {
                 let h = field.mul(minor(&d, &e, axes[0], third), over);
                 let one = |x: u64| field.add(1, field.mul(x, x));
                 let twice = field.mul(field.integer(-2), field.mul(g, h));
-                return Some(PlaneChart { axes, corners: [0, k, j], ramification: [one(h), twice, one(g)] });
+                return Some(PlaneChart { axes, ramification: [one(h), twice, one(g)] });
             }
         }
     }
     None
 }
 
-/// Whether all ends are on the plane of three of them.
-fn is_planar(ends: &[ExactEnds; 6], body: usize, corners: [usize; 3]) -> Option<bool> {
-    let end = |leg: usize| &ends[leg][body];
-    let difference = |leg: usize| -> Option<Vec<Surd>> {
-        end(leg).iter().zip(end(corners[0])).map(|(x, y)| x.minus(y)).collect()
-    };
-    let mut rows = (0..6).map(difference).collect::<Option<Vec<_>>>()?;
-    rows.retain(|row| row.iter().any(|x| !x.is_zero()));
-    Some(eliminate(&SurdArithmetic, &mut rows)?.len() == 2)
+fn are_planar(ends: &[ExactEnds; 6]) -> bool {
+    Body::BOTH.into_iter().all(|body| dimension_of_ends(ends, body) == Some(2))
 }
 
 /// `W` as a matrix of linear forms in three unknowns.

@@ -127,30 +127,27 @@ impl NoRounding {
     }
 }
 
-/// The reason against a rounding as a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum NoRoundingWord {
-    /// The joints are not on the sides of two triangles.
-    NoTriangles,
-    /// No triangle on the grid is near.
-    NoTriangleNear,
-    /// Every rounding is architecturally singular.
-    Singular,
-    /// Two joints come to the same hole.
-    JointsCoincide,
-    /// A pose becomes singular.
-    SingularPose,
-    /// Origin and angle can be chosen only for square grids.
-    FreePattern,
-    /// The grid cannot be used.
-    BadGrid,
-    /// A plate has no lines through many holes.
-    NoLines,
+num::answer_words! {
+    /// The reason against a rounding as a word.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum NoRoundingWord as name {
+        /// The joints are not on the sides of two triangles.
+        NoTriangles = "no_triangles",
+        /// No triangle on the grid is near.
+        NoTriangleNear = "no_triangle_near",
+        /// Every rounding is architecturally singular.
+        Singular = "singular",
+        /// Two joints come to the same hole.
+        JointsCoincide = "joints_coincide",
+        /// A pose becomes singular.
+        SingularPose = "singular_pose",
+        /// Origin and angle can be chosen only for square grids.
+        FreePattern = "free_pattern",
+        /// The grid cannot be used.
+        BadGrid = "bad_grid",
+        /// A plate has no lines through many holes.
+        NoLines = "no_lines",
+    }
 }
 
 /// A joint on its hole.

@@ -12,7 +12,7 @@ use crate::requirements::{PlatformSpeed, Requirements, TermKind};
 use num::Purpose;
 use num::interval::Interval;
 use num::jet::{Jet, JetVector, dot, norm_squared};
-use platform::geom::enclosed::{IntervalVector, cross as crossed, determinant};
+use platform::geom::enclosed::{IntervalVector, cross as crossed, determinant, unit};
 use platform::geom::{
     Bisection, Chart, ChartCell, Pose, PoseSpace, arc_cosine, cosine, degrees, radians, sine,
 };
@@ -27,11 +27,6 @@ struct CrankFrame {
     sign: Interval,
     /// Middle of the limits and half their width, degrees.
     range: Option<[Interval; 2]>,
-}
-
-fn unit(v: &IntervalVector) -> Option<IntervalVector> {
-    let length = (v[0].square() + v[1].square() + v[2].square()).sqrt()?;
-    Some([v[0].checked_div(length)?, v[1].checked_div(length)?, v[2].checked_div(length)?])
 }
 
 impl CrankFrame {

@@ -14,7 +14,7 @@ use super::frame::CellFrame;
 use crate::requirements::HingeAngle;
 use num::interval::Interval;
 use num::jet::{Jet, JetVector, dot};
-use platform::geom::enclosed::{IntervalVector, cross};
+use platform::geom::enclosed::{IntervalVector, cross, unit};
 use platform::geom::{arc_cosine, cosine, degrees, radians, sine};
 use platform::manipulator::Manipulator;
 
@@ -24,15 +24,6 @@ pub(super) struct HingeFrame {
     first: IntervalVector,
     /// Rest direction and direction across; `None` if the axis of the joint may coincide with its first axis.
     plane: Option<[IntervalVector; 2]>,
-}
-
-fn unit(v: &IntervalVector) -> Option<IntervalVector> {
-    let length = (v[0].square() + v[1].square() + v[2].square()).sqrt()?;
-    let mut out = *v;
-    for x in &mut out {
-        *x = x.checked_div(length)?;
-    }
-    Some(out)
 }
 
 impl HingeFrame {

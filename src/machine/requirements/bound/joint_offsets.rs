@@ -124,7 +124,7 @@ impl JointOffsets {
         for _ in 0..ROUNDS {
             for end in 0..2 {
                 if let Some(next) = plain.direction(end, &found[1 - end]) {
-                    found[end] = std::array::from_fn(|k| met(next[k], found[end][k]));
+                    found[end] = std::array::from_fn(|k| next[k].narrowed(found[end][k]));
                 }
             }
         }
@@ -193,10 +193,6 @@ impl JointOffsets {
         let lead = self.lead.unwrap_or(Interval::ZERO);
         Some(std::array::from_fn(|k| length[k] - twist[k].times(lead)))
     }
-}
-
-fn met(a: Interval, b: Interval) -> Interval {
-    Interval::new(a.lo().max(b.lo()), a.hi().min(b.hi())).unwrap_or(a)
 }
 
 /// The angle with this sine and cosine, between -180 and 180 degrees. `None` where it may be at the ends, or where the

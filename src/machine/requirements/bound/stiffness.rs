@@ -24,7 +24,7 @@ use crate::requirements::term::{TermKind, Terms};
 use crate::requirements::vibration::{mass_matrix, scaled_mass};
 use crate::requirements::{LegMasses, Requirements, VibratingMasses};
 use num::interval::Interval;
-use num::jet::{Jet, JetVector, dot as dot_jets};
+use num::jet::{Jet, JetVector, dot as dot_jets, place};
 use num::small::bounded_svd;
 use platform::geom::enclosed::{IntervalVector, cross, dot};
 use platform::geom::{Chart, ChartCell, radians};
@@ -60,11 +60,6 @@ type Basis = [(Vector3<f64>, Vector3<f64>); 6];
 struct StiffnessForms {
     k: Vec<Jet>,
     b: Vec<Jet>,
-}
-
-/// Place of the entry `i <= j` of a symmetric matrix.
-fn place(i: usize, j: usize) -> usize {
-    i * (11 - i) / 2 + j
 }
 
 /// Factors by which the value sinks below the first estimate in the attempts of a proof, and the least shares.

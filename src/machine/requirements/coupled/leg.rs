@@ -1,16 +1,12 @@
 //! One leg with joint offsets, by the same formulas in doubles, intervals and jets.
 
-use std::ops::{Add, Mul, Neg, Sub};
-
 use num::interval::Interval;
 use num::jet::Jet;
+use num::smooth::SmoothNumber;
+pub use num::vector::{cross, dot, minus};
 
 /// Number types for the formulas.
-pub trait LegNumber:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
-{
-    /// A constant of the same kind.
-    fn constant(self, x: f64) -> Self;
+pub trait LegNumber: SmoothNumber {
     /// `None` where the divisor may be zero.
     fn over(self, divisor: Self) -> Option<Self>;
     /// `None` where it may be negative.
@@ -18,10 +14,6 @@ pub trait LegNumber:
 }
 
 impl LegNumber for f64 {
-    fn constant(self, x: f64) -> Self {
-        x
-    }
-
     fn over(self, divisor: Self) -> Option<Self> {
         (divisor != 0.0).then(|| self / divisor)
     }
@@ -32,10 +24,6 @@ impl LegNumber for f64 {
 }
 
 impl LegNumber for Interval {
-    fn constant(self, x: f64) -> Self {
-        x.into()
-    }
-
     fn over(self, divisor: Self) -> Option<Self> {
         self.checked_div(divisor)
     }
@@ -46,10 +34,6 @@ impl LegNumber for Interval {
 }
 
 impl LegNumber for Jet {
-    fn constant(self, x: f64) -> Self {
-        self.alike(x.into())
-    }
-
     fn over(self, divisor: Self) -> Option<Self> {
         Some(self * divisor.inverse()?)
     }
@@ -61,21 +45,6 @@ impl LegNumber for Jet {
 
 /// A vector of numbers, gradients or intervals.
 pub type Vec3<T> = [T; 3];
-
-/// `a . b`.
-pub fn dot<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> T {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// `a x b`.
-pub fn cross<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// `a - b`.
-pub fn minus<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
-    std::array::from_fn(|k| a[k] - b[k])
-}
 
 /// `x a`.
 pub fn scaled<T: LegNumber>(a: &Vec3<T>, x: T) -> Vec3<T> {
@@ -151,7 +120,7 @@ impl<T: LegNumber> PlacedLeg<T> {
             std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] })
         };
         let length = row(&u, &cross(&m, &u));
-        let zero = u[0].constant(0.0);
+        let zero = u[0].alike(0.0);
         if !with_twist {
             return Some([length, [zero; 6]]);
         }

@@ -5,6 +5,8 @@ use std::cmp::Ordering;
 use num_bigint::{BigInt, Sign};
 use num_traits::{ToPrimitive, Zero};
 
+use crate::exact::Rational;
+
 /// The rational number `mantissa * 2^exponent`, exactly. The mantissa is odd, or zero with exponent zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dyadic {
@@ -88,6 +90,17 @@ impl Dyadic {
     #[must_use]
     pub fn log2_floor(&self) -> Option<i64> {
         (!self.mantissa.is_zero()).then(|| self.exponent + self.mantissa.bits().cast_signed() - 1)
+    }
+
+    /// The same number as a fraction.
+    #[must_use]
+    pub fn to_rational(&self) -> Rational {
+        let power = BigInt::from(1) << self.exponent.unsigned_abs();
+        if self.exponent < 0 {
+            Rational::new(self.mantissa.clone(), power)
+        } else {
+            Rational::from_integer(&self.mantissa * power)
+        }
     }
 
     /// The nearest double, ties away from zero; infinite on overflow.

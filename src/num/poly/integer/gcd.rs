@@ -5,7 +5,8 @@ use num_integer::Integer;
 use num_traits::One;
 
 use super::IntPoly;
-use super::modular::Modulus;
+use super::modular;
+use crate::modular::{Field, all_fields};
 
 /// A square-free factor with its multiplicity.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,16 +34,16 @@ pub fn gcd(a: &IntPoly, b: &IntPoly) -> IntPoly {
     }
     let lead = a.leading().gcd(&b.leading());
     let mut found = Combined::default();
-    for m in Modulus::primes() {
-        let (ra, rb, l) = (m.reduce(&a), m.reduce(&b), m.residue(&lead));
+    for field in all_fields() {
+        let (ra, rb, l) = (modular::reduce(field, &a), modular::reduce(field, &b), field.residue(&lead));
         if ra.len() != a.coefficients().len() || rb.len() != b.coefficients().len() {
             continue;
         }
-        let image = m.gcd(ra, rb);
+        let image = modular::gcd(field, ra, rb);
         if image.len() == 1 {
             break;
         }
-        if found.add(m, m.scale(&image, l)) {
+        if found.add(field, image.iter().map(|c| field.mul(*c, l)).collect()) {
             let candidate = found.candidate();
             if a.exact_div(&candidate).is_some() && b.exact_div(&candidate).is_some() {
                 return candidate;
@@ -61,8 +62,8 @@ struct Combined {
 
 impl Combined {
     /// Adds one more image; `true` if it changed nothing.
-    fn add(&mut self, m: Modulus, image: Vec<u64>) -> bool {
-        let p = BigInt::from(m.value());
+    fn add(&mut self, field: Field, image: Vec<u64>) -> bool {
+        let p = BigInt::from(field.prime());
         if self.coefficients.is_empty() || image.len() < self.coefficients.len() {
             // earlier primes had additional common roots
             self.coefficients = image.into_iter().map(|c| centred(&BigInt::from(c), &p)).collect();
@@ -72,10 +73,10 @@ impl Combined {
         if image.len() > self.coefficients.len() {
             return false;
         }
-        let inverse = m.inverse(m.residue(&self.product));
+        let inverse = field.inverse(field.residue(&self.product));
         let (mut same, product) = (true, &self.product * p);
         for (c, r) in self.coefficients.iter_mut().zip(image) {
-            let step = m.difference_times(r, m.residue(c), inverse);
+            let step = field.mul(field.sub(r, field.residue(c)), inverse);
             if step != 0 {
                 same = false;
                 *c = centred(&(&*c + &self.product * step), &product);

@@ -8,8 +8,6 @@ mod kronecker;
 mod modular;
 mod sturm;
 
-use std::ops::{Add, Mul, Neg, Sub};
-
 use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
 use num_traits::{One, Zero};
@@ -236,36 +234,24 @@ impl IntPoly {
     }
 }
 
-impl Add for &IntPoly {
-    type Output = IntPoly;
-    fn add(self, other: &IntPoly) -> IntPoly {
-        let (long, short) = if self.0.len() >= other.0.len() { (self, other) } else { (other, self) };
+crate::operators! {
+    [inline] [] &IntPoly => IntPoly;
+    Add::add(x, y) {
+        let (long, short) = if x.0.len() >= y.0.len() { (x, y) } else { (y, x) };
         let mut out = long.0.clone();
         for (o, s) in out.iter_mut().zip(&short.0) {
             *o += s;
         }
         IntPoly::new(out)
     }
-}
-
-impl Neg for &IntPoly {
-    type Output = IntPoly;
-    fn neg(self) -> IntPoly {
-        IntPoly(self.0.iter().map(|c| -c).collect())
+    Neg::neg(x) {
+        IntPoly(x.0.iter().map(|c| -c).collect())
     }
-}
-
-impl Sub for &IntPoly {
-    type Output = IntPoly;
-    fn sub(self, other: &IntPoly) -> IntPoly {
-        self + &-other
+    Sub::sub(x, y) {
+        x + &-y
     }
-}
-
-impl Mul for &IntPoly {
-    type Output = IntPoly;
-    fn mul(self, other: &IntPoly) -> IntPoly {
-        IntPoly::new(kronecker::product(&self.0, &other.0))
+    Mul::mul(x, y) {
+        IntPoly::new(kronecker::product(&x.0, &y.0))
     }
 }
 

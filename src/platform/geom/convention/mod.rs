@@ -22,35 +22,24 @@ use super::pose_set::ListedFrom;
 use super::rotation_vector::rotation_vector;
 use super::{InvalidPose, Pose};
 
-/// An axis of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FrameAxis {
-    /// The first one.
-    X,
-    /// The second one.
-    Y,
-    /// The third one.
-    Z,
+num::words! {
+    /// An axis of a frame.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum FrameAxis as name {
+        /// The first one.
+        X = "x",
+        /// The second one.
+        Y = "y",
+        /// The third one.
+        Z = "z",
+    }
 }
 
 impl FrameAxis {
-    /// All three in order.
-    pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
-
     /// 0, 1, 2.
     #[must_use]
     pub fn index(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-            Self::Z => 2,
-        }
-    }
-
-    /// `x`, `y` or `z`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        ["x", "y", "z"][self.index()]
+        self as usize
     }
 
     fn turn(self, angle: f64) -> Rotation3<f64> {
@@ -246,28 +235,21 @@ pub(super) fn angles_of_product(r: &Matrix3<f64>, [i, j, last]: [usize; 3]) -> W
     WrittenAngles { angles: [a, b, c], are_unique: from_lock > NEAR_LOCK }
 }
 
-/// The unit of angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AngleUnit {
-    /// Degrees.
-    #[default]
-    Degrees,
-    /// Radians.
-    Radians,
+num::words! {
+    /// The unit of angles.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum AngleUnit as name {
+        /// Degrees.
+        #[default]
+        Degrees = "deg",
+        /// Radians.
+        Radians = "rad",
+    }
 }
 
 impl AngleUnit {
     /// Both.
     pub const BOTH: [Self; 2] = [Self::Degrees, Self::Radians];
-
-    /// `deg` or `rad`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Degrees => "deg",
-            Self::Radians => "rad",
-        }
-    }
 
     fn radians(self, angle: f64) -> f64 {
         match self {
@@ -286,28 +268,21 @@ impl AngleUnit {
     }
 }
 
-/// The place of the scalar in a quaternion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum QuaternionOrder {
-    /// In front.
-    #[default]
-    ScalarFirst,
-    /// Behind.
-    ScalarLast,
+num::words! {
+    /// The place of the scalar in a quaternion.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum QuaternionOrder as name {
+        /// In front.
+        #[default]
+        ScalarFirst = "wxyz",
+        /// Behind.
+        ScalarLast = "xyzw",
+    }
 }
 
 impl QuaternionOrder {
     /// Both.
     pub const BOTH: [Self; 2] = [Self::ScalarFirst, Self::ScalarLast];
-
-    /// `wxyz` or `xyzw`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ScalarFirst => "wxyz",
-            Self::ScalarLast => "xyzw",
-        }
-    }
 
     /// Four things in the order `w, x, y, z`, from the one in which they are written.
     #[must_use]
@@ -328,28 +303,21 @@ impl QuaternionOrder {
     }
 }
 
-/// The axis that points up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum UpAxis {
-    /// y, in the base frame and in that of the platform: `(x, y, z)` are our `(x, -z, y)`.
-    Y,
-    /// z, as in this program.
-    #[default]
-    Z,
+num::words! {
+    /// The axis that points up.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum UpAxis as name {
+        /// y, in the base frame and in that of the platform: `(x, y, z)` are our `(x, -z, y)`.
+        Y = "y",
+        /// z, as in this program.
+        #[default]
+        Z = "z",
+    }
 }
 
 impl UpAxis {
     /// Both.
     pub const BOTH: [Self; 2] = [Self::Y, Self::Z];
-
-    /// `y` or `z`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Y => "y",
-            Self::Z => "z",
-        }
-    }
 
     fn to_ours(self, v: Vector3<f64>) -> Vector3<f64> {
         match self {

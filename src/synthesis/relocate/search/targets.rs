@@ -58,34 +58,23 @@ impl Targets {
     }
 }
 
-/// A requirement of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Target {
-    /// Distance of joints; joints shared in the pattern count only if sharing is forbidden.
-    Spacing,
-    /// Distance of legs.
-    Clearance,
-    /// Condition of the Jacobian.
-    Conditioning,
-    /// Greatest distance of the joints from the centre.
-    Reach,
+num::words! {
+    /// A requirement of the search.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Target as name {
+        /// Distance of joints; joints shared in the pattern count only if sharing is forbidden.
+        Spacing = "spacing",
+        /// Distance of legs.
+        Clearance = "clearance",
+        /// Condition of the Jacobian.
+        Conditioning = "conditioning",
+        /// Greatest distance of the joints from the centre.
+        Reach = "reach",
+    }
 }
 
 #[cfg(feature = "serde")]
 num::written_as_word!(Target);
-
-impl Target {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Spacing => "spacing",
-            Self::Clearance => "clearance",
-            Self::Conditioning => "conditioning",
-            Self::Reach => "reach",
-        }
-    }
-}
 
 /// The margin of a requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,32 +110,16 @@ pub enum HoleAnswer {
     None,
 }
 
-impl HoleAnswer {
-    /// The answer as a word.
-    #[must_use]
-    pub fn word(&self) -> HoleWord {
-        match self {
-            Self::Legs { .. } => HoleWord::Legs,
-            Self::AtInfinity => HoleWord::AtInfinity,
-            Self::None => HoleWord::None,
-        }
+num::answer_words! {
+    /// The legs of equivalent platforms at a hole.
+    pub enum HoleWord as name of HoleAnswer {
+        /// There are replaceable legs.
+        Legs = "legs",
+        /// The other ends are all at infinity.
+        AtInfinity = "at_infinity",
+        /// There is no replaceable leg.
+        None = "none",
     }
-}
-
-/// The legs of equivalent platforms at a hole.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum HoleWord {
-    /// There are replaceable legs.
-    Legs,
-    /// The other ends are all at infinity.
-    AtInfinity,
-    /// There is no replaceable leg.
-    None,
 }
 
 /// A hole with the decision about it.

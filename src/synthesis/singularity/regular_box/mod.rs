@@ -124,20 +124,17 @@ pub enum Regularity {
     Undecided(Pose),
 }
 
-/// The sign of det J over the poses, as a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum RegularityWord {
-    /// It vanishes at no pose.
-    Proved,
-    /// It vanishes at some pose.
-    ChangesSign,
-    /// Neither is proved.
-    Undecided,
+num::answer_words! {
+    /// The sign of det J over the poses, as a word.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum RegularityWord as name {
+        /// It vanishes at no pose.
+        Proved = "proved",
+        /// It vanishes at some pose.
+        ChangesSign = "changes_sign",
+        /// Neither is proved.
+        Undecided = "undecided",
+    }
 }
 
 impl Regularity {

@@ -19,6 +19,7 @@ use crate::singularity::hold::exact_rank;
 use num::Rng;
 use num::interval::Interval;
 use num::small::bounded_svd;
+use num::vector::cross;
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
 
@@ -192,13 +193,6 @@ struct LegsAtPose {
     pose: Pose,
     origin: Vector3<f64>,
     unit: f64,
-}
-
-fn cross(x: &Vector, y: &Vector) -> Vector {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        x[i] * y[j] - x[j] * y[i]
-    })
 }
 
 fn dot(x: &[Interval], y: &[Interval]) -> Interval {

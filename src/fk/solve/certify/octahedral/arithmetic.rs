@@ -6,8 +6,6 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use std::ops::{Add, Mul, Neg, Sub};
-
 use num::ball::{Real, TINY, UP};
 use num::batch::{ComplexBatch, LANES};
 
@@ -76,19 +74,13 @@ impl Reals {
     }
 }
 
-impl Add for Reals {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
+num::operators! {
+    [inline(always)] [] Reals;
+    Add::add(x, y) {
+        x.zip(y, |a, b| a + b)
     }
-}
-
-impl Mul for Reals {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
+    Mul::mul(x, y) {
+        x.zip(y, |a, b| a * b)
     }
 }
 
@@ -167,39 +159,23 @@ impl Discs {
     }
 }
 
-impl Neg for Discs {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self { c: self.c.times(-1.0), r: self.r }
+num::operators! {
+    [inline(always)] [] Discs;
+    Neg::neg(x) {
+        Self { c: x.c.times(-1.0), r: x.r }
     }
-}
-
-impl Add for Discs {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        let c = self.c + other.c;
-        Self { c, r: (self.r + other.r + sizes(&c).times(U)).up() }
+    Add::add(x, y) {
+        let c = x.c + y.c;
+        Self { c, r: (x.r + y.r + sizes(&c).times(U)).up() }
     }
-}
-
-impl Sub for Discs {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        let c = self.c - other.c;
-        Self { c, r: (self.r + other.r + sizes(&c).times(U)).up() }
+    Sub::sub(x, y) {
+        let c = x.c - y.c;
+        Self { c, r: (x.r + y.r + sizes(&c).times(U)).up() }
     }
-}
-
-impl Mul for Discs {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        let (z, w) = (sizes(&self.c), sizes(&other.c));
-        let r = z * other.r + self.r * (w + other.r) + (z * w).times(3.0 * U);
-        Self { c: self.c * other.c, r: r.up() }
+    Mul::mul(x, y) {
+        let (z, w) = (sizes(&x.c), sizes(&y.c));
+        let r = z * y.r + x.r * (w + y.r) + (z * w).times(3.0 * U);
+        Self { c: x.c * y.c, r: r.up() }
     }
 }
 

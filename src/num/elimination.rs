@@ -1,22 +1,29 @@
-//! Linear algebra and polynomials over the field of the joints and modulo a prime alike.
+//! Elimination over fields of square roots and modulo a prime alike.
 
-use num::modular::Field;
-use num::surd::Surd;
+use super::modular::Field;
+use super::surd::Surd;
 
 /// A field; `None` from an operation when numbers become too long.
-pub(super) trait Arithmetic {
+pub trait Arithmetic {
     /// Its numbers.
     type Number: Clone + PartialEq;
+    /// Zero.
     fn zero(&self) -> Self::Number;
+    /// One.
     fn one(&self) -> Self::Number;
+    /// A sum.
     fn plus(&self, x: &Self::Number, y: &Self::Number) -> Option<Self::Number>;
+    /// A difference.
     fn minus(&self, x: &Self::Number, y: &Self::Number) -> Option<Self::Number>;
+    /// A product.
     fn times(&self, x: &Self::Number, y: &Self::Number) -> Option<Self::Number>;
+    /// The inverse; `None` for zero.
     fn inverse(&self, x: &Self::Number) -> Option<Self::Number>;
 }
 
 /// Sums of square roots.
-pub(super) struct SurdArithmetic;
+#[derive(Debug)]
+pub struct SurdArithmetic;
 
 impl Arithmetic for SurdArithmetic {
     type Number = Surd;
@@ -63,13 +70,21 @@ impl Arithmetic for Field {
 }
 
 /// Rows of equal length.
-pub(super) type Rows<A> = Vec<Vec<<A as Arithmetic>::Number>>;
+pub type Rows<A> = Vec<Vec<<A as Arithmetic>::Number>>;
 
 /// Brings rows to echelon form, leading entries one with zeros above them, without zero rows; the columns of these
 /// entries.
-pub(super) fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usize>> {
+pub fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<Vec<usize>> {
+    let width = rows.first().map_or(0, Vec::len);
+    let leading = eliminate_first(field, rows, width)?;
+    rows.truncate(leading.len());
+    Some(leading)
+}
+
+/// Brings the first columns to echelon form, leading entries one with zeros above them; the columns of these entries.
+pub fn eliminate_first<A: Arithmetic>(field: &A, rows: &mut Rows<A>, width: usize) -> Option<Vec<usize>> {
     let (zero, mut leading) = (field.zero(), Vec::new());
-    for column in 0..rows.first().map_or(0, Vec::len) {
+    for column in 0..width {
         let rank = leading.len();
         let Some(pivot) = (rank..rows.len()).find(|i| rows[*i][column] != zero) else { continue };
         rows.swap(rank, pivot);
@@ -86,12 +101,11 @@ pub(super) fn eliminate<A: Arithmetic>(field: &A, rows: &mut Rows<A>) -> Option<
         rows[rank] = head;
         leading.push(column);
     }
-    rows.truncate(leading.len());
     Some(leading)
 }
 
 /// A basis of the vectors that all rows annul.
-pub(super) fn kernel<A: Arithmetic>(field: &A, mut rows: Rows<A>, width: usize) -> Option<Rows<A>> {
+pub fn kernel<A: Arithmetic>(field: &A, mut rows: Rows<A>, width: usize) -> Option<Rows<A>> {
     let leading = eliminate(field, &mut rows)?;
     let free = (0..width).filter(|c| !leading.contains(c));
     free.map(|f| {
