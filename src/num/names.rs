@@ -38,3 +38,113 @@ pub fn named<T: Copy>(
         known: all.iter().map(|x| name(*x)).collect(),
     })
 }
+
+/// Gives the choices of an enum the words that people write for them, each beside its choice.
+///
+/// After the name of the enum stands a list of what it gets: `name`, the word of a choice; `ALL`, every choice in
+/// order, or `BOTH` of two; `Display` by the word; `FromStr("what")`, which finds the choice of a word by [`named`].
+///
+/// # Examples
+/// ```
+/// equipod_num::words! {
+///     /// A side of a plane.
+///     #[derive(Debug, Clone, Copy, PartialEq)]
+///     pub enum Side: name, BOTH, Display, FromStr("side") {
+///         /// Above it.
+///         Above = "above",
+///         /// Below it.
+///         Below = "below",
+///     }
+/// }
+/// assert_eq!(Side::BOTH.map(Side::name), ["above", "below"]);
+/// assert_eq!("Above".parse(), Ok(Side::Above));
+/// ```
+#[macro_export]
+macro_rules! words {
+    (
+        $(#[$about:meta])*
+        $vis:vis enum $kind:ident: $($made:ident $(($what:literal))?),+ {
+            $($(#[$of:meta])* $choice:ident = $word:literal),+ $(,)?
+        }
+    ) => {
+        $(#[$about])*
+        $vis enum $kind {
+            $($(#[$of])* $choice),+
+        }
+
+        $crate::words!(@each [$($made $(($what))?),+] $vis $kind [$($choice = $word),+]);
+    };
+    (@each [$($made:ident $(($what:literal))?),+] $vis:vis $kind:ident $words:tt) => {
+        $($crate::words!(@$made $(($what))? $vis $kind $words);)+
+    };
+    (@name $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl $kind {
+            /// The word of the choice, as files and answers write it.
+            #[must_use]
+            $vis fn name(self) -> &'static str {
+                match self {
+                    $(Self::$choice => $word),+
+                }
+            }
+        }
+    };
+    (@ALL $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl $kind {
+            /// Every choice, in order.
+            $vis const ALL: [Self; [$($word),+].len()] = [$(Self::$choice),+];
+        }
+    };
+    (@BOTH $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl $kind {
+            /// Both choices, in order.
+            $vis const BOTH: [Self; 2] = [$(Self::$choice),+];
+        }
+    };
+    (@Display $vis:vis $kind:ident $words:tt) => {
+        impl std::fmt::Display for $kind {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+    (@FromStr($what:literal) $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl std::str::FromStr for $kind {
+            type Err = $crate::names::UnknownName;
+
+            fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
+                $crate::names::named($what, text, &[$(Self::$choice),+], Self::name)
+            }
+        }
+    };
+}
+
+/// Writes methods that set one field of a value and return it, such as the options of a question.
+///
+/// # Examples
+/// ```
+/// #[derive(Debug, Default)]
+/// struct Options {
+///     seed: u64,
+///     gap: Option<f64>,
+/// }
+/// impl Options {
+///     equipod_num::setters! {
+///         /// The seed of the random numbers.
+///         fn seed(seed: u64) = seed;
+///         /// The gap at which the search ends.
+///         fn gap(gap: f64) = Some(gap);
+///     }
+/// }
+/// assert_eq!(Options::default().seed(3).gap(0.1).gap, Some(0.1));
+/// ```
+#[macro_export]
+macro_rules! setters {
+    ($($(#[$about:meta])* fn $field:ident($given:ident: $kind:ty) = $value:expr;)+) => {$(
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(mut self, $given: $kind) -> Self {
+            self.$field = $value;
+            self
+        }
+    )+};
+}

@@ -186,34 +186,23 @@ impl Verdict {
     }
 }
 
-/// Whether two designs are kinematically equivalent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum VerdictWord {
-    /// They are equivalent.
-    Equivalent,
-    /// They are not equivalent.
-    NotEquivalent,
-    /// One of them is architecturally singular.
-    Singular,
-    /// Undecided.
-    Inconclusive,
-}
-
-impl VerdictWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equivalent => "equivalent",
-            Self::NotEquivalent => "not_equivalent",
-            Self::Singular => "singular",
-            Self::Inconclusive => "inconclusive",
-        }
+num::words! {
+    /// Whether two designs are kinematically equivalent.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum VerdictWord: name {
+        /// They are equivalent.
+        Equivalent = "equivalent",
+        /// They are not equivalent.
+        NotEquivalent = "not_equivalent",
+        /// One of them is architecturally singular.
+        Singular = "singular",
+        /// Undecided.
+        Inconclusive = "inconclusive",
     }
 }
 

@@ -141,8 +141,8 @@ impl Second {
             std::mem::swap(&mut base, &mut platform);
         }
         let moved = |pose: &Pose| {
-            let pose = if self.exchange { inverse(pose) } else { *pose };
-            motion.map_or(pose, |(g, h)| after(g, &after(&pose, &inverse(h))))
+            let pose = if self.exchange { pose.inverse() } else { *pose };
+            motion.map_or(pose, |(g, h)| g.compose(&pose.compose(&h.inverse())))
         };
         let mut design = DesignModel::new(format!("{}, moved", b.name), &b.units, self.manipulator.clone())
             .with_joint_names(base, platform)
@@ -170,16 +170,6 @@ impl Second {
     pub(crate) fn explanation(&self) -> Option<String> {
         self.aligned.as_ref().map(|a| a.given.explanation())
     }
-}
-
-fn inverse(pose: &Pose) -> Pose {
-    let rotation = pose.rotation.inverse();
-    Pose { rotation, position: -(rotation * pose.position) }
-}
-
-/// First `y`, then `x`.
-fn after(x: &Pose, y: &Pose) -> Pose {
-    Pose { rotation: x.rotation * y.rotation, position: x.rotation * y.position + x.position }
 }
 
 #[cfg(test)]

@@ -89,6 +89,12 @@ pub(super) fn frame_along(direction: &Vector3<f64>, origin: Vector3<f64>) -> Pos
     Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin }
 }
 
+/// The pose `inner` relative to the pose `outer`, both given in the same frame.
+pub(super) fn seen_from(outer: &Pose, inner: &Pose) -> Pose {
+    let back = outer.rotation.inverse();
+    Pose { rotation: back * inner.rotation, position: back * (inner.position - outer.position) }
+}
+
 /// The cranks of a rotary design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportCranks {

@@ -15,6 +15,32 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// The pose of a frame that coincides with the one it is given in.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self::shifted(Vector3::zeros())
+    }
+
+    /// The pose of a frame that is shifted by `position` and not rotated.
+    #[must_use]
+    pub fn shifted(position: Vector3<f64>) -> Self {
+        Self { rotation: Rotation3::identity(), position }
+    }
+
+    /// The pose `inner`, given in the frame of this one, in the frame that this one is given in.
+    #[must_use]
+    pub fn compose(&self, inner: &Self) -> Self {
+        let position = self.transform(&Point3::from(inner.position)).coords;
+        Self { rotation: self.rotation * inner.rotation, position }
+    }
+
+    /// The pose of the outer frame in this one.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let rotation = self.rotation.inverse();
+        Self { rotation, position: -(rotation * self.position) }
+    }
+
     /// The base-frame position of a point given in the platform frame.
     // written by entries, and inlined across the crates, which takes a third off the time of loops over many poses
     #[must_use]

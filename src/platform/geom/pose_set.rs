@@ -36,26 +36,19 @@ impl Region {
     }
 }
 
-/// The reference of the listed poses of a workspace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ListedFrom {
-    /// The base frame: they stay fixed when home moves.
-    #[default]
-    Base,
-    /// Home: they move with it, like the region.
-    Home,
+num::words! {
+    /// The reference of the listed poses of a workspace.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum ListedFrom: name {
+        /// The base frame: they stay fixed when home moves.
+        #[default]
+        Base = "base",
+        /// Home: they move with it, like the region.
+        Home = "home",
+    }
 }
 
 impl ListedFrom {
-    /// The word in design files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Base => "base",
-            Self::Home => "home",
-        }
-    }
-
     /// The pose in the base frame of one listed as `(R, p)`: itself, or `(R R0, p0 + p)` from home `(R0, p0)`.
     ///
     /// Displacements from home are along the axes of the base frame, like those of the region.

@@ -22,28 +22,20 @@ use num::surd::{Surd, generators};
 use platform::geom::Pose;
 use platform::manipulator::Body;
 
-/// The exactness of the coordinates of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Exactness {
-    /// All coordinates are fractions.
-    Rational,
-    /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
-    Field,
-    /// At least one coordinate is known only between two close bounds.
-    Interval,
+num::words! {
+    /// The exactness of the coordinates of a joint.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Exactness: name, Display {
+        /// All coordinates are fractions.
+        Rational = "rational",
+        /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
+        Field = "field",
+        /// At least one coordinate is known only between two close bounds.
+        Interval = "interval",
+    }
 }
 
 impl Exactness {
-    /// The name: `"rational"`, `"field"` or `"interval"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rational => "rational",
-            Self::Field => "field",
-            Self::Interval => "interval",
-        }
-    }
-
     fn of(point: &RealPoint) -> Self {
         let one = |x: &RealNumber| match x.exact() {
             None => Self::Interval,
@@ -51,12 +43,6 @@ impl Exactness {
             Some(_) => Self::Field,
         };
         point.iter().map(one).max().unwrap_or(Self::Rational)
-    }
-}
-
-impl fmt::Display for Exactness {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 
@@ -125,25 +111,17 @@ pub(crate) enum LinePlace {
     Offset(WrittenNumber),
 }
 
-/// A plane of two axes of the frame of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CoordinatePlane {
-    Xy,
-    Xz,
-    Yz,
+num::words! {
+    /// A plane of two axes of the frame of the body.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum CoordinatePlane: name, ALL {
+        Xy = "xy",
+        Xz = "xz",
+        Yz = "yz",
+    }
 }
 
 impl CoordinatePlane {
-    pub(super) const ALL: [Self; 3] = [Self::Xy, Self::Xz, Self::Yz];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Xy => "xy",
-            Self::Xz => "xz",
-            Self::Yz => "yz",
-        }
-    }
-
     /// The axis that changes its sign.
     fn normal(self) -> usize {
         match self {

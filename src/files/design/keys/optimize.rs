@@ -31,23 +31,13 @@ pub(super) struct OptimizeKeys {
     joints: [Option<Vec<String>>; 2],
 }
 
-/// The combination of several objectives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum WeighingMode {
-    Weighted,
-    Lexicographic,
-    Pareto,
-}
-
-impl WeighingMode {
-    pub(super) const ALL: [Self; 3] = [Self::Weighted, Self::Lexicographic, Self::Pareto];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Weighted => "weighted",
-            Self::Lexicographic => "lexicographic",
-            Self::Pareto => "pareto",
-        }
+num::words! {
+    /// The combination of several objectives.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(super) enum WeighingMode: name, ALL {
+        Weighted = "weighted",
+        Lexicographic = "lexicographic",
+        Pareto = "pareto",
     }
 }
 

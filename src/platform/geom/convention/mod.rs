@@ -246,29 +246,19 @@ pub(super) fn angles_of_product(r: &Matrix3<f64>, [i, j, last]: [usize; 3]) -> W
     WrittenAngles { angles: [a, b, c], are_unique: from_lock > NEAR_LOCK }
 }
 
-/// The unit of angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AngleUnit {
-    /// Degrees.
-    #[default]
-    Degrees,
-    /// Radians.
-    Radians,
+num::words! {
+    /// The unit of angles.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum AngleUnit: name, BOTH {
+        /// Degrees.
+        #[default]
+        Degrees = "deg",
+        /// Radians.
+        Radians = "rad",
+    }
 }
 
 impl AngleUnit {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::Degrees, Self::Radians];
-
-    /// `deg` or `rad`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Degrees => "deg",
-            Self::Radians => "rad",
-        }
-    }
-
     fn radians(self, angle: f64) -> f64 {
         match self {
             Self::Degrees => angle.to_radians(),
@@ -286,29 +276,19 @@ impl AngleUnit {
     }
 }
 
-/// The place of the scalar in a quaternion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum QuaternionOrder {
-    /// In front.
-    #[default]
-    ScalarFirst,
-    /// Behind.
-    ScalarLast,
+num::words! {
+    /// The place of the scalar in a quaternion.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum QuaternionOrder: name, BOTH {
+        /// In front.
+        #[default]
+        ScalarFirst = "wxyz",
+        /// Behind.
+        ScalarLast = "xyzw",
+    }
 }
 
 impl QuaternionOrder {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::ScalarFirst, Self::ScalarLast];
-
-    /// `wxyz` or `xyzw`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ScalarFirst => "wxyz",
-            Self::ScalarLast => "xyzw",
-        }
-    }
-
     /// Four things in the order `w, x, y, z`, from the one in which they are written.
     #[must_use]
     pub fn scalar_first<T>(self, [a, b, c, d]: [T; 4]) -> [T; 4] {
@@ -328,29 +308,19 @@ impl QuaternionOrder {
     }
 }
 
-/// The axis that points up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum UpAxis {
-    /// y, in the base frame and in that of the platform: `(x, y, z)` are our `(x, -z, y)`.
-    Y,
-    /// z, as in this program.
-    #[default]
-    Z,
+num::words! {
+    /// The axis that points up.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum UpAxis: name, BOTH {
+        /// y, in the base frame and in that of the platform: `(x, y, z)` are our `(x, -z, y)`.
+        Y = "y",
+        /// z, as in this program.
+        #[default]
+        Z = "z",
+    }
 }
 
 impl UpAxis {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::Y, Self::Z];
-
-    /// `y` or `z`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Y => "y",
-            Self::Z => "z",
-        }
-    }
-
     fn to_ours(self, v: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Y => Vector3::new(v.x, -v.z, v.y),

@@ -77,54 +77,22 @@ impl<'a> ExploreOptions<'a> {
         Self::default()
     }
 
-    /// Sets the seed of all random numbers.
-    #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
-        self.seed = seed;
-        self
-    }
-
-    /// Sets the number of length sets; two designs are solved and compared at each.
-    #[must_use]
-    pub fn samples(mut self, samples: usize) -> Self {
-        self.samples = samples;
-        self
-    }
-
-    /// Sets the greatest distance of a joint beyond a corner, on the extension of its side, in lengths of the side. The
-    /// default is 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral.
-    #[must_use]
-    pub fn extension(mut self, extension: Option<f64>) -> Self {
-        self.extension = extension;
-        self
-    }
-
-    /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
-    #[must_use]
-    pub fn drives(mut self, table: Option<&'a DriveTable>) -> Self {
-        self.drives = table;
-        self
-    }
-
-    /// Sets the end of the assessments that follow an interrupted search.
-    #[must_use]
-    pub fn until(mut self, until: Option<Instant>) -> Self {
-        self.until = until;
-        self
-    }
-
-    /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
-    #[must_use]
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.cancel = cancel.clone();
-        self
-    }
-
-    /// Sets a function that sees the progress, and may end the search for the best platform.
-    #[must_use]
-    pub fn on_progress(mut self, look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) -> Self {
-        self.on_progress = Some(Box::new(look));
-        self
+    num::setters! {
+        /// Sets the seed of all random numbers.
+        fn seed(seed: u64) = seed;
+        /// Sets the number of length sets; two designs are solved and compared at each.
+        fn samples(samples: usize) = samples;
+        /// Sets the greatest distance of a joint beyond a corner, on the extension of its side, in lengths of the side.
+        /// The default is 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral.
+        fn extension(extension: Option<f64>) = extension;
+        /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
+        fn drives(table: Option<&'a DriveTable>) = table;
+        /// Sets the end of the assessments that follow an interrupted search.
+        fn until(until: Option<Instant>) = until;
+        /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
+        fn cancel(cancel: &Cancel) = cancel.clone();
+        /// Sets a function that sees the progress, and may end the search for the best platform.
+        fn on_progress(look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) = Some(Box::new(look));
     }
 
     fn flow(&mut self, progress: ExploreProgress) -> ControlFlow<()> {

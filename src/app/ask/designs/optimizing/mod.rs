@@ -140,64 +140,27 @@ impl<'a> OptimizeOptions<'a> {
         Self::default()
     }
 
-    /// Sets the seed of the starting points. The answer depends on the seed and not on the number of threads.
-    #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
-        self.seed = seed;
-        self
-    }
-
-    /// Sets the number of search threads.
-    #[must_use]
-    pub fn threads(mut self, threads: Threads) -> Self {
-        self.threads = threads;
-        self
-    }
-
-    /// Sets the greatest distance of a joint on the extension of its edge, in edge lengths; 0 keeps joints inside the
-    /// edges.
-    #[must_use]
-    pub fn extension(mut self, extension: f64) -> Self {
-        self.extension = extension;
-        self
-    }
-
-    /// Sets whether every branch of offsets is searched for its own best, which takes ten times as long.
-    #[must_use]
-    pub fn survey(mut self, survey: bool) -> Self {
-        self.survey = survey;
-        self
-    }
-
-    /// Sets the greatest relative gap between the answer and the proved upper bound over all offsets at which the
-    /// answer counts as optimal.
-    #[must_use]
-    pub fn gap(mut self, gap: f64) -> Self {
-        self.gap = gap;
-        self
-    }
-
-    /// Sets whether the other local optima under requirements are assessed too; each takes as long as the answer.
-    #[must_use]
-    pub fn candidates(mut self, candidates: bool) -> Self {
-        self.candidates = candidates;
-        self
-    }
-
-    /// Sets whether a search without success is repeated with one more freedom each: a longer stroke, another height of
-    /// home, a wider envelope.
-    #[must_use]
-    pub fn freedoms(mut self, freedoms: bool) -> Self {
-        self.freedoms = freedoms;
-        self
-    }
-
-    /// Sets the drives to choose from. Each drive that could win is searched, and the answer is the best platform with
-    /// its drive. If every drive has a price, the cheapest that meets the requirements wins.
-    #[must_use]
-    pub fn drives(mut self, table: &'a DriveTable) -> Self {
-        self.drives = Some(table);
-        self
+    num::setters! {
+        /// Sets the seed of the starting points. The answer depends on the seed and not on the number of threads.
+        fn seed(seed: u64) = seed;
+        /// Sets the number of search threads.
+        fn threads(threads: Threads) = threads;
+        /// Sets the greatest distance of a joint on the extension of its edge, in edge lengths; 0 keeps joints inside
+        /// the edges.
+        fn extension(extension: f64) = extension;
+        /// Sets whether every branch of offsets is searched for its own best, which takes ten times as long.
+        fn survey(survey: bool) = survey;
+        /// Sets the greatest relative gap between the answer and the proved upper bound over all offsets at which the
+        /// answer counts as optimal.
+        fn gap(gap: f64) = gap;
+        /// Sets whether the other local optima under requirements are assessed too; each takes as long as the answer.
+        fn candidates(candidates: bool) = candidates;
+        /// Sets whether a search without success is repeated with one more freedom each: a longer stroke, another
+        /// height of home, a wider envelope.
+        fn freedoms(freedoms: bool) = freedoms;
+        /// Sets the drives to choose from. Each drive that could win is searched, and the answer is the best platform
+        /// with its drive. If every drive has a price, the cheapest that meets the requirements wins.
+        fn drives(table: &'a DriveTable) = Some(table);
     }
 
     /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
@@ -221,18 +184,11 @@ impl<'a> OptimizeOptions<'a> {
         self
     }
 
-    /// Sets the cancellation of the search; the answer is then the best until then.
-    #[must_use]
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.cancel = cancel.clone();
-        self
-    }
-
-    /// Sets a function that sees the progress, and may end the search.
-    #[must_use]
-    pub fn on_progress(mut self, look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) -> Self {
-        self.on_progress = Some(Box::new(look));
-        self
+    num::setters! {
+        /// Sets the cancellation of the search; the answer is then the best until then.
+        fn cancel(cancel: &Cancel) = cancel.clone();
+        /// Sets a function that sees the progress, and may end the search.
+        fn on_progress(look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) = Some(Box::new(look));
     }
 
     fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
@@ -250,50 +206,30 @@ impl<'a> OptimizeOptions<'a> {
     }
 }
 
-/// The status of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "OptimizeWord")]
-pub enum OptimizeStatus {
-    /// The requirements are met, and it is proved that no offsets are better by more than `tolerance`.
-    Optimal,
-    /// The requirements are met, and the platform is a local optimum, the best of all starts; a better one is possible.
-    BestFound,
-    /// The requirements are met; better platforms may be near, or a requested bound is not proved to within
-    /// `tolerance`.
-    Feasible,
-    /// There is no platform: proved if `conflict` says so, otherwise no start met the requirements.
-    Infeasible,
-    /// No platform was found that is proved to meet the requirements.
-    Undecided,
-    /// The platform found violates requirements; the assessment names them.
-    Violated,
-    /// The search was interrupted; the answer is the best until then.
-    Interrupted,
-    /// A Pareto front with mode = "pareto"; its members are proved to meet their requirements.
-    Front,
-}
-
-impl OptimizeStatus {
-    /// The code of the status.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Optimal => "optimal",
-            Self::BestFound => "best_found",
-            Self::Feasible => "feasible",
-            Self::Infeasible => "infeasible",
-            Self::Undecided => "undecided",
-            Self::Violated => "violated",
-            Self::Interrupted => "interrupted",
-            Self::Front => "front",
-        }
-    }
-}
-
-impl std::fmt::Display for OptimizeStatus {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
+num::words! {
+    /// The status of a search.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    #[schemars(rename = "OptimizeWord")]
+    pub enum OptimizeStatus: name, Display {
+        /// The requirements are met, and it is proved that no offsets are better by more than `tolerance`.
+        Optimal = "optimal",
+        /// The requirements are met, and the platform is a local optimum, the best of all starts; a better one is
+        /// possible.
+        BestFound = "best_found",
+        /// The requirements are met; better platforms may be near, or a requested bound is not proved to within
+        /// `tolerance`.
+        Feasible = "feasible",
+        /// There is no platform: proved if `conflict` says so, otherwise no start met the requirements.
+        Infeasible = "infeasible",
+        /// No platform was found that is proved to meet the requirements.
+        Undecided = "undecided",
+        /// The platform found violates requirements; the assessment names them.
+        Violated = "violated",
+        /// The search was interrupted; the answer is the best until then.
+        Interrupted = "interrupted",
+        /// A Pareto front with mode = "pareto"; its members are proved to meet their requirements.
+        Front = "front",
     }
 }
 
