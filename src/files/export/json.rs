@@ -9,24 +9,16 @@ use super::{
 use platform::geom::Pose;
 
 /// The format `json`.
-#[derive(Debug)]
-pub(super) struct Json;
+pub(super) static WRITER: Writer = Writer::new(
+    "joints, plates, legs, poses and lengths in one document, for scripts",
+    files,
+);
 
-impl Writer for Json {
-    fn name(&self) -> &'static str {
-        "json"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "joints, plates, legs, poses and lengths in one document, for scripts"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        // texts, numbers, lists and fields always serialise
-        let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();
-        text.push('\n');
-        Ok(vec![ExportedFile::new("platform.json", text)])
-    }
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    // texts, numbers, lists and fields always serialise
+    let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();
+    text.push('\n');
+    Ok(vec![ExportedFile::new("platform.json", text)])
 }
 
 /// The frames of the numbers.

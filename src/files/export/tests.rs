@@ -553,7 +553,7 @@ fn no_label_of_a_drawing_covers_another() {
         let Ok(export) = Export::new(&design, design.home_or_default(), (vec![], vec![]), &options) else {
             continue;
         };
-        let Ok(files) = export.files(ExportFormat::Drawing.writer()) else { continue };
+        let Ok(files) = export.files(ExportFormat::Drawing) else { continue };
         let mut labels = labels(&files[0].text, "small");
         let joints: usize = export.bodies.iter().map(|b| b.joints.len()).sum();
         // joints, two origins and six legs in each of three views

@@ -20,50 +20,35 @@ use platform::geom::{Pose, any_across};
 use platform::manipulator::{Body, Manipulator};
 
 /// The format `c`.
-#[derive(Debug)]
-pub(super) struct C;
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "limits other than leg lengths, cone angles and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker",
+    takes_cranks: true,
+    takes_coupled: true,
+    ..Writer::new(
+        "C99 for controllers, with a self-test, and LinuxCNC: inverse and tracked forward kinematics, Jacobian, limits",
+        files,
+    )
+};
 
-impl Writer for C {
-    fn name(&self) -> &'static str {
-        "c"
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    if let Some(coupled) = &export.coupled {
+        return Ok(drives::files(export, coupled));
     }
-
-    fn purpose(&self) -> &'static str {
-        "C99 for controllers, with a self-test, and LinuxCNC: inverse and tracked forward kinematics, Jacobian, limits"
+    if let Some(cranks) = &export.cranks {
+        return Ok(cranks::files(export, cranks));
     }
-
-    fn leaves_out(&self) -> &'static str {
-        "limits other than leg lengths, cone angles and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker"
-    }
-
-    fn takes_cranks(&self) -> bool {
-        true
-    }
-
-    fn takes_coupled(&self) -> bool {
-        true
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        if let Some(coupled) = &export.coupled {
-            return Ok(drives::files(export, coupled));
-        }
-        if let Some(cranks) = &export.cranks {
-            return Ok(cranks::files(export, cranks));
-        }
-        one_cone_angle_a_body(export)?;
-        let mut files = vec![
-            ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
-            ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
-            ExportedFile::new("equipod_design.h", header(export)),
-            ExportedFile::new("equipod_design.c", source(export)),
-            ExportedFile::new("equipod_vectors.h", vectors::text(export)),
-            ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
-            ExportedFile::new("CMakeLists.txt", include_str!("CMakeLists.txt").to_string()),
-        ];
-        files.extend(kinematics_modules());
-        Ok(files)
-    }
+    one_cone_angle_a_body(export)?;
+    let mut files = vec![
+        ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
+        ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
+        ExportedFile::new("equipod_design.h", header(export)),
+        ExportedFile::new("equipod_design.c", source(export)),
+        ExportedFile::new("equipod_vectors.h", vectors::text(export)),
+        ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
+        ExportedFile::new("CMakeLists.txt", include_str!("CMakeLists.txt").to_string()),
+    ];
+    files.extend(kinematics_modules());
+    Ok(files)
 }
 
 /// Kinematics for `LinuxCNC`, which include the other files. They are in a separate folder, so that a C compiler takes

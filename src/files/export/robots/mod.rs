@@ -5,8 +5,8 @@
 //! The frame of a rod has its origin in the platform joint and the same axes. Base and platform have the frames of the
 //! design.
 
-mod sdf;
-mod urdf;
+pub(super) mod sdf;
+pub(super) mod urdf;
 
 use std::fmt::Write as _;
 
@@ -18,8 +18,6 @@ use super::text::xml_comment;
 use super::{Export, ExportBody, ExportLeg, Unsupported};
 use platform::geom::Pose;
 
-pub(super) use sdf::Sdf;
-pub(super) use urdf::Urdf;
 
 /// Colours of base, platform, cylinders and rods.
 const BASE_COLOUR: &str = "0.45 0.45 0.48 1";

@@ -19,26 +19,13 @@ use machine::requirements::Housing;
 use platform::geom::Pose;
 
 /// The format `step`.
-#[derive(Debug)]
-pub(super) struct StepFile;
-
-impl Writer for StepFile {
-    fn name(&self) -> &'static str {
-        "step"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "AP242 assembly at home (millimetres): plates with holes, joints, and legs with rods that run in their cylinders, as exact solids, for CAD"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "joint constraints: the parts stand at home; every joint is drawn as a ball, inside its housing box if it has one, and its part name states its kind; legs at a shared ball overlap near it"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        Ok(vec![ExportedFile::new("platform.step", assembly(export)?)])
-    }
-}
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "joint constraints: the parts stand at home; every joint is drawn as a ball, inside its housing box if it has one, and its part name states its kind; legs at a shared ball overlap near it",
+    ..Writer::new(
+        "AP242 assembly at home (millimetres): plates with holes, joints, and legs with rods that run in their cylinders, as exact solids, for CAD",
+        |export| Ok(vec![ExportedFile::new("platform.step", assembly(export)?)]),
+    )
+};
 
 fn plate_frame(plate: &Plate) -> Pose {
     Pose { rotation: Rotation3::from_matrix_unchecked(plate.axes), position: plate.origin.coords }
