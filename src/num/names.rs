@@ -120,6 +120,8 @@ macro_rules! words {
 
 /// Writes methods that set one field of a value and return it, such as the options of a question.
 ///
+/// The field has the name of its method, or the name that stands before `=`.
+///
 /// # Examples
 /// ```
 /// #[derive(Debug, Default)]
@@ -139,12 +141,14 @@ macro_rules! words {
 /// ```
 #[macro_export]
 macro_rules! setters {
-    ($($(#[$about:meta])* fn $field:ident($given:ident: $kind:ty) = $value:expr;)+) => {$(
+    ($($(#[$about:meta])* fn $set:ident($given:ident: $kind:ty) $($field:ident)? = $value:expr;)+) => {$(
         $(#[$about])*
         #[must_use]
-        pub fn $field(mut self, $given: $kind) -> Self {
-            self.$field = $value;
+        pub fn $set(mut self, $given: $kind) -> Self {
+            $crate::setters!(@field self $set $($field)?) = $value;
             self
         }
     )+};
+    (@field $options:ident $set:ident) => { $options.$set };
+    (@field $options:ident $set:ident $field:ident) => { $options.$field };
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::tree::Span;
+use super::tree::{Node, Span};
 use platform::manipulator::Body;
 
 num::words! {
@@ -275,6 +275,24 @@ impl<'t> Findings<'t> {
         let (line, column, width) = self.locate(span);
         let (message, help) = (message.into(), help.into());
         self.violations.push(Violation { code, line, column, width, message, help });
+    }
+
+    /// Adds a violation at a place whose value cannot be used: there is none.
+    pub fn refused<T>(
+        &mut self,
+        code: Code,
+        span: &Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.refuse(code, span, message, help);
+        None
+    }
+
+    /// Adds a violation at a value of a wrong type: `what` is not what was `wanted`, such as `an array`.
+    pub fn not_a<T>(&mut self, node: &Node, what: &str, wanted: &str, help: impl Into<String>) -> Option<T> {
+        let message = format!("{what} is {}, not {wanted}", node.value.kind());
+        self.refused(Code::WrongType, &node.span, message, help)
     }
 
     pub(crate) fn warn(&mut self, warning: Warning) {

@@ -19,7 +19,7 @@ pub use self::origins::{InvalidShare, Origin, Share, length_in};
 use num::exact::rational;
 use num::real::RealNumber;
 use num::surd::{Surd, generators};
-use platform::geom::Pose;
+use platform::geom::{FrameAxis, Pose};
 use platform::manipulator::Body;
 
 num::words! {
@@ -132,30 +132,6 @@ impl CoordinatePlane {
     }
 }
 
-/// An axis of a turn, parallel to an axis of the frame of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TurnAxis {
-    X,
-    Y,
-    Z,
-}
-
-impl TurnAxis {
-    pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
-
-    pub(super) fn name(self) -> &'static str {
-        ["x", "y", "z"][self.index()]
-    }
-
-    pub(super) fn index(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-            Self::Z => 2,
-        }
-    }
-}
-
 /// The plane of a mirror, up to its place.
 #[allow(clippy::large_enum_variant, reason = "a design has a dozen of them")]
 #[derive(Debug, Clone, PartialEq)]
@@ -176,7 +152,7 @@ pub(crate) enum Construction {
     /// `{ radius = "r", angle_deg = 30, z = 0 }`: the angle from the x axis towards the y axis.
     Polar { radius: WrittenNumber, angle_deg: WrittenNumber, z: Option<WrittenNumber> },
     /// `{ turn = "A1", deg = 120 }`: about the z axis, or about a parallel to an axis through a point.
-    Turned { joint: usize, deg: WrittenNumber, about: TurnAxis, through: Option<[WrittenNumber; 3]> },
+    Turned { joint: usize, deg: WrittenNumber, about: FrameAxis, through: Option<[WrittenNumber; 3]> },
     /// `{ mirror = "A1", plane = "xz" }`, `{ mirror = "A1", normal = [1, 2, 0], through = [10, 0, 0] }`.
     Mirrored { joint: usize, plane: MirrorPlane, through: Option<[WrittenNumber; 3]> },
 }

@@ -97,8 +97,7 @@ fn read_all<'e, M>(
 ) -> Vec<(M, &'e [Entry])> {
     let Some(entry) = find(top, key) else { return Vec::new() };
     let Value::Array(list) = &entry.node.value else {
-        let message = format!("`{key}` is {}, not a list of tables", entry.node.value.kind());
-        report.refuse(Code::WrongType, &entry.node.span, message, format!("write [[{key}]] above each"));
+        report.not_a(&entry.node, &format!("`{key}`"), "a list of tables", format!("write [[{key}]] above each"));
         return Vec::new();
     };
     let place = format!("[[{key}]]");

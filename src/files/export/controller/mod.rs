@@ -201,24 +201,14 @@ fn source(export: &Export) -> String {
     out.push_str("#include \"equipod_design.h\"\n\n#include <math.h>\n\n#define R(x) ((real_t)(x))\n\n");
     legs(&mut out, "equipod_nominal", &export.manipulator);
     limits(&mut out, &export.hardware, &ConeAxes::of(export));
-    let home = &export.home;
-    let r = home.rotation.matrix();
-    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
-    let _ = writeln!(
-        out,
-        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};",
-        matrix(&rows),
-        reals(home.position.iter().copied())
-    );
+    home(&mut out, &export.home);
     let across = across_at_home(export);
-    let in_platform = across.map(|x| home.rotation.inverse() * x);
+    let in_platform = across.map(|x| export.home.rotation.inverse() * x);
     for (name, list) in [("base", across), ("platform", in_platform)] {
         let _ =
             writeln!(out, "const real_t equipod_across_{name}[6][3] = {};", matrix(&list.map(Into::into)));
     }
-    if let Some(offsets) = export.leg_offsets {
-        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
-    }
+    leg_offsets(&mut out, export);
     if let Some(found) = &export.calibration {
         let whole = found.of_legs(&export.manipulator.pairs());
         let rows = whole.row_iter().map(|row| reals(row.iter().copied())).collect::<Vec<_>>().join(",\n    ");
@@ -282,6 +272,21 @@ impl ConeAxes {
             platform: given(hardware.platform_cone_angle)
                 .unwrap_or_else(|| at_home.map(|u| home.rotation.inverse() * u)),
         }
+    }
+}
+
+/// The home pose.
+fn home(out: &mut String, pose: &Pose) {
+    let r = pose.rotation.matrix();
+    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
+    let position = reals(pose.position.iter().copied());
+    let _ = writeln!(out, "const equipod_pose equipod_home = {{\n    {},\n    {position}\n}};", matrix(&rows));
+}
+
+/// The leg offsets of a calibration.
+fn leg_offsets(out: &mut String, export: &Export) {
+    if let Some(offsets) = export.leg_offsets {
+        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
     }
 }
 

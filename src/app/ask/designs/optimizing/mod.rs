@@ -70,7 +70,7 @@ impl std::fmt::Display for OptimizeProgress {
 }
 
 /// The end of a search with this time limit, and the end of the assessments of its results.
-pub fn ends_of(limit: Duration) -> Option<[Instant; 2]> {
+pub(crate) fn ends_of(limit: Duration) -> Option<[Instant; 2]> {
     let now = Instant::now();
     let kept = (limit / FOR_JUDGING.0).min(FOR_JUDGING.1);
     Some([now.checked_add(limit.saturating_sub(kept))?, now.checked_add(limit)?])
@@ -90,8 +90,7 @@ pub struct OptimizeOptions<'a> {
     freedoms: bool,
     explains: bool,
     drives: Option<&'a DriveTable>,
-    ends: Option<Instant>,
-    until: Option<Instant>,
+    pub(crate) ends: Option<[Instant; 2]>,
     cancel: Cancel,
     on_progress: Option<OnProgress<'a>>,
 }
@@ -107,7 +106,7 @@ impl std::fmt::Debug for OptimizeOptions<'_> {
             .field("candidates", &self.candidates)
             .field("freedoms", &self.freedoms)
             .field("drives", &self.drives.map(|table| table.drives.len()))
-            .field("until", &self.until)
+            .field("ends", &self.ends)
             .finish_non_exhaustive()
     }
 }
@@ -125,7 +124,6 @@ impl Default for OptimizeOptions<'_> {
             explains: true,
             drives: None,
             ends: None,
-            until: None,
             cancel: Cancel::new(),
             on_progress: None,
         }
@@ -163,28 +161,12 @@ impl<'a> OptimizeOptions<'a> {
         fn drives(table: &'a DriveTable) = Some(table);
     }
 
-    /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
-    /// result until then.
-    #[must_use]
-    pub fn time_limit(mut self, limit: Duration) -> Self {
-        let ends = ends_of(limit);
-        (self.ends, self.until) = (ends.map(|[search, _]| search), ends.map(|[_, judging]| judging));
-        self
-    }
-
-    /// Sets the end of the assessments that follow an interrupted search.
-    pub fn until(mut self, until: Option<Instant>) -> Self {
-        self.until = until;
-        self
-    }
-
-    /// Sets whether a conflict is searched for if no platform meets the requirements.
-    pub fn explains(mut self, explains: bool) -> Self {
-        self.explains = explains;
-        self
-    }
-
     num::setters! {
+        /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
+        /// result until then.
+        fn time_limit(limit: Option<Duration>) ends = limit.and_then(ends_of);
+        /// Sets whether a conflict is searched for if no platform meets the requirements.
+        fn explains(explains: bool) = explains;
         /// Sets the cancellation of the search; the answer is then the best until then.
         fn cancel(cancel: &Cancel) = cancel.clone();
         /// Sets a function that sees the progress, and may end the search.
@@ -192,7 +174,7 @@ impl<'a> OptimizeOptions<'a> {
     }
 
     fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
-        let late = self.ends.is_some_and(|ends| Instant::now() >= ends);
+        let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
         if late || self.cancel.is_cancelled() {
             return ControlFlow::Break(());
         }
@@ -202,7 +184,8 @@ impl<'a> OptimizeOptions<'a> {
     /// The options of a search under requirements.
     pub fn search(&self) -> ShapeSearchOptions {
         let threads = self.threads.count(MOST_THREADS);
-        ShapeSearchOptions { seed: self.seed, threads, until: self.until, ..ShapeSearchOptions::default() }
+        let until = self.ends.map(|[_, judging]| judging);
+        ShapeSearchOptions { seed: self.seed, threads, until, ..ShapeSearchOptions::default() }
     }
 }
 

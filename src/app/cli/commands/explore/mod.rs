@@ -271,13 +271,13 @@ fn explored(
     let mut progress = ProgressLine::new(context.quiet());
     // only the search for an octahedral design can be interrupted
     let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
-    let interrupt = octahedral.then(|| Interrupt::watch_for(args.time_limit));
+    let interrupt = octahedral.then(Interrupt::watch);
     let options = ExploreOptions::new()
         .seed(context.seed())
         .samples(args.samples)
         .extension(args.extension)
         .drives(table)
-        .until(interrupt.as_ref().and_then(Interrupt::until))
+        .time_limit(args.time_limit.map(|limit| limit.0))
         .on_progress(|p| {
             search::show(&mut progress, &p);
             interrupt.as_ref().map_or(ControlFlow::Continue(()), Interrupt::flow)

@@ -69,8 +69,7 @@ pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, 
     refuse_singular_home(&design, args.extension, "optimize::singular_home")?;
     refuse_options(args, &design, context)?;
     let table = drives::asked(args.drives.as_deref(), &args.design, &design, context)?;
-    let (mut progress, interrupt) =
-        (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
+    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let mut options = OptimizeOptions::new()
         .seed(context.seed())
         .threads(workers(args.threads))
@@ -78,7 +77,7 @@ pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, 
         .survey(args.survey)
         .gap(args.gap)
         .candidates(args.candidates.is_some())
-        .until(interrupt.until())
+        .time_limit(args.time_limit.map(|limit| limit.0))
         .on_progress(|p| {
             progress.note(&p.to_string());
             interrupt.flow()
