@@ -41,8 +41,9 @@ pub fn named<T: Copy>(
 
 /// Gives the choices of an enum the words that people write for them, each beside its choice.
 ///
-/// After the name of the enum stands a list of what it gets: `name`, the word of a choice; `ALL`, every choice in
-/// order, or `BOTH` of two; `Display` by the word; `FromStr("what")`, which finds the choice of a word by [`named`].
+/// After the name of the enum stands a list of what it gets: `name`, the word of a choice, or `word(code)` if the method
+/// has another name; `ALL`, every choice in order, or `BOTH` of two; `Display` by the name; `FromStr("what")`, which finds
+/// the choice of a name by [`named`].
 ///
 /// # Examples
 /// ```
@@ -63,7 +64,7 @@ pub fn named<T: Copy>(
 macro_rules! words {
     (
         $(#[$about:meta])*
-        $vis:vis enum $kind:ident: $($made:ident $(($what:literal))?),+ {
+        $vis:vis enum $kind:ident: $($made:ident $(($what:tt))?),+ {
             $($(#[$of:meta])* $choice:ident = $word:literal),+ $(,)?
         }
     ) => {
@@ -74,14 +75,17 @@ macro_rules! words {
 
         $crate::words!(@each [$($made $(($what))?),+] $vis $kind [$($choice = $word),+]);
     };
-    (@each [$($made:ident $(($what:literal))?),+] $vis:vis $kind:ident $words:tt) => {
+    (@each [$($made:ident $(($what:tt))?),+] $vis:vis $kind:ident $words:tt) => {
         $($crate::words!(@$made $(($what))? $vis $kind $words);)+
     };
-    (@name $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+    (@name $vis:vis $kind:ident $words:tt) => {
+        $crate::words!(@word(name) $vis $kind $words);
+    };
+    (@word($method:ident) $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
         impl $kind {
             /// The word of the choice, as files and answers write it.
             #[must_use]
-            $vis fn name(self) -> &'static str {
+            $vis fn $method(self) -> &'static str {
                 match self {
                     $(Self::$choice => $word),+
                 }

@@ -51,7 +51,7 @@ pub use table::{
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 
-use num::names::{UnknownName, named};
+use platform::geom::PoseConvention;
 
 num::words! {
     /// The two notations of the same structure.
@@ -120,6 +120,17 @@ pub fn parse_ideal(text: &str, format: Format) -> Result<(DesignModel, Vec<Warni
         }
         read => read,
     }
+}
+
+/// Reads the keys of a `[frames]` table (TOML), for poses in another convention than that of the design.
+///
+/// # Errors
+/// All violations found.
+pub fn parse_frames(text: &str) -> Result<PoseConvention, Vec<Violation>> {
+    let mut report = violation::Findings::new(text);
+    let root = tree::read(text, Format::Toml, &mut report);
+    let convention = root.map(|root| keys::frames(&root, &mut report));
+    convention.filter(|_| report.is_clean()).ok_or_else(|| report.into_violations())
 }
 
 fn read(

@@ -23,7 +23,7 @@ mod parts;
 mod plate;
 mod robots;
 #[cfg(test)]
-mod round_trip;
+mod round_trip_tests;
 mod sizes;
 mod step;
 mod stl;

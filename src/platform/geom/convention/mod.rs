@@ -377,6 +377,15 @@ pub struct WrittenPose {
     pub quaternion: [f64; 4],
 }
 
+impl WrittenPose {
+    /// Position and angles.
+    #[must_use]
+    pub fn numbers(&self) -> [f64; 6] {
+        let ([x, y, z], [a, b, c]) = (self.position, self.angles);
+        [x, y, z, a, b, c]
+    }
+}
+
 impl PoseConvention {
     /// This convention, filled by the other one where this one states nothing.
     #[must_use]

@@ -80,9 +80,9 @@ pub(super) enum MethodArg {
     Auto,
     Octic,
     Homotopy,
-    Trilateration,
     Sylvester,
     Template,
+    Trilateration,
 }
 
 impl MethodArg {
@@ -202,7 +202,8 @@ fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) ->
     }
 }
 
-fn threads(asked: Option<u16>) -> Threads {
+/// The number of worker threads.
+pub(super) fn threads(asked: Option<u16>) -> Threads {
     asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
 

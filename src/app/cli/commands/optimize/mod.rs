@@ -72,7 +72,7 @@ pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, 
     let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let mut options = OptimizeOptions::new()
         .seed(context.seed())
-        .threads(workers(args.threads))
+        .threads(threads(args.threads))
         .extension(args.extension)
         .survey(args.survey)
         .gap(args.gap)
@@ -152,11 +152,6 @@ fn refusal(why: &InvalidProblem) -> Failure {
         )),
         _ => failed("optimize::invalid_problem"),
     }
-}
-
-/// The number of worker threads.
-fn workers(asked: Option<u16>) -> Threads {
-    asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
 
 /// Writes the requested files.
