@@ -69,34 +69,23 @@ impl Completeness {
     }
 }
 
-/// Whether all poses are known to be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum CompletenessWord {
-    /// A theorem proves it.
-    Proved,
-    /// A theorem proves it for all poses up to a distance: all real ones are listed.
-    ProvedBounded,
-    /// Counted modulo random primes, with a bound on the probability of error.
-    Modular,
-    /// Not known.
-    Unproved,
-}
-
-impl CompletenessWord {
-    /// The word in JSON and tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Proved => "proved",
-            Self::ProvedBounded => "proved_bounded",
-            Self::Modular => "modular",
-            Self::Unproved => "unproved",
-        }
+num::words! {
+    /// Whether all poses are known to be listed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum CompletenessWord: name {
+        /// A theorem proves it.
+        Proved = "proved",
+        /// A theorem proves it for all poses up to a distance: all real ones are listed.
+        ProvedBounded = "proved_bounded",
+        /// Counted modulo random primes, with a bound on the probability of error.
+        Modular = "modular",
+        /// Not known.
+        Unproved = "unproved",
     }
 }
 

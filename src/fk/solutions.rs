@@ -182,35 +182,24 @@ impl FkRoot {
     }
 }
 
-/// The end of a homotopy path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum PathEnd {
-    /// A finite pose.
-    Finite,
-    /// `e -> 0`: the position grows without bound.
-    AtInfinity,
-    /// `e.e -> 0` with `e != 0`: no rotation.
-    #[cfg_attr(feature = "serde", serde(rename = "isotropic"))]
-    IsotropicRotation,
-    /// Not tracked to an end; roots may be missing.
-    Failed,
-}
-
-impl PathEnd {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Finite => "finite",
-            Self::AtInfinity => "at_infinity",
-            Self::IsotropicRotation => "isotropic",
-            Self::Failed => "failed",
-        }
+num::words! {
+    /// The end of a homotopy path.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum PathEnd: name {
+        /// A finite pose.
+        Finite = "finite",
+        /// `e -> 0`: the position grows without bound.
+        AtInfinity = "at_infinity",
+        /// `e.e -> 0` with `e != 0`: no rotation.
+        #[cfg_attr(feature = "serde", serde(rename = "isotropic"))]
+        IsotropicRotation = "isotropic",
+        /// Not tracked to an end; roots may be missing.
+        Failed = "failed",
     }
 }
 

@@ -82,31 +82,21 @@ pub enum NearOutcome {
     },
 }
 
-/// Outcome of following a pose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum NearWord {
-    /// The pose for the lengths asked for.
-    Tracked,
-    /// A singularity lies on the way or at its end.
-    NearSingularity,
-    /// Given up.
-    Lost,
-}
-
-impl NearWord {
-    /// The word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tracked => "tracked",
-            Self::NearSingularity => "near_singularity",
-            Self::Lost => "lost",
-        }
+num::words! {
+    /// Outcome of following a pose.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum NearWord: name {
+        /// The pose for the lengths asked for.
+        Tracked = "tracked",
+        /// A singularity lies on the way or at its end.
+        NearSingularity = "near_singularity",
+        /// Given up.
+        Lost = "lost",
     }
 }
 

@@ -28,37 +28,28 @@ use num::exact::{ExactVector, Rational, nearest, relations};
 use num::poly::{ComplexRoot, Dyadic, IntPoly, complex_roots};
 use platform::pentapod::{LINE_NUMBERS, LinearPentapod, RationalPoint, cross};
 
-/// The equation that gives the poses of the line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-#[non_exhaustive]
-pub enum LineClass {
-    /// A quadratic equation, each root two mirror poses: joints of the other body in a plane.
-    Quadratic,
-    /// A cubic equation, each root two mirror poses: joints of the other body in a plane.
-    Cubic,
-    /// A quartic equation, each root two mirror poses: joints of the other body in a plane.
-    Quartic,
-    /// Three quadrics with up to eight poses: joints of the other body in no plane.
-    Octic,
+num::words! {
+    /// The equation that gives the poses of the line.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    #[non_exhaustive]
+    pub enum LineClass: name {
+        /// A quadratic equation, each root two mirror poses: joints of the other body in a plane.
+        Quadratic = "quadratic",
+        /// A cubic equation, each root two mirror poses: joints of the other body in a plane.
+        Cubic = "cubic",
+        /// A quartic equation, each root two mirror poses: joints of the other body in a plane.
+        Quartic = "quartic",
+        /// Three quadrics with up to eight poses: joints of the other body in no plane.
+        Octic = "octic",
+    }
 }
 
 impl LineClass {
-    /// The word in JSON and text.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Quadratic => "quadratic",
-            Self::Cubic => "cubic",
-            Self::Quartic => "quartic",
-            Self::Octic => "octic",
-        }
-    }
-
     /// Poses of the line, real and complex, for generic lengths: no more than these for any.
     #[must_use]
     pub fn poses(self) -> usize {

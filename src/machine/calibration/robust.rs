@@ -5,39 +5,28 @@ use nalgebra::{Matrix6, Vector6};
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
 use num::names::{UnknownName, named};
 
-/// The loss of a distance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum Loss {
-    /// The square of the distance.
-    #[default]
-    Squares,
-    /// The square up to a threshold, linear beyond (Huber 1964).
-    Huber,
-    /// Logarithmic far out.
-    Cauchy,
-    /// Constant beyond a threshold, so that points there have no weight.
-    Tukey,
+num::words! {
+    /// The loss of a distance.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum Loss: name, ALL, FromStr("loss") {
+        /// The square of the distance.
+        #[default]
+        Squares = "squares",
+        /// The square up to a threshold, linear beyond (Huber 1964).
+        Huber = "huber",
+        /// Logarithmic far out.
+        Cauchy = "cauchy",
+        /// Constant beyond a threshold, so that points there have no weight.
+        Tukey = "tukey",
+    }
 }
 
 impl Loss {
-    const ALL: [Self; 4] = [Self::Squares, Self::Huber, Self::Cauchy, Self::Tukey];
-
-    /// Its name: `"squares"`, `"huber"`, `"cauchy"`, `"tukey"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Squares => "squares",
-            Self::Huber => "huber",
-            Self::Cauchy => "cauchy",
-            Self::Tukey => "tukey",
-        }
-    }
-
     /// The threshold of a standard normal number that keeps 95 % of the efficiency of least squares (Holland, Welsch
     /// 1977).
     fn threshold(self) -> f64 {
@@ -47,14 +36,6 @@ impl Loss {
             Self::Cauchy => 2.385,
             Self::Tukey => 4.685,
         }
-    }
-}
-
-impl std::str::FromStr for Loss {
-    type Err = UnknownName;
-
-    fn from_str(text: &str) -> Result<Self, UnknownName> {
-        named("loss", text, &Self::ALL, Self::name)
     }
 }
 

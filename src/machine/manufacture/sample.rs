@@ -18,28 +18,19 @@ pub struct ErrorBound {
     pub rotation_deg: f64,
 }
 
-/// The kind of a pose error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum ErrorKind {
-    /// Error of the tool point.
-    Position,
-    /// Error of the orientation.
-    Rotation,
-}
-
-impl ErrorKind {
-    /// `"position"` or `"rotation"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Position => "position",
-            Self::Rotation => "rotation",
-        }
+num::words! {
+    /// The kind of a pose error.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum ErrorKind: name {
+        /// Error of the tool point.
+        Position = "position",
+        /// Error of the orientation.
+        Rotation = "rotation",
     }
 }
 

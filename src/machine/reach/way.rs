@@ -4,49 +4,35 @@ use nalgebra::{Rotation3, Vector3};
 
 use platform::geom::{Pose, turn_between};
 
-/// The six numbers of a machine's pose: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum PoseAxis {
-    /// Position along x of the base frame.
-    X,
-    /// Position along y.
-    Y,
-    /// Position along z.
-    Z,
-    /// Rotation about the x axis of the platform.
-    Roll,
-    /// Rotation about the y axis of the base after the rotation by the yaw.
-    Pitch,
-    /// Rotation about the z axis of the base.
-    Yaw,
+num::words! {
+    /// The six numbers of a machine's pose: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum PoseAxis: name, ALL {
+        /// Position along x of the base frame.
+        X = "x",
+        /// Position along y.
+        Y = "y",
+        /// Position along z.
+        Z = "z",
+        /// Rotation about the x axis of the platform.
+        Roll = "roll",
+        /// Rotation about the y axis of the base after the rotation by the yaw.
+        Pitch = "pitch",
+        /// Rotation about the z axis of the base.
+        Yaw = "yaw",
+    }
 }
 
 impl PoseAxis {
-    /// All six, in the order in which a pose is written.
-    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Roll, Self::Pitch, Self::Yaw];
-
     /// Whether it is an angle.
     #[must_use]
     pub fn is_turn(self) -> bool {
         matches!(self, Self::Roll | Self::Pitch | Self::Yaw)
-    }
-
-    /// Its name, as in [`PoseAxis::ALL`].
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Z => "z",
-            Self::Roll => "roll",
-            Self::Pitch => "pitch",
-            Self::Yaw => "yaw",
-        }
     }
 }
 

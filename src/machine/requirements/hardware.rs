@@ -248,26 +248,16 @@ impl LegMasses {
     }
 }
 
-/// The kind of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum JointType {
-    /// It rotates freely about all axes, within its cone angle.
-    Ball,
-    /// Two hinges in a row.
-    Universal,
-    /// It bends against a stiffness.
-    Flexure,
-}
-
-impl JointType {
-    /// The name in design files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ball => "ball",
-            Self::Universal => "universal",
-            Self::Flexure => "flexure",
-        }
+num::words! {
+    /// The kind of a joint.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum JointType: name {
+        /// It rotates freely about all axes, within its cone angle.
+        Ball = "ball",
+        /// Two hinges in a row.
+        Universal = "universal",
+        /// It bends against a stiffness.
+        Flexure = "flexure",
     }
 }
 

@@ -1,40 +1,28 @@
 //! Grids of holes: the possible places of the joints of a plate.
 
-/// The pattern of the holes of a grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum HolePattern {
-    /// On squares.
-    #[default]
-    Square,
-    /// On equilateral triangles. The grid is symmetric under rotations by 60 degrees about a hole, and by 120 degrees
-    /// about the middle of a triangle.
-    Triangular,
-    /// On rings about the origin whose radii grow by the pitch, with the same number of holes on each.
-    Polar,
-    /// On circles about the origin with given radii and numbers of holes.
-    BoltCircle,
+num::words! {
+    /// The pattern of the holes of a grid.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum HolePattern: name, ALL {
+        /// On squares.
+        #[default]
+        Square = "square",
+        /// On equilateral triangles. The grid is symmetric under rotations by 60 degrees about a hole, and by 120
+        /// degrees about the middle of a triangle.
+        Triangular = "triangular",
+        /// On rings about the origin whose radii grow by the pitch, with the same number of holes on each.
+        Polar = "polar",
+        /// On circles about the origin with given radii and numbers of holes.
+        BoltCircle = "bolt_circle",
+    }
 }
 
 impl HolePattern {
-    /// Every pattern.
-    pub const ALL: [Self; 4] = [Self::Square, Self::Triangular, Self::Polar, Self::BoltCircle];
-
-    /// Its name in files and on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Square => "square",
-            Self::Triangular => "triangular",
-            Self::Polar => "polar",
-            Self::BoltCircle => "bolt_circle",
-        }
-    }
-
     /// Cosine of the angle between the two axes along which holes are counted; `None` where they are counted on
     /// circles.
     #[must_use]

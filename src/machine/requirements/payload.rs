@@ -9,34 +9,22 @@ use platform::manipulator::Body;
 /// Standard gravity, m/s^2.
 pub const GRAVITY: f64 = 9.806_65;
 
-/// A unit of force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ForceUnit {
-    /// Newton.
-    Newton,
-    /// Thousand newtons.
-    Kilonewton,
-    /// Kilogram-force.
-    KilogramForce,
-    /// Pound-force.
-    PoundForce,
+num::words! {
+    /// A unit of force.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum ForceUnit: word(label), ALL {
+        /// Newton.
+        Newton = "N",
+        /// Thousand newtons.
+        Kilonewton = "kN",
+        /// Kilogram-force.
+        KilogramForce = "kgf",
+        /// Pound-force.
+        PoundForce = "lbf",
+    }
 }
 
 impl ForceUnit {
-    /// Every unit.
-    pub const ALL: [Self; 4] = [Self::Newton, Self::Kilonewton, Self::KilogramForce, Self::PoundForce];
-
-    /// Its label in design files.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Newton => "N",
-            Self::Kilonewton => "kN",
-            Self::KilogramForce => "kgf",
-            Self::PoundForce => "lbf",
-        }
-    }
-
     /// The unit in newtons.
     #[must_use]
     pub fn newtons(self) -> f64 {
@@ -49,34 +37,22 @@ impl ForceUnit {
     }
 }
 
-/// A unit of mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MassUnit {
-    /// Gram.
-    Gram,
-    /// Kilogram.
-    Kilogram,
-    /// Tonne.
-    Tonne,
-    /// Pound.
-    Pound,
+num::words! {
+    /// A unit of mass.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum MassUnit: word(label), ALL {
+        /// Gram.
+        Gram = "g",
+        /// Kilogram.
+        Kilogram = "kg",
+        /// Tonne.
+        Tonne = "t",
+        /// Pound.
+        Pound = "lb",
+    }
 }
 
 impl MassUnit {
-    /// Every unit.
-    pub const ALL: [Self; 4] = [Self::Gram, Self::Kilogram, Self::Tonne, Self::Pound];
-
-    /// Its label in design files.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Gram => "g",
-            Self::Kilogram => "kg",
-            Self::Tonne => "t",
-            Self::Pound => "lb",
-        }
-    }
-
     /// The unit in kilograms.
     #[must_use]
     pub fn kilograms(self) -> f64 {
@@ -89,27 +65,15 @@ impl MassUnit {
     }
 }
 
-/// Whether the mass of the payload includes that of the platform plate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PlateMass {
-    /// The mass includes the plate.
-    #[default]
-    Included,
-    /// The plate is added.
-    Added,
-}
-
-impl PlateMass {
-    /// Both cases.
-    pub const ALL: [Self; 2] = [Self::Included, Self::Added];
-
-    /// Its name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Included => "included",
-            Self::Added => "added",
-        }
+num::words! {
+    /// Whether the mass of the payload includes that of the platform plate.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum PlateMass: name, ALL {
+        /// The mass includes the plate.
+        #[default]
+        Included = "included",
+        /// The plate is added.
+        Added = "added",
     }
 }
 

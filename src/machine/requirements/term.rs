@@ -14,81 +14,84 @@ use super::vibration::{lowest_of, mass_matrix, softest_of};
 use platform::geom::{Pose, segment_distance};
 use platform::manipulator::{Body, Manipulator, jacobian};
 
-/// The kinds of requirements.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum TermKind {
-    /// Leg length minus the least one.
-    MinLegLength,
-    /// Greatest leg length minus the leg length.
-    MaxLegLength,
-    /// Limit minus the joint angle between leg and axis at the base.
-    BaseConeAngle,
-    /// Limit minus the joint angle between leg and axis at the platform.
-    PlatformConeAngle,
-    /// Limit minus the angle about the first axis of a universal joint at the base.
-    BaseFirstAngle,
-    /// Limit minus the angle about its second axis.
-    BaseSecondAngle,
-    /// Limit minus the angle about the first axis of a universal joint at the platform.
-    PlatformFirstAngle,
-    /// Limit minus the angle about its second axis.
-    PlatformSecondAngle,
-    /// Gap between two legs minus the required clearance.
-    LegClearance,
-    /// Gap between a leg and a keep-out minus the required clearance.
-    KeepOut,
-    /// Greatest leg force minus the force under a load.
-    LegForce,
-    /// Greatest leg speed minus the speed in the worst direction of motion.
-    LegSpeed,
-    /// Gap between two housings of the base, or distance of joint centres minus the least one.
-    BaseSpacing,
-    /// Gap between two housings of the platform, or distance of joint centres minus the least one.
-    PlatformSpacing,
-    /// Distance of a base joint with its housing inside the envelope of the base.
-    BaseEnvelope,
-    /// Distance of a platform joint with its housing inside the envelope of the platform.
-    PlatformEnvelope,
-    /// Distance of a joint with its housing inside the envelope of the whole machine.
-    MachineEnvelope,
-    /// Distance of the holes under a base joint from the outline of the plate, minus the required one.
-    BaseHoleEdge,
-    /// Distance of the holes under a platform joint from the outline of the plate, minus the required one.
-    PlatformHoleEdge,
-    /// Distance between the holes and feet of two base joints, or between the holes of one, minus the required one.
-    BaseHoleGap,
-    /// Distance between the holes and feet of two platform joints, or between the holes of one, minus the required one.
-    PlatformHoleGap,
-    /// Gap between a leg and a plate minus the required clearance.
-    PlateClearance,
-    /// Gap between a leg and the payload minus the required clearance.
-    PayloadClearance,
-    /// Stiffness of the platform against a force in the softest direction minus the least one.
-    LinearStiffness,
-    /// Stiffness of the platform against a torque about the softest axis minus the least one.
-    AngularStiffness,
-    /// Lowest natural frequency minus the least one.
-    NaturalFrequency,
-    /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
-    MinRodLength,
-    /// Distance of the platform joint from the farthest point of the crank circle minus the rod length.
-    MaxRodLength,
-    /// Transmission angle of a crank minus the least one. Its sine is the share of a push along the rod that turns the
-    /// crank. At 0 degrees crank and rod are in a plane with the axis.
-    CrankTransmission,
-    /// Distance of the angle of a crank from its limits.
-    CrankAngle,
-    /// Limit minus the angle between a rod and the plane in which its crank turns.
-    TipAngle,
-    /// Greatest torque of a crank minus the torque under a load.
-    CrankTorque,
-    /// Greatest speed of a crank minus the speed in the worst direction of motion.
-    CrankSpeed,
+num::words! {
+    /// The kinds of requirements.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum TermKind: word(code), ALL {
+        /// Leg length minus the least one.
+        MinLegLength = "min_leg_length",
+        /// Greatest leg length minus the leg length.
+        MaxLegLength = "max_leg_length",
+        /// Limit minus the joint angle between leg and axis at the base.
+        BaseConeAngle = "base_cone_angle",
+        /// Limit minus the joint angle between leg and axis at the platform.
+        PlatformConeAngle = "platform_cone_angle",
+        /// Limit minus the angle about the first axis of a universal joint at the base.
+        BaseFirstAngle = "base_first_angle",
+        /// Limit minus the angle about its second axis.
+        BaseSecondAngle = "base_second_angle",
+        /// Limit minus the angle about the first axis of a universal joint at the platform.
+        PlatformFirstAngle = "platform_first_angle",
+        /// Limit minus the angle about its second axis.
+        PlatformSecondAngle = "platform_second_angle",
+        /// Gap between two legs minus the required clearance.
+        LegClearance = "leg_clearance",
+        /// Gap between a leg and a keep-out minus the required clearance.
+        KeepOut = "keep_out",
+        /// Greatest leg force minus the force under a load.
+        LegForce = "leg_force",
+        /// Greatest leg speed minus the speed in the worst direction of motion.
+        LegSpeed = "leg_speed",
+        /// Gap between two housings of the base, or distance of joint centres minus the least one.
+        BaseSpacing = "base_spacing",
+        /// Gap between two housings of the platform, or distance of joint centres minus the least one.
+        PlatformSpacing = "platform_spacing",
+        /// Distance of a base joint with its housing inside the envelope of the base.
+        BaseEnvelope = "base_envelope",
+        /// Distance of a platform joint with its housing inside the envelope of the platform.
+        PlatformEnvelope = "platform_envelope",
+        /// Distance of a joint with its housing inside the envelope of the whole machine.
+        MachineEnvelope = "machine_envelope",
+        /// Distance of the holes under a base joint from the outline of the plate, minus the required one.
+        BaseHoleEdge = "base_hole_edge",
+        /// Distance of the holes under a platform joint from the outline of the plate, minus the required one.
+        PlatformHoleEdge = "platform_hole_edge",
+        /// Distance between the holes and feet of two base joints, or between the holes of one, minus the required one.
+        BaseHoleGap = "base_hole_gap",
+        /// Distance between the holes and feet of two platform joints, or between the holes of one, minus the required
+        /// one.
+        PlatformHoleGap = "platform_hole_gap",
+        /// Gap between a leg and a plate minus the required clearance.
+        PlateClearance = "plate_clearance",
+        /// Gap between a leg and the payload minus the required clearance.
+        PayloadClearance = "payload_clearance",
+        /// Stiffness of the platform against a force in the softest direction minus the least one.
+        LinearStiffness = "linear_stiffness",
+        /// Stiffness of the platform against a torque about the softest axis minus the least one.
+        AngularStiffness = "angular_stiffness",
+        /// Lowest natural frequency minus the least one.
+        NaturalFrequency = "natural_frequency",
+        /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
+        MinRodLength = "min_rod_length",
+        /// Distance of the platform joint from the farthest point of the crank circle minus the rod length.
+        MaxRodLength = "max_rod_length",
+        /// Transmission angle of a crank minus the least one. Its sine is the share of a push along the rod that turns
+        /// the crank. At 0 degrees crank and rod are in a plane with the axis.
+        CrankTransmission = "crank_transmission",
+        /// Distance of the angle of a crank from its limits.
+        CrankAngle = "crank_angle",
+        /// Limit minus the angle between a rod and the plane in which its crank turns.
+        TipAngle = "tip_angle",
+        /// Greatest torque of a crank minus the torque under a load.
+        CrankTorque = "crank_torque",
+        /// Greatest speed of a crank minus the speed in the worst direction of motion.
+        CrankSpeed = "crank_speed",
+    }
 }
 
 /// The physical quantity of a margin, with its unit.
@@ -115,83 +118,6 @@ pub enum Quantity {
 }
 
 impl TermKind {
-    /// Every kind.
-    pub const ALL: [Self; 33] = [
-        Self::MinLegLength,
-        Self::MaxLegLength,
-        Self::BaseConeAngle,
-        Self::PlatformConeAngle,
-        Self::BaseFirstAngle,
-        Self::BaseSecondAngle,
-        Self::PlatformFirstAngle,
-        Self::PlatformSecondAngle,
-        Self::LegClearance,
-        Self::KeepOut,
-        Self::LegForce,
-        Self::LegSpeed,
-        Self::BaseSpacing,
-        Self::PlatformSpacing,
-        Self::BaseEnvelope,
-        Self::PlatformEnvelope,
-        Self::MachineEnvelope,
-        Self::BaseHoleEdge,
-        Self::PlatformHoleEdge,
-        Self::BaseHoleGap,
-        Self::PlatformHoleGap,
-        Self::PlateClearance,
-        Self::PayloadClearance,
-        Self::LinearStiffness,
-        Self::AngularStiffness,
-        Self::NaturalFrequency,
-        Self::MinRodLength,
-        Self::MaxRodLength,
-        Self::CrankTransmission,
-        Self::CrankAngle,
-        Self::TipAngle,
-        Self::CrankTorque,
-        Self::CrankSpeed,
-    ];
-
-    /// A short stable code.
-    #[must_use]
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::MinLegLength => "min_leg_length",
-            Self::MaxLegLength => "max_leg_length",
-            Self::BaseConeAngle => "base_cone_angle",
-            Self::PlatformConeAngle => "platform_cone_angle",
-            Self::BaseFirstAngle => "base_first_angle",
-            Self::BaseSecondAngle => "base_second_angle",
-            Self::PlatformFirstAngle => "platform_first_angle",
-            Self::PlatformSecondAngle => "platform_second_angle",
-            Self::LegClearance => "leg_clearance",
-            Self::KeepOut => "keep_out",
-            Self::LegForce => "leg_force",
-            Self::LegSpeed => "leg_speed",
-            Self::BaseSpacing => "base_spacing",
-            Self::PlatformSpacing => "platform_spacing",
-            Self::BaseEnvelope => "base_envelope",
-            Self::PlatformEnvelope => "platform_envelope",
-            Self::MachineEnvelope => "machine_envelope",
-            Self::BaseHoleEdge => "base_hole_edge",
-            Self::PlatformHoleEdge => "platform_hole_edge",
-            Self::BaseHoleGap => "base_hole_gap",
-            Self::PlatformHoleGap => "platform_hole_gap",
-            Self::PlateClearance => "plate_clearance",
-            Self::PayloadClearance => "payload_clearance",
-            Self::LinearStiffness => "linear_stiffness",
-            Self::AngularStiffness => "angular_stiffness",
-            Self::NaturalFrequency => "natural_frequency",
-            Self::MinRodLength => "min_rod_length",
-            Self::MaxRodLength => "max_rod_length",
-            Self::CrankTransmission => "crank_transmission",
-            Self::CrankAngle => "crank_angle",
-            Self::TipAngle => "tip_angle",
-            Self::CrankTorque => "crank_torque",
-            Self::CrankSpeed => "crank_speed",
-        }
-    }
-
     /// The name for people: the quantity, and the side on which it is limited.
     #[must_use]
     pub fn label(self) -> &'static str {

@@ -53,41 +53,28 @@ pub struct NearestMotion {
     pub residual: f64,
 }
 
-/// An invariant under rigid motions that equivalent designs share.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum Invariant {
-    /// Dimension of the span `L` of the leg vectors.
-    LegRank,
-    /// Dimension of the entries `(1, a, b)` of the elements of `L`.
-    JointRank,
-    /// Dimension of the translations left open by a step towards the canonical origins.
-    OpenTranslations,
-    /// A principal value of the base.
-    BasePrincipalValue,
-    /// A principal value of the platform.
-    PlatformPrincipalValue,
-    /// Distance of the canonical forms, zero for equivalent designs.
-    CanonicalDistance,
-}
-
-impl Invariant {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::LegRank => "leg_rank",
-            Self::JointRank => "joint_rank",
-            Self::OpenTranslations => "open_translations",
-            Self::BasePrincipalValue => "base_principal_value",
-            Self::PlatformPrincipalValue => "platform_principal_value",
-            Self::CanonicalDistance => "canonical_distance",
-        }
+num::words! {
+    /// An invariant under rigid motions that equivalent designs share.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum Invariant: name {
+        /// Dimension of the span `L` of the leg vectors.
+        LegRank = "leg_rank",
+        /// Dimension of the entries `(1, a, b)` of the elements of `L`.
+        JointRank = "joint_rank",
+        /// Dimension of the translations left open by a step towards the canonical origins.
+        OpenTranslations = "open_translations",
+        /// A principal value of the base.
+        BasePrincipalValue = "base_principal_value",
+        /// A principal value of the platform.
+        PlatformPrincipalValue = "platform_principal_value",
+        /// Distance of the canonical forms, zero for equivalent designs.
+        CanonicalDistance = "canonical_distance",
     }
 }
 
@@ -113,32 +100,22 @@ pub struct Difference {
     pub bound: f64,
 }
 
-/// The reason why nothing was decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum AlignmentUndecided {
-    /// A dimension is unclear: singular values are too near the tolerance.
-    UnclearDimension,
-    /// A body has no unique axes, or nearly so; a search found no motion, which proves nothing.
-    NoAxes,
-    /// No invariant differs by more than its possible error, and no motion reaches the tolerance.
-    WithinErrors,
-}
-
-impl AlignmentUndecided {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::UnclearDimension => "unclear_dimension",
-            Self::NoAxes => "no_axes",
-            Self::WithinErrors => "within_errors",
-        }
+num::words! {
+    /// The reason why nothing was decided.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum AlignmentUndecided: name {
+        /// A dimension is unclear: singular values are too near the tolerance.
+        UnclearDimension = "unclear_dimension",
+        /// A body has no unique axes, or nearly so; a search found no motion, which proves nothing.
+        NoAxes = "no_axes",
+        /// No invariant differs by more than its possible error, and no motion reaches the tolerance.
+        WithinErrors = "within_errors",
     }
 }
 

@@ -18,33 +18,21 @@ pub fn flat_name(dimension: usize) -> &'static str {
     }
 }
 
-/// The kind of curve or surface of a family of legs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FamilyKind {
-    /// Every leg between two flats.
-    AllPairs,
-    /// For every point of a line of one body a flat of points of the other; polynomials of these degrees.
-    OverLine,
-    /// The same for the points of a conic.
-    OverConic,
-    /// One partner for every point of a plane.
-    OverPlane,
-    /// An irreducible plane cubic, and its partner.
-    OverCubic,
-}
-
-impl FamilyKind {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::AllPairs => "all_pairs",
-            Self::OverLine => "over_line",
-            Self::OverConic => "over_conic",
-            Self::OverPlane => "over_plane",
-            Self::OverCubic => "over_cubic",
-        }
+num::words! {
+    /// The kind of curve or surface of a family of legs.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum FamilyKind: name {
+        /// Every leg between two flats.
+        AllPairs = "all_pairs",
+        /// For every point of a line of one body a flat of points of the other; polynomials of these degrees.
+        OverLine = "over_line",
+        /// The same for the points of a conic.
+        OverConic = "over_conic",
+        /// One partner for every point of a plane.
+        OverPlane = "over_plane",
+        /// An irreducible plane cubic, and its partner.
+        OverCubic = "over_cubic",
     }
 }
 

@@ -195,27 +195,17 @@ impl FlatProduct {
     }
 }
 
-/// The interpretation of the joints in which a pair of flats exists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Reading {
-    /// The doubles as rational numbers, and the tolerance as well.
-    Both,
-    /// The doubles as rational numbers only: within the tolerance the joints have other dimensions.
-    ExactOnly,
-    /// Within the tolerance only.
-    ToleranceOnly,
-}
-
-impl Reading {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Both => "exact",
-            Self::ExactOnly => "exact_only",
-            Self::ToleranceOnly => "within_tolerance",
-        }
+num::words! {
+    /// The interpretation of the joints in which a pair of flats exists.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Reading: name {
+        /// The doubles as rational numbers, and the tolerance as well.
+        Both = "exact",
+        /// The doubles as rational numbers only: within the tolerance the joints have other dimensions.
+        ExactOnly = "exact_only",
+        /// Within the tolerance only.
+        ToleranceOnly = "within_tolerance",
     }
 }
 

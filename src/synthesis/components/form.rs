@@ -274,41 +274,28 @@ pub(super) struct RealPart {
     pub(super) measure: f64,
 }
 
-/// Kinds of parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PartKind {
-    /// A real line.
-    Line,
-    /// A conic with real points.
-    Conic,
-    /// A conic without real points.
-    EmptyConic,
-    /// Two conjugate complex lines: one real point.
-    ComplexLines,
-    /// A cubic that contains no real line.
-    Cubic,
-    /// A curve of higher degree that contains no real line.
-    Higher,
+num::words! {
+    /// Kinds of parts.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum PartKind: name {
+        /// A real line.
+        Line = "line",
+        /// A conic with real points.
+        Conic = "conic",
+        /// A conic without real points.
+        EmptyConic = "conic_without_real_points",
+        /// Two conjugate complex lines: one real point.
+        ComplexLines = "conjugate_lines",
+        /// A cubic that contains no real line.
+        Cubic = "cubic",
+        /// A curve of higher degree that contains no real line.
+        Higher = "higher",
+    }
 }
 
 #[cfg(feature = "serde")]
 num::written_as_word!(PartKind);
-
-impl PartKind {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Line => "line",
-            Self::Conic => "conic",
-            Self::EmptyConic => "conic_without_real_points",
-            Self::ComplexLines => "conjugate_lines",
-            Self::Cubic => "cubic",
-            Self::Higher => "higher",
-        }
-    }
-}
 
 /// A curve in parts.
 #[derive(Debug, Clone, Default)]
@@ -436,35 +423,24 @@ pub(super) fn conic_frame(form: &Form) -> [Vec<f64>; 3] {
     [x, others.next().unwrap_or_default(), z]
 }
 
-/// The kind of a singular point of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SingularKind {
-    /// Two real branches cross.
-    Crossing,
-    /// An isolated real point: two complex branches.
-    Isolated,
-    /// The two branches share a tangent: a cusp, or touching parts.
-    Cusp,
-    /// Three branches or a multiple part.
-    Triple,
+num::words! {
+    /// The kind of a singular point of a curve.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum SingularKind: name {
+        /// Two real branches cross.
+        Crossing = "crossing",
+        /// An isolated real point: two complex branches.
+        Isolated = "isolated",
+        /// The two branches share a tangent: a cusp, or touching parts.
+        Cusp = "cusp",
+        /// Three branches or a multiple part.
+        Triple = "triple",
+    }
 }
 
 #[cfg(feature = "serde")]
 num::written_as_word!(SingularKind);
-
-impl SingularKind {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Crossing => "crossing",
-            Self::Isolated => "isolated",
-            Self::Cusp => "cusp",
-            Self::Triple => "triple",
-        }
-    }
-}
 
 /// Kind of the singular point `p` of `form`, from the second derivatives along the tangent plane at `p`.
 pub(super) fn singular_kind(form: &Form, p: &[f64]) -> SingularKind {

@@ -139,45 +139,29 @@ pub(crate) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
     Ok(real)
 }
 
-/// The question of a numerical decision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Question {
-    /// Dimension of the flat that base joints span.
-    BaseDimension,
-    /// Dimension of the flat that platform joints span.
-    PlatformDimension,
-    /// Rank of leg vectors.
-    LegRank,
-    /// Rank of `M(a)` at a generic base point of the curve or flat below the family.
-    RankOverBase,
-    /// Rank of the transposed matrix at a generic platform point of the curve or flat below the family.
-    RankOverPlatform,
-    /// Degree of the common factor of the minors of `M`.
-    CommonFactor,
-    /// Whether a curve contains a line: residual of the curve's equation on the line.
-    LineFactor,
-    /// Rank of the symmetric matrix of a conic.
-    ConicRank,
-    /// Whether a curve has a singular point: size of the gradient.
-    SingularPoint,
-}
-
-impl Question {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::BaseDimension => "base_dimension",
-            Self::PlatformDimension => "platform_dimension",
-            Self::LegRank => "leg_rank",
-            Self::RankOverBase => "rank_over_base",
-            Self::RankOverPlatform => "rank_over_platform",
-            Self::CommonFactor => "common_factor",
-            Self::LineFactor => "line_factor",
-            Self::ConicRank => "conic_rank",
-            Self::SingularPoint => "singular_point",
-        }
+num::words! {
+    /// The question of a numerical decision.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum Question: name {
+        /// Dimension of the flat that base joints span.
+        BaseDimension = "base_dimension",
+        /// Dimension of the flat that platform joints span.
+        PlatformDimension = "platform_dimension",
+        /// Rank of leg vectors.
+        LegRank = "leg_rank",
+        /// Rank of `M(a)` at a generic base point of the curve or flat below the family.
+        RankOverBase = "rank_over_base",
+        /// Rank of the transposed matrix at a generic platform point of the curve or flat below the family.
+        RankOverPlatform = "rank_over_platform",
+        /// Degree of the common factor of the minors of `M`.
+        CommonFactor = "common_factor",
+        /// Whether a curve contains a line: residual of the curve's equation on the line.
+        LineFactor = "line_factor",
+        /// Rank of the symmetric matrix of a conic.
+        ConicRank = "conic_rank",
+        /// Whether a curve has a singular point: size of the gradient.
+        SingularPoint = "singular_point",
     }
 }
 

@@ -77,35 +77,24 @@ pub enum PoseSet {
     },
 }
 
-/// Why the poses were not counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum CountUndecided {
-    /// Neither the set nor random linear sections of it close at the highest degree computed.
-    DegreeTooLow,
-    /// The primes disagree: one of them at least divides a number it should not.
-    PrimesDisagree,
-    /// Joints are known between bounds only.
-    JointsNotExact,
-    /// The joints are made of square roots and cosines, and none of the primes drawn has these.
-    NoPrimeDrawn,
-}
-
-impl CountUndecided {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DegreeTooLow => "degree_too_low",
-            Self::PrimesDisagree => "primes_disagree",
-            Self::JointsNotExact => "joints_not_exact",
-            Self::NoPrimeDrawn => "no_prime_drawn",
-        }
+num::words! {
+    /// Why the poses were not counted.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum CountUndecided: name {
+        /// Neither the set nor random linear sections of it close at the highest degree computed.
+        DegreeTooLow = "degree_too_low",
+        /// The primes disagree: one of them at least divides a number it should not.
+        PrimesDisagree = "primes_disagree",
+        /// Joints are known between bounds only.
+        JointsNotExact = "joints_not_exact",
+        /// The joints are made of square roots and cosines, and none of the primes drawn has these.
+        NoPrimeDrawn = "no_prime_drawn",
     }
 }
 

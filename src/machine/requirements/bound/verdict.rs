@@ -2,37 +2,28 @@
 
 use crate::requirements::assess::Margin;
 
-/// The proved state of the least margin of a kind of requirement over all poses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum MarginVerdict {
-    /// Proved: no margin is negative.
-    Met,
-    /// Proved: no margin is negative by more than the rounding of its evaluation
-    /// ([`Terms::rounding`](crate::requirements::Terms::rounding)).
-    AtLimit,
-    /// Proved: the margin is negative at the pose given, by more than that.
-    Violated,
-    /// Unproved: no violation was found.
-    Searched,
+num::words! {
+    /// The proved state of the least margin of a kind of requirement over all poses.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum MarginVerdict: name, Display {
+        /// Proved: no margin is negative.
+        Met = "met",
+        /// Proved: no margin is negative by more than the rounding of its evaluation
+        /// ([`Terms::rounding`](crate::requirements::Terms::rounding)).
+        AtLimit = "at_limit",
+        /// Proved: the margin is negative at the pose given, by more than that.
+        Violated = "violated",
+        /// Unproved: no violation was found.
+        Searched = "searched",
+    }
 }
 
 impl MarginVerdict {
-    /// The verdict as a word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Met => "met",
-            Self::AtLimit => "at_limit",
-            Self::Violated => "violated",
-            Self::Searched => "searched",
-        }
-    }
-
     /// `Some` if it is proved.
     #[must_use]
     pub fn is_met(self) -> Option<bool> {
@@ -41,12 +32,6 @@ impl MarginVerdict {
             Self::Violated => Some(false),
             Self::Searched => None,
         }
-    }
-}
-
-impl std::fmt::Display for MarginVerdict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
     }
 }
 

@@ -30,28 +30,16 @@ pub const MATERIALS: [(&str, f64); 8] = [
     ("plywood", 680.0),
 ];
 
-/// The reference direction for the angle of the first bolt of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BoltsFrom {
-    /// The first axis of the plate: all joints have the same pattern.
-    #[default]
-    Axis,
-    /// The direction from the origin of the plate to the joint. Rotations about the origin that permute the joints then
-    /// also permute the patterns.
-    Centre,
-}
-
-impl BoltsFrom {
-    /// Both references.
-    pub const ALL: [Self; 2] = [Self::Axis, Self::Centre];
-
-    /// Its name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Axis => "axis",
-            Self::Centre => "centre",
-        }
+num::words! {
+    /// The reference direction for the angle of the first bolt of a joint.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum BoltsFrom: name, ALL {
+        /// The first axis of the plate: all joints have the same pattern.
+        #[default]
+        Axis = "axis",
+        /// The direction from the origin of the plate to the joint. Rotations about the origin that permute the joints
+        /// then also permute the patterns.
+        Centre = "centre",
     }
 }
 

@@ -58,34 +58,23 @@ impl Targets {
     }
 }
 
-/// A requirement of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Target {
-    /// Distance of joints; joints shared in the pattern count only if sharing is forbidden.
-    Spacing,
-    /// Distance of legs.
-    Clearance,
-    /// Condition of the Jacobian.
-    Conditioning,
-    /// Greatest distance of the joints from the centre.
-    Reach,
+num::words! {
+    /// A requirement of the search.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Target: name {
+        /// Distance of joints; joints shared in the pattern count only if sharing is forbidden.
+        Spacing = "spacing",
+        /// Distance of legs.
+        Clearance = "clearance",
+        /// Condition of the Jacobian.
+        Conditioning = "conditioning",
+        /// Greatest distance of the joints from the centre.
+        Reach = "reach",
+    }
 }
 
 #[cfg(feature = "serde")]
 num::written_as_word!(Target);
-
-impl Target {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Spacing => "spacing",
-            Self::Clearance => "clearance",
-            Self::Conditioning => "conditioning",
-            Self::Reach => "reach",
-        }
-    }
-}
 
 /// The margin of a requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -45,29 +45,19 @@ impl Default for MotionOptions {
     }
 }
 
-/// The end of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveEnd {
-    /// It is a loop: the last point is followed by the first.
-    Closed,
-    /// It joins an earlier curve, at the crossing where it began or at another.
-    Joined,
-    /// The number of points allowed is used up.
-    Unfinished,
-    /// Steps became too small: a singular point that is not a simple crossing, or the limit of the numerical accuracy.
-    Stuck,
-}
-
-impl CurveEnd {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Closed => "closed",
-            Self::Joined => "joined",
-            Self::Unfinished => "unfinished",
-            Self::Stuck => "stuck",
-        }
+num::words! {
+    /// The end of a curve.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum CurveEnd: name {
+        /// It is a loop: the last point is followed by the first.
+        Closed = "closed",
+        /// It joins an earlier curve, at the crossing where it began or at another.
+        Joined = "joined",
+        /// The number of points allowed is used up.
+        Unfinished = "unfinished",
+        /// Steps became too small: a singular point that is not a simple crossing, or the limit of the numerical
+        /// accuracy.
+        Stuck = "stuck",
     }
 }
 
