@@ -164,11 +164,7 @@ pub unsafe extern "C" fn eqp_design_with_frames(
     error: *mut EqpError,
 ) -> EqpStatus {
     // SAFETY: the caller's promises, here and in the body.
-    unsafe {
-        told(error, || {
-            give(read(design, "design")?.with_frames(utf8(text, length)?)?, with, "with")
-        })
-    }
+    unsafe { told(error, || give(read(design, "design")?.with_frames(utf8(text, length)?)?, with, "with")) }
 }
 
 /// Frees a design; null is ignored. Objects made from it stay valid.

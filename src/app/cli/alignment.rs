@@ -171,20 +171,3 @@ impl Second {
         self.aligned.as_ref().map(|a| a.given.explanation())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::{Rotation3, Vector3};
-
-    use super::*;
-
-    #[test]
-    fn poses_compose_and_invert() {
-        let x = Pose {
-            rotation: Rotation3::new(Vector3::new(0.1, 0.7, -0.3)),
-            position: Vector3::new(1.0, 2.0, 3.0),
-        };
-        let none = after(&x, &inverse(&x));
-        assert!(none.position.norm() < 1e-14 && none.rotation.angle() < 1e-7);
-    }
-}

@@ -9,10 +9,8 @@ use num::shown::rounded_down;
 use platform::geom::Pose;
 
 /// The format `csv`.
-pub(super) static WRITER: Writer = Writer::new(
-    "tables of joints, leg lengths and parts, for spreadsheets and controllers",
-    files,
-);
+pub(super) static WRITER: Writer =
+    Writer::new("tables of joints, leg lengths and parts, for spreadsheets and controllers", files);
 
 fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
     let mut out = vec![

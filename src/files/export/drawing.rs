@@ -16,18 +16,14 @@ const CHORDS: usize = 1440;
 /// The format `svg`.
 pub(super) static WRITER: Writer = Writer {
     leaves_out: "what hides what: the silhouettes of all parts are seen",
-    ..Writer::new(
-        "drawing with three views at home, third angle, millimetres",
-        files,
-    )
+    ..Writer::new("drawing with three views at home, third angle, millimetres", files)
 };
 
 fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
     let mm = export.unit.millimetres;
     let [base, platform] = &export.bodies;
     let legs = export.legs.iter().map(|leg| bars(leg, mm)).collect::<Result<Vec<_>, _>>()?;
-    let note =
-        format!("Base frame, home pose, mm. One unit of the design is {mm} mm. {}.", export.program);
+    let note = format!("Base frame, home pose, mm. One unit of the design is {mm} mm. {}.", export.program);
     let figure = ThreeViewFigure {
         title: format!("{}: three views at home", one_line(&export.name)),
         note,

@@ -9,10 +9,8 @@ use super::{
 use platform::geom::Pose;
 
 /// The format `json`.
-pub(super) static WRITER: Writer = Writer::new(
-    "joints, plates, legs, poses and lengths in one document, for scripts",
-    files,
-);
+pub(super) static WRITER: Writer =
+    Writer::new("joints, plates, legs, poses and lengths in one document, for scripts", files);
 
 fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
     // texts, numbers, lists and fields always serialise

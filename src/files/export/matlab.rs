@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::text::{commented, one_line, real};
-use super::{Export, ExportedFile, Unsupported, Writer};
+use super::{Export, ExportedFile, Writer};
 
 /// The format `matlab`.
 pub(super) static WRITER: Writer = Writer::new(

@@ -3,7 +3,6 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
-use num::names::{UnknownName, named};
 
 num::words! {
     /// The loss of a distance.

@@ -244,6 +244,20 @@ mod tests {
     use num::Rng;
 
     #[test]
+    fn poses_compose_and_invert() {
+        let x = Pose {
+            rotation: Rotation3::new(Vector3::new(0.1, 0.7, -0.3)),
+            position: Vector3::new(1.0, 2.0, 3.0),
+        };
+        let y = Pose::shifted(Vector3::new(0.0, 0.0, 5.0));
+        let none = x.compose(&x.inverse());
+        assert!(none.position.norm() < 1e-14 && none.rotation.angle() < 1e-7);
+        let point = Point3::new(0.3, -0.2, 0.7);
+        assert!((x.compose(&y).transform(&point) - x.transform(&y.transform(&point))).norm() < 1e-14);
+        assert_eq!(Pose::identity().compose(&x), x);
+    }
+
+    #[test]
     fn the_nearest_rotation_is_found_from_every_matrix_near_one() {
         let mut rng = Rng::new(3);
         for k in 0..2000 {

@@ -5,12 +5,8 @@ use std::path::PathBuf;
 
 use super::build::drives;
 use super::build::tolerances::numbers;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::table::{csv_line, number};
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use crate::app::report::{Comparison, comparison_page};
 use ::files::export::LengthUnit;
 use ::files::plot::thumbnail;

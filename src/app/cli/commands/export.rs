@@ -5,12 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::build::tolerances;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::{Length, length};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
 use ask::exporting::octahedral_of_controllers;

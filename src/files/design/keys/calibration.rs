@@ -150,7 +150,12 @@ fn correlations(
     let rows = list(report, &matrix.node, "`matrix`")?;
     if rows.len() != unknowns.len() {
         let message = format!("`matrix` has {} rows for {} unknowns", rows.len(), unknowns.len());
-        return report.refused(Code::OutOfRange, &matrix.node.span, message, "give a row for each of `unknowns`");
+        return report.refused(
+            Code::OutOfRange,
+            &matrix.node.span,
+            message,
+            "give a row for each of `unknowns`",
+        );
     }
     let triangle: Vec<Option<Vec<f64>>> =
         rows.iter().enumerate().map(|(i, row)| triangle_row(report, row, i)).collect();

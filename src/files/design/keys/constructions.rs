@@ -15,8 +15,8 @@ use super::{Code, KeyTable, TEXT, key};
 use crate::design::construction::expression::{Slip, UnitsBehind, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
-    Construction, Constructions, CoordinatePlane, LinePlace, MirrorPlane, WrittenCranks,
-    WrittenHome, WrittenNumber,
+    Construction, Constructions, CoordinatePlane, LinePlace, MirrorPlane, WrittenCranks, WrittenHome,
+    WrittenNumber,
 };
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
@@ -304,7 +304,12 @@ fn form(
             Some(e) if !report.is_full() => (&e.key_span, nearest_help("known keys", &e.key, &kinds)),
             _ => (&node.span, format!("begin with one of {}", kinds.join(", "))),
         };
-        return report.refused(Code::MissingKey, span, format!("{what} has none of {}", kinds.join(", ")), help);
+        return report.refused(
+            Code::MissingKey,
+            span,
+            format!("{what} has none of {}", kinds.join(", ")),
+            help,
+        );
     };
     let keys = form.names();
     check_keys(report, entries, &keys, what);
@@ -436,7 +441,12 @@ fn line(
     names: &BTreeMap<String, usize>,
 ) -> Option<[usize; 2]> {
     let Value::Array(list) = &node.value else {
-        return report.not_a(node, &format!("`on` of {what}"), "a pair of joints", "write on = [\"P1\", \"P2\"]");
+        return report.not_a(
+            node,
+            &format!("`on` of {what}"),
+            "a pair of joints",
+            "write on = [\"P1\", \"P2\"]",
+        );
     };
     let [a, b] = list.as_slice() else {
         let message = format!("`on` of {what} names {} joints instead of two", list.len());

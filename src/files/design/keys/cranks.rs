@@ -191,7 +191,12 @@ pub(super) fn cranks(
     let Some(e) = table_entry else {
         let span = drive.map_or(0..0, |e| e.key_span.clone());
         let help = "add [cranks] with length, rod_length, axis, zero and elbow, and [cranks.NAME] for what is different at the base joint NAME";
-        return report.refused(Code::MissingKey, &span, "`drive` is \"rotary\", and [cranks] is missing", help);
+        return report.refused(
+            Code::MissingKey,
+            &span,
+            "`drive` is \"rotary\", and [cranks] is missing",
+            help,
+        );
     };
     let before = report.count();
     let entries = table(report, &e.node, "[cranks]")?;
@@ -300,7 +305,12 @@ fn copy(
     let (turn, mirror) = (find(entries, "turn"), find(entries, "mirror"));
     if let (Some(_), Some(second)) = (turn, mirror) {
         let message = format!("{what} is both turned and mirrored");
-        return report.refused(Code::ConflictingKeys, &span(second), message, "keep one of `turn` and `mirror`");
+        return report.refused(
+            Code::ConflictingKeys,
+            &span(second),
+            message,
+            "keep one of `turn` and `mirror`",
+        );
     }
     for (key, of) in [("deg", "turn"), ("plane", "mirror")] {
         let (own, first) = (find(entries, key), find(entries, of));
@@ -325,7 +335,12 @@ fn copy(
     let name = text(report, from)?;
     let Some(crank) = names.iter().position(|known| **known == name) else {
         let message = format!("{what} starts from `{}`, which is not a joint of the base", shown(&name));
-        return report.refused(Code::UnknownName, &from.node.span, message, nearest_help("known names", &name, names));
+        return report.refused(
+            Code::UnknownName,
+            &from.node.span,
+            message,
+            nearest_help("known names", &name, names),
+        );
     };
     if turn.is_some() {
         let e = find(entries, "deg")?;

@@ -276,9 +276,7 @@ fn manipulator(
             report.refused(Code::OutOfRange, root, InvalidManipulator::TooSmall.to_string(), advice)
         }
         // names, coordinates and pairs were checked before, so no other fault is possible
-        Err(other) => {
-            report.refused(Code::MissingJoint, root, other.to_string(), "check joints and legs")
-        }
+        Err(other) => report.refused(Code::MissingJoint, root, other.to_string(), "check joints and legs"),
     }
 }
 

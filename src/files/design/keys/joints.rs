@@ -209,7 +209,12 @@ fn pair(
     };
     let [Some(a), Some(b)] = ends.as_slice() else {
         let message = format!("leg {leg} is not a pair of joint names");
-        return report.refused(Code::LegShape, &node.span, message, "write [\"base joint\", \"platform joint\"]");
+        return report.refused(
+            Code::LegShape,
+            &node.span,
+            message,
+            "write [\"base joint\", \"platform joint\"]",
+        );
     };
     let a = lookup(report, leg, *a, base, platform);
     let b = lookup(report, leg, *b, platform, base);

@@ -148,9 +148,7 @@ fn pose_rotation<'a>(
     let given: Vec<&Entry> = entries.iter().filter(|e| POSE.names()[1..].contains(&e.key.as_str())).collect();
     match given.as_slice() {
         [one] => Some(*one),
-        [] => {
-            report.refused(Code::Rotation, &node.span, format!("{place} has no rotation"), ROTATION_HELP)
-        }
+        [] => report.refused(Code::Rotation, &node.span, format!("{place} has no rotation"), ROTATION_HELP),
         [_, second, ..] => {
             let message = format!("{place} gives its rotation more than once");
             report.refused(Code::Rotation, &second.key_span, message, ROTATION_HELP)
@@ -178,7 +176,12 @@ fn rotation(report: &mut Findings<'_>, entry: &Entry, place: &str) -> Option<Rot
             let q = Quaternion::new(w, x, y, z);
             if (q.norm() - 1.0).abs() > 1e-3 {
                 let message = format!("{what} has norm {}, not 1", q.norm());
-                return report.refused(Code::Rotation, &entry.node.span, message, "divide the quaternion by its norm");
+                return report.refused(
+                    Code::Rotation,
+                    &entry.node.span,
+                    message,
+                    "divide the quaternion by its norm",
+                );
             }
             Some(UnitQuaternion::from_quaternion(q).to_rotation_matrix())
         }

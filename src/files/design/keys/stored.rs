@@ -6,10 +6,7 @@ use serde_json::{Value as Json, json};
 use super::found::FoundKey;
 use super::optimize::WeighingMode;
 use crate::design::construction::Spelling;
-use crate::design::{
-    WrittenNumber,
-    construction::CoordinatePlane,
-};
+use crate::design::{WrittenNumber, construction::CoordinatePlane};
 use machine::requirements::{
     BoltsFrom, ForceUnit, HolePattern, JointType, KeptSymmetry, ListedFrom, MassUnit, Objective, PlateMass,
     Region, VariableKind,

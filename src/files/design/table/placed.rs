@@ -1,6 +1,6 @@
 //! Six legs from a model of a machine, with both ends in one frame and rounded coordinates.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3};
 
 use super::points::PointTable;
 use platform::geom::Pose;

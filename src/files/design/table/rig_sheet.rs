@@ -20,7 +20,6 @@ use thiserror::Error;
 use super::text::decode;
 use crate::design::{DesignModel, HexapodSizes};
 use machine::rotary::{Elbow, RotaryPlatform};
-use num::names::{UnknownName, named};
 
 num::words! {
     /// The program of a sheet; it determines which of `L3` and `L4` is the long side of the base.

@@ -280,7 +280,8 @@ fn home(out: &mut String, pose: &Pose) {
     let r = pose.rotation.matrix();
     let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
     let position = reals(pose.position.iter().copied());
-    let _ = writeln!(out, "const equipod_pose equipod_home = {{\n    {},\n    {position}\n}};", matrix(&rows));
+    let _ =
+        writeln!(out, "const equipod_pose equipod_home = {{\n    {},\n    {position}\n}};", matrix(&rows));
 }
 
 /// The leg offsets of a calibration.

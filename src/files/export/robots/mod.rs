@@ -10,14 +10,13 @@ pub(super) mod urdf;
 
 use std::fmt::Write as _;
 
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::masses::{ModelMasses, Solid};
 use super::model::{frame_along, seen_from};
 use super::text::xml_comment;
 use super::{Export, ExportBody, ExportLeg, Unsupported};
 use platform::geom::Pose;
-
 
 /// Colours of base, platform, cylinders and rods.
 const BASE_COLOUR: &str = "0.45 0.45 0.48 1";

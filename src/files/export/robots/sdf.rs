@@ -14,10 +14,9 @@ const ABOUT: &str = "The joints ball2 to ball6 close the loops: Gazebo Classic s
 /// The format `sdf`.
 pub(in crate::export) static WRITER: Writer = Writer {
     leaves_out: "contacts, friction, controllers of the drives, limits of speeds and joint angles",
-    ..Writer::new(
-        "Gazebo model in metres and kilograms, its loops closed by ball joints",
-        |export| Ok(vec![ExportedFile::new("platform.sdf", model(export)?)]),
-    )
+    ..Writer::new("Gazebo model in metres and kilograms, its loops closed by ball joints", |export| {
+        Ok(vec![ExportedFile::new("platform.sdf", model(export)?)])
+    })
 };
 
 fn pose(pose: &Pose) -> String {

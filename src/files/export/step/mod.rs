@@ -153,7 +153,12 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
     legs.sort_unstable_by_key(|(i, _)| *i);
     for (i, part) in legs {
         let of = &export.legs[i];
-        a.place(&mut whole, part, &format!("leg {}", of.number), &frame_along(&of.direction()?, of.foot.coords));
+        a.place(
+            &mut whole,
+            part,
+            &format!("leg {}", of.number),
+            &frame_along(&of.direction()?, of.foot.coords),
+        );
     }
     Ok(a.finish(&whole))
 }

@@ -15,20 +15,20 @@ use optimize::offsets::DEFAULT_MIN_ABS_DET;
 use platform::manipulator::Octahedral;
 use verify::VerifyError;
 
-/// A freedom that a design does not allow.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
 num::words! {
+    /// A freedom that a design does not allow.
+    #[derive(
+        Debug,
+        Clone,
+        Copy,
+        PartialEq,
+        Eq,
+        PartialOrd,
+        Ord,
+        serde::Serialize,
+        serde::Deserialize,
+        schemars::JsonSchema,
+    )]
     #[serde(rename_all = "snake_case")]
     #[schemars(rename = "Freedom")]
     pub enum ConflictFreedom: name, ALL {

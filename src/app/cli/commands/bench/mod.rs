@@ -4,12 +4,8 @@ mod noise;
 
 use clap::ValueEnum;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::OutputPath;
-use crate::app::cli::output::Answer;
 use crate::app::cli::commands::fk::MethodArg;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath};
 use ask::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
 use fk::{self, Homotopy};
 use records::{BenchAnswer, BenchClassRecord};

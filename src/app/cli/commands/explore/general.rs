@@ -6,10 +6,9 @@ use std::fmt::Write as _;
 use super::folder::{self, Folder};
 use super::{ExploreArgs, exit_of, text, verification};
 use crate::app::cli::commands::report::page;
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::ProgressLine;
+use crate::app::cli::{Context, Failure};
 use ask::exploring::NEAREST_EXTENSION;
 use ask::{Design, ExploreVerdict, ExploredDesign, MovedPlatform};
 use records::{

@@ -15,11 +15,9 @@ use clap::ValueEnum;
 
 use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::frames::FrameArgs;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Exit, Failure};
 use ask::design::parse_with_cranks;
 use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};

@@ -4,12 +4,8 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::{FrameArgs, note_frames};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use crate::app::cli::{poses, rows};
 use ::files::export::LengthUnit;
 use ask::{Design, MotionMasses, MotionReport, PlatformMotion, PoseFrames};

@@ -2,22 +2,17 @@
 
 mod history;
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::build::drives;
+use crate::app::cli::commands::fk::threads;
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::commands::{GENERAL, NEAREST};
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::Design;
 use ask::optimizing::{EXTENSION, SearchKind, dimensional_problem, hopeless_home};
 use ask::{ConflictFreedom, Error, OptimizeEvidence, OptimizeOptions, OptimizeReport, OptimizeStatus};
-use fk::Threads;
 use optimize::dimensional::InvalidProblem;
 use records::{OptimizeAnswer, OptimizeFiles};
 use sheet::Sheet;

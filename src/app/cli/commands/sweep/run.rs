@@ -8,16 +8,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::app::cli::context::Context;
 use crate::app::cli::diagnostic;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::OutputPath;
-use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine};
 use crate::app::cli::sweep_folder::{
     MOST_SHARDS, PartLook, ShardState, SweepFolder, SweepTexts, default_shards,
 };
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath};
 use fk::Threads;
 use num::{Cancel, Purpose};
 use records::{SweepColumnRecord, SweepEstimateAnswer, SweepRunAnswer};

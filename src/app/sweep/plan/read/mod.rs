@@ -9,8 +9,7 @@ mod tasks;
 use super::{BaseName, BasePlan, PlanFiles, PlanText, PoseChoice, SweepPlan};
 use ask::presets::Preset;
 use files::design::spanned::{
-    Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
-    text,
+    Entry, Findings, Node, Value, check_keys, find, nearest_help, number, read as read_tree, shown, text,
 };
 use files::design::{Code, Violation};
 use platform::geom::Pose;
@@ -99,14 +98,12 @@ fn base(root: &Node, entries: &[Entry], presets: &[Preset], report: &mut Finding
             }
             found.map(|p| BaseName::Preset(p.name, p.text))
         }
-        (Some(_), Some(preset)) => {
-            report.refused(
-                Code::ConflictingKeys,
-                &preset.key_span,
-                "`design` and `preset` both name the base design",
-                "keep one of them",
-            )
-        }
+        (Some(_), Some(preset)) => report.refused(
+            Code::ConflictingKeys,
+            &preset.key_span,
+            "`design` and `preset` both name the base design",
+            "keep one of them",
+        ),
         (None, None) => {
             missing(
                 report,
@@ -204,7 +201,12 @@ impl PlanReader<'_, '_> {
             }
             Value::Array(list) if list.len() > MOST_LISTED => {
                 let message = format!("{what} has {} elements", list.len());
-                self.report.refused(Code::TooComplex, &node.span, message, format!("list at most {MOST_LISTED}"))
+                self.report.refused(
+                    Code::TooComplex,
+                    &node.span,
+                    message,
+                    format!("list at most {MOST_LISTED}"),
+                )
             }
             Value::Array(list) => Some(list),
             _ => self.report.not_a(node, what, "an array", form),

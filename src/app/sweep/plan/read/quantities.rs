@@ -223,7 +223,12 @@ impl PlanReader<'_, '_> {
             match word.parse::<Pattern>() {
                 Ok(pattern) => words.push(named(&pattern)),
                 Err(why) => {
-                    return self.report.refused(Code::UnknownName, &node.span, format!("`{}`: {why}", shown(word)), FORM);
+                    return self.report.refused(
+                        Code::UnknownName,
+                        &node.span,
+                        format!("`{}`: {why}", shown(word)),
+                        FORM,
+                    );
                 }
             }
         }
@@ -255,7 +260,12 @@ impl PlanReader<'_, '_> {
                 Value::Text(word) if known.contains(&word.as_str()) => words.push(word.clone()),
                 Value::Text(word) => {
                     let message = format!("the table has no drive `{}`", shown(word));
-                    return self.report.refused(Code::UnknownName, &node.span, message, nearest_help("it has", word, &known));
+                    return self.report.refused(
+                        Code::UnknownName,
+                        &node.span,
+                        message,
+                        nearest_help("it has", word, &known),
+                    );
                 }
                 _ => return self.report.not_a(node, "a drive", "a string", FORM),
             }

@@ -22,7 +22,12 @@ impl PlanReader<'_, '_> {
             Value::Table(inner) => {
                 check_keys(self.report, inner, &["region"], "`poses`");
                 let Some(region) = find(inner, "region") else {
-                    return self.report.refused(Code::MissingKey, &entry.node.span, "`poses` says nothing", FORM);
+                    return self.report.refused(
+                        Code::MissingKey,
+                        &entry.node.span,
+                        "`poses` says nothing",
+                        FORM,
+                    );
                 };
                 self.whole(region, 1_000_000).map(|n| PoseChoice::Region(n as usize))
             }
@@ -80,14 +85,12 @@ impl PlanReader<'_, '_> {
             [position, rotation_deg] if position > 0.0 && rotation_deg > 0.0 => {
                 Some(ErrorBound { position, rotation_deg })
             }
-            _ => {
-                self.report.refused(
-                    Code::NotPositive,
-                    &entry.node.span,
-                    "`accuracy` is not two positive numbers",
-                    FORM,
-                )
-            }
+            _ => self.report.refused(
+                Code::NotPositive,
+                &entry.node.span,
+                "`accuracy` is not two positive numbers",
+                FORM,
+            ),
         }
     }
 }

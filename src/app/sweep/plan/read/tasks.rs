@@ -34,7 +34,9 @@ impl PlanReader<'_, '_> {
                 found.map(|t| t.1.clone())
             }
             Value::Table(inner) => self.field(node, inner).map(SweepTask::Field),
-            _ => self.report.not_a(node, "what is computed", "a word", format!("one of {}", words.join(", "))),
+            _ => {
+                self.report.not_a(node, "what is computed", "a word", format!("one of {}", words.join(", ")))
+            }
         }
     }
 
@@ -44,9 +46,7 @@ impl PlanReader<'_, '_> {
         let mut word = |key: &str, optional: bool| match find(inner, key) {
             Some(e) => text(self.report, e),
             None if optional => None,
-            None => {
-                self.report.refused(Code::MissingKey, &node.span, format!("`{key}` is missing"), FORM)
-            }
+            None => self.report.refused(Code::MissingKey, &node.span, format!("`{key}` is missing"), FORM),
         };
         let (column, field) = (word("column", false), word("field", false));
         let (kind, unit) = (word("as", true), word("unit", true));

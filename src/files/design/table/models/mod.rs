@@ -90,7 +90,8 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     let home = home(&model, format, found.platform, &mut guesses)?;
     let unit = unit(&document, format, &mut guesses)?;
     guesses.extend(model.guesses);
-    let placed = PlacedLegs { ends: found.ends, home: home.unwrap_or_else(identity), tolerance: SAME_POINT };
+    let placed =
+        PlacedLegs { ends: found.ends, home: home.unwrap_or_else(Pose::identity), tolerance: SAME_POINT };
     let table = placed.table(&unit, guesses);
     let mut table = table.ok_or("the coordinates of the joints overflow")?;
     if home.is_none() {

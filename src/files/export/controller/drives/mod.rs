@@ -9,7 +9,10 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use super::vectors::{list, moved, pose_numbers, row};
-use super::{ConeAxes, ExportedFile, OwnLibrary, braces, heading, home, leg_offsets, legs, limits, number, points, reals};
+use super::{
+    ConeAxes, ExportedFile, OwnLibrary, braces, heading, home, leg_offsets, legs, limits, number, points,
+    reals,
+};
 use crate::export::Export;
 use fk::NearOptions;
 use machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};

@@ -7,11 +7,7 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
 use ask::Design;
 use ask::bench::{Class, LengthsFrom, Planar, problem};
