@@ -268,7 +268,7 @@ fn markdown(r: &ExploreGeneralAnswer, design: &Design, repeat: &str) -> String {
 }
 
 /// The text with its first letter a capital.
-fn capital(text: &str) -> String {
+pub(super) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters
         .next()

@@ -235,16 +235,7 @@ fn estimate(sweep: &Sweep, threads: usize, shards: Option<u64>) -> Answer {
         seconds_each: each.into(),
         threads,
         seconds: seconds.into(),
-        columns: sweep
-            .columns
-            .iter()
-            .map(|c| SweepColumnRecord {
-                name: c.name.clone(),
-                kind: c.kind.name().into(),
-                unit: c.unit.clone(),
-                meaning: c.meaning.clone(),
-            })
-            .collect(),
+        columns: sweep.columns.iter().map(SweepColumnRecord::from).collect(),
     };
     let mut text = format!(
         "{}: {} candidates in {} shards, {:.3} ms each, about {} on {threads} thread{}\n{} of {} candidates of the sample are kept, {} have an error\n\n",
