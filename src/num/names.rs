@@ -39,10 +39,29 @@ pub fn named<T: Copy>(
     })
 }
 
-/// An enumeration of words: each variant stands beside its word in files and answers.
+/// Gives the choices of an enum the words that people write for them, each beside its choice.
 ///
-/// `pub enum Name as function { Variant = "word", .. }` defines the enumeration, `ALL` with the variants in this order,
-/// and `function`, which gives the word. After `as function | other` each variant has two words.
+/// After the name of the enum stands a list of what it gets: `name`, the word of a choice, or `word(code)` if the method
+/// has another name; `ALL`, every choice in order, or `BOTH` of two; `Display` by the name; `FromStr("what")`, which finds
+/// the choice of a name by [`named`].
+///
+/// `Name as function` is short for `Name: word(function), ALL`; after `as function | other` each choice has two words.
+///
+/// # Examples
+/// ```
+/// equipod_num::words! {
+///     /// A side of a plane.
+///     #[derive(Debug, Clone, Copy, PartialEq)]
+///     pub enum Side: name, BOTH, Display, FromStr("side") {
+///         /// Above it.
+///         Above = "above",
+///         /// Below it.
+///         Below = "below",
+///     }
+/// }
+/// assert_eq!(Side::BOTH.map(Side::name), ["above", "below"]);
+/// assert_eq!("Above".parse(), Ok(Side::Above));
+/// ```
 #[macro_export]
 macro_rules! words {
     (
@@ -51,21 +70,10 @@ macro_rules! words {
             $($(#[$about:meta])* $variant:ident = $word:tt),+ $(,)?
         }
     ) => {
-        $(#[$meta])*
-        $visibility enum $name {
-            $($(#[$about])* $variant),+
-        }
-
-        impl $name {
-            /// All of them, in the order of their definition.
-            pub const ALL: [Self; [$(stringify!($variant)),+].len()] = [$(Self::$variant),+];
-
-            /// The word in files and answers.
-            #[must_use]
-            pub fn $function(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $word),+
-                }
+        $crate::words! {
+            $(#[$meta])*
+            $visibility enum $name: word($function), ALL {
+                $($(#[$about])* $variant = $word),+
             }
         }
     };
@@ -77,7 +85,7 @@ macro_rules! words {
     ) => {
         $crate::words! {
             $(#[$meta])*
-            $visibility enum $name as $function {
+            $visibility enum $name: word($function), ALL {
                 $($(#[$about])* $variant = $word),+
             }
         }
@@ -92,6 +100,99 @@ macro_rules! words {
             }
         }
     };
+    (
+        $(#[$about:meta])*
+        $vis:vis enum $kind:ident: $($made:ident $(($what:tt))?),+ {
+            $($(#[$of:meta])* $choice:ident = $word:literal),+ $(,)?
+        }
+    ) => {
+        $(#[$about])*
+        $vis enum $kind {
+            $($(#[$of])* $choice),+
+        }
+
+        $crate::words!(@each [$($made $(($what))?),+] $vis $kind [$($choice = $word),+]);
+    };
+    (@each [$($made:ident $(($what:tt))?),+] $vis:vis $kind:ident $words:tt) => {
+        $($crate::words!(@$made $(($what))? $vis $kind $words);)+
+    };
+    (@name $vis:vis $kind:ident $words:tt) => {
+        $crate::words!(@word(name) $vis $kind $words);
+    };
+    (@word($method:ident) $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl $kind {
+            /// The word of the choice, as files and answers write it.
+            #[must_use]
+            $vis fn $method(self) -> &'static str {
+                match self {
+                    $(Self::$choice => $word),+
+                }
+            }
+        }
+    };
+    (@ALL $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl $kind {
+            /// Every choice, in order.
+            $vis const ALL: [Self; [$($word),+].len()] = [$(Self::$choice),+];
+        }
+    };
+    (@BOTH $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl $kind {
+            /// Both choices, in order.
+            $vis const BOTH: [Self; 2] = [$(Self::$choice),+];
+        }
+    };
+    (@Display $vis:vis $kind:ident $words:tt) => {
+        impl std::fmt::Display for $kind {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+    (@FromStr($what:literal) $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
+        impl std::str::FromStr for $kind {
+            type Err = $crate::names::UnknownName;
+
+            fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
+                $crate::names::named($what, text, &[$(Self::$choice),+], Self::name)
+            }
+        }
+    };
+}
+
+/// Writes methods that set one field of a value and return it, such as the options of a question.
+///
+/// The field has the name of its method, or the name that stands before `=`.
+///
+/// # Examples
+/// ```
+/// #[derive(Debug, Default)]
+/// struct Options {
+///     seed: u64,
+///     gap: Option<f64>,
+/// }
+/// impl Options {
+///     equipod_num::setters! {
+///         /// The seed of the random numbers.
+///         fn seed(seed: u64) = seed;
+///         /// The gap at which the search ends.
+///         fn gap(gap: f64) = Some(gap);
+///     }
+/// }
+/// assert_eq!(Options::default().seed(3).gap(0.1).gap, Some(0.1));
+/// ```
+#[macro_export]
+macro_rules! setters {
+    ($($(#[$about:meta])* fn $set:ident($given:ident: $kind:ty) $($field:ident)? = $value:expr;)+) => {$(
+        $(#[$about])*
+        #[must_use]
+        pub fn $set(mut self, $given: $kind) -> Self {
+            $crate::setters!(@field self $set $($field)?) = $value;
+            self
+        }
+    )+};
+    (@field $options:ident $set:ident) => { $options.$set };
+    (@field $options:ident $set:ident $field:ident) => { $options.$field };
 }
 
 /// `Display` by a function that gives the words.

@@ -184,18 +184,11 @@ impl Solver {
         }
     }
 
-    /// Sets the number of threads of [`solve_all`](Self::solve_all); by default one for each processor.
-    #[must_use]
-    pub fn threads(mut self, threads: Threads) -> Self {
-        self.threads = threads;
-        self
-    }
-
-    /// Sets the cancellation of [`solve_all`](Self::solve_all).
-    #[must_use]
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.cancel = cancel.clone();
-        self
+    num::setters! {
+        /// Sets the number of threads of [`solve_all`](Self::solve_all); by default one for each processor.
+        fn threads(threads: Threads) = threads;
+        /// Sets the cancellation of [`solve_all`](Self::solve_all).
+        fn cancel(cancel: &Cancel) = cancel.clone();
     }
 
     /// All finite poses at these lengths.

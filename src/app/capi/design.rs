@@ -9,7 +9,7 @@ use super::pose::EqpPose;
 use ask::Error;
 use ask::design::parse;
 use ask::{Design, PoseFrames};
-use files::design::Format;
+use files::design::{Format, parse_frames};
 use machine::requirements::Requirements;
 use platform::geom::PoseConvention;
 use platform::manipulator::{Leg, Manipulator, jacobian};
@@ -45,22 +45,25 @@ impl EqpDesign {
 
     /// The design with the keys of a `[frames]` table in place of its own.
     fn with_frames(&self, keys: &str) -> Result<Self, CallFault> {
-        let mut plain = self.design.clone();
-        plain.frames = PoseConvention::default();
-        let text = format!("{}\n[frames]\n{keys}", plain.to_toml());
-        let (read, _) =
-            parse(&text, Format::Toml).map_err(|violations| Error::Design { file: None, violations })?;
-        plain.frames = read.frames;
-        Ok(Self::new(plain))
+        let mut design = self.design.clone();
+        design.frames = parse_frames(keys).map_err(|violations| Error::Design { file: None, violations })?;
+        Ok(Self::new(design))
     }
 }
 
 /// # Safety
 /// `text` points to `length` bytes.
-unsafe fn parsed(text: *const c_char, length: usize, format: Format) -> Result<EqpDesign, CallFault> {
+unsafe fn utf8<'a>(text: *const c_char, length: usize) -> Result<&'a str, CallFault> {
     // SAFETY: the caller's promise; a byte is a byte.
     let bytes = unsafe { items(text.cast::<u8>(), length, "text") }?;
-    let text = std::str::from_utf8(bytes).map_err(|e| CallFault::new(EqpStatus::BadText, e.to_string()))?;
+    std::str::from_utf8(bytes).map_err(|e| CallFault::new(EqpStatus::BadText, e.to_string()))
+}
+
+/// # Safety
+/// `text` points to `length` bytes.
+unsafe fn parsed(text: *const c_char, length: usize, format: Format) -> Result<EqpDesign, CallFault> {
+    // SAFETY: the caller's promise.
+    let text = unsafe { utf8(text, length) }?;
     let (design, _) = parse(text, format).map_err(|violations| Error::Design { file: None, violations })?;
     Ok(EqpDesign::new(design))
 }
@@ -161,14 +164,7 @@ pub unsafe extern "C" fn eqp_design_with_frames(
     error: *mut EqpError,
 ) -> EqpStatus {
     // SAFETY: the caller's promises, here and in the body.
-    unsafe {
-        told(error, || {
-            let bytes = items(text.cast::<u8>(), length, "text")?;
-            let keys =
-                std::str::from_utf8(bytes).map_err(|e| CallFault::new(EqpStatus::BadText, e.to_string()))?;
-            give(read(design, "design")?.with_frames(keys)?, with, "with")
-        })
-    }
+    unsafe { told(error, || give(read(design, "design")?.with_frames(utf8(text, length)?)?, with, "with")) }
 }
 
 /// Frees a design; null is ignored. Objects made from it stay valid.

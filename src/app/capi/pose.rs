@@ -131,12 +131,12 @@ pub unsafe extern "C" fn eqp_pose_numbers(
     unsafe {
         told(error, || {
             let frames = read(design, "design")?.frames();
-            let pose = read(pose, "pose")?.checked()?;
+            let written = frames.write(&read(pose, "pose")?.checked()?);
             let numbers = write(numbers.cast::<[f64; 6]>(), "numbers")?;
             if let Some(to) = quaternion.cast::<[f64; 4]>().as_mut() {
-                *to = frames.write(&pose).quaternion;
+                *to = written.quaternion;
             }
-            *numbers = frames.numbers(&pose);
+            *numbers = written.numbers();
             Ok(())
         })
     }

@@ -141,8 +141,8 @@ impl Second {
             std::mem::swap(&mut base, &mut platform);
         }
         let moved = |pose: &Pose| {
-            let pose = if self.exchange { inverse(pose) } else { *pose };
-            motion.map_or(pose, |(g, h)| after(g, &after(&pose, &inverse(h))))
+            let pose = if self.exchange { pose.inverse() } else { *pose };
+            motion.map_or(pose, |(g, h)| g.compose(&pose.compose(&h.inverse())))
         };
         let mut design = DesignModel::new(format!("{}, moved", b.name), &b.units, self.manipulator.clone())
             .with_joint_names(base, platform)
@@ -169,32 +169,5 @@ impl Second {
     /// One sentence on the alignment, if it was requested.
     pub(crate) fn explanation(&self) -> Option<String> {
         self.aligned.as_ref().map(|a| a.given.explanation())
-    }
-}
-
-fn inverse(pose: &Pose) -> Pose {
-    let rotation = pose.rotation.inverse();
-    Pose { rotation, position: -(rotation * pose.position) }
-}
-
-/// First `y`, then `x`.
-fn after(x: &Pose, y: &Pose) -> Pose {
-    Pose { rotation: x.rotation * y.rotation, position: x.rotation * y.position + x.position }
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::{Rotation3, Vector3};
-
-    use super::*;
-
-    #[test]
-    fn poses_compose_and_invert() {
-        let x = Pose {
-            rotation: Rotation3::new(Vector3::new(0.1, 0.7, -0.3)),
-            position: Vector3::new(1.0, 2.0, 3.0),
-        };
-        let none = after(&x, &inverse(&x));
-        assert!(none.position.norm() < 1e-14 && none.rotation.angle() < 1e-7);
     }
 }

@@ -39,7 +39,8 @@ use self::args::Cli;
 use self::context::Context;
 use self::exit::Exit;
 use self::failure::Failure;
-use self::output::Output;
+use self::files::OutputPath;
+use self::output::{Answer, Output};
 pub use self::streams::Stop;
 use num::rounding::check_arithmetic;
 

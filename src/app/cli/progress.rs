@@ -5,7 +5,6 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
 use super::streams::{self, Errors, Stop};
-use ask::optimizing::ends_of;
 
 /// On a terminal one changing line; elsewhere one line every ten seconds, so that short runs write none.
 #[derive(Debug)]
@@ -136,7 +135,7 @@ impl Drop for Ticker {
 
 /// A time after which a search ends, positive seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct TimeLimit(Duration);
+pub(crate) struct TimeLimit(pub(crate) Duration);
 
 impl std::str::FromStr for TimeLimit {
     type Err = String;
@@ -148,33 +147,20 @@ impl std::str::FromStr for TimeLimit {
     }
 }
 
-/// Stops a search on Ctrl-C, on a request to terminate, or at a time limit; the search then shows its result so far.
+/// Stops a search on Ctrl-C or on a request to terminate; the search then shows its result so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Interrupt {
     stop: Arc<Stop>,
-    /// The end of the search, and the end of the assessment of its result.
-    ends: Option<[Instant; 2]>,
 }
 
 impl Interrupt {
     /// Watches for the stop of the caller from now on, or for Ctrl-C. If Ctrl-C cannot be handled, it ends the process.
     pub(crate) fn watch() -> Self {
-        Self::watch_for(None)
-    }
-
-    /// The same with a time limit for everything: the search ends earlier, so that its result can be assessed.
-    pub(crate) fn watch_for(limit: Option<TimeLimit>) -> Self {
-        Self { stop: streams::heeded_stop(), ends: limit.and_then(|TimeLimit(time)| ends_of(time)) }
-    }
-
-    /// The time at which the assessment of a result ends.
-    pub(crate) fn until(&self) -> Option<Instant> {
-        self.ends.map(|[_, judging]| judging)
+        Self { stop: streams::heeded_stop() }
     }
 
     /// Whether the search shall continue.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
-        let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
-        if late || self.stop.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if self.stop.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

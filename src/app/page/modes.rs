@@ -171,7 +171,7 @@ fn mode(asked: &InputsOfPoses, design: &Design, frames: &PoseFrames, root: &FkRo
     let turn = turn_between(&frames.home.rotation, &real.rotation).norm();
     ModeRecord {
         pose: (&real).into(),
-        written: frames.numbers(&real),
+        written: frames.write(&real).numbers(),
         turn_deg: turn.to_degrees(),
         sign: sign(&j),
         inverse_condition: inverse_condition(&j),

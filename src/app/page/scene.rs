@@ -140,7 +140,7 @@ pub(super) fn record(
     let requirements = Sheet::from(requirements_table(limits, &here)).html();
     Ok(SceneRecord {
         pose: at.into(),
-        written: session.frames().numbers(at),
+        written: session.frames().write(at).numbers(),
         platforms,
         map,
         requirements: sheet::shown(&requirements),

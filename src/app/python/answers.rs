@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
 
+use super::arrays::{LegMapArrays, leg_map_arrays};
 use super::design::{NativeDesign, OF_LEG_MAPS, threads_of};
 use super::failure::{interrupted, raised};
 use ask::Design;
@@ -40,20 +40,15 @@ pub(super) fn sheet_html(document: &str) -> PyResult<String> {
 
 /// `A` and `c` of the affine map of squared leg lengths, and the answer of `equipod equivalents map`.
 #[pyfunction]
-#[allow(clippy::type_complexity)]
 pub(super) fn leg_map<'py>(
     py: Python<'py>,
     from_: &NativeDesign,
     to: &NativeDesign,
-) -> PyResult<(Option<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)>, String)> {
+) -> PyResult<(Option<LegMapArrays<'py>>, String)> {
     [from_, to].into_iter().try_for_each(|design| design.only_of_legs(py, OF_LEG_MAPS))?;
     let (a, b) = (from_.inner(), to.inner());
     let found = py.detach(|| ask::leg_map(a, b)).map_err(|e| raised(py, e))?;
-    let map = found.map().map(|map| {
-        let a = ndarray::Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]);
-        let c = ndarray::Array1::from_iter(map.c.iter().copied());
-        (a.into_pyarray(py), c.into_pyarray(py))
-    });
+    let map = found.map().map(|map| leg_map_arrays(py, map));
     let correspondence = (&LegCorrespondence::between(a.manipulator(), b.manipulator())).into();
     let answer =
         MapAnswer { map: (&found).into(), correspondence, lengths: None, frames: FramesRecord::default() };

@@ -1,16 +1,19 @@
 //! Conversions between numpy arrays and poses or lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths are rows of
 //! six; the first axis counts.
 
-use nalgebra::Matrix4;
+use nalgebra::{Matrix3, Matrix4, Vector3};
 use ndarray::{Array, Array3, ArrayView2, ArrayView3, Dimension, StrideShape};
 use num_complex::Complex64;
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use super::failure::{raised, refused};
 use ask::Error;
 use platform::geom::{ComplexPose, InvalidPose, Pose};
+use synthesis::AffineLegMap;
 
 /// The reason why a computation at many poses ended: an invalid matrix, or an error of the computation.
 pub(super) enum PoseFault {
@@ -88,19 +91,20 @@ pub(super) fn lengths_in(py: Python<'_>, lengths: &ArrayView2<'_, f64>) -> PyRes
     Ok(lengths.rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect())
 }
 
+/// An entry of the 4 x 4 matrix of a pose.
+pub(super) fn entry<T: From<f64> + Copy>(r: &Matrix3<T>, p: &Vector3<T>, (i, j): (usize, usize)) -> T {
+    match (i, j) {
+        (3, 3) => 1.0.into(),
+        (3, _) => 0.0.into(),
+        (_, 3) => p[i],
+        _ => r[(i, j)],
+    }
+}
+
 /// The matrices of real poses.
 pub(super) fn matrices(poses: &[Pose]) -> Array3<f64> {
-    let mut out = Array3::zeros((poses.len(), 4, 4));
-    for (k, pose) in poses.iter().enumerate() {
-        for i in 0..3 {
-            for j in 0..3 {
-                out[[k, i, j]] = pose.rotation.matrix()[(i, j)];
-            }
-            out[[k, i, 3]] = pose.position[i];
-        }
-        out[[k, 3, 3]] = 1.0;
-    }
-    out
+    let of = |(k, i, j): (usize, usize, usize)| entry(poses[k].rotation.matrix(), &poses[k].position, (i, j));
+    Array3::from_shape_fn((poses.len(), 4, 4), of)
 }
 
 /// The rotation matrices of poses, shape (n, 3, 3).
@@ -109,18 +113,16 @@ pub(super) fn rotations(poses: &[Pose]) -> Array3<f64> {
 }
 
 /// The matrices of complex poses.
-pub(super) fn complex_matrices<'a>(
-    poses: impl ExactSizeIterator<Item = &'a ComplexPose>,
-) -> Array3<Complex64> {
-    let mut out = Array3::zeros((poses.len(), 4, 4));
-    for (k, pose) in poses.enumerate() {
-        for i in 0..3 {
-            for j in 0..3 {
-                out[[k, i, j]] = pose.rotation[(i, j)];
-            }
-            out[[k, i, 3]] = pose.position[i];
-        }
-        out[[k, 3, 3]] = Complex64::ONE;
-    }
-    out
+pub(super) fn complex_matrices(poses: &[&ComplexPose]) -> Array3<Complex64> {
+    let of = |(k, i, j): (usize, usize, usize)| entry(&poses[k].rotation, &poses[k].position, (i, j));
+    Array3::from_shape_fn((poses.len(), 4, 4), of)
+}
+
+/// The matrix and the constants of a leg map.
+pub(super) type LegMapArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
+
+pub(super) fn leg_map_arrays<'py>(py: Python<'py>, map: &AffineLegMap) -> LegMapArrays<'py> {
+    let a = Array::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]);
+    let c = Array::from_iter(map.c.iter().copied());
+    (a.into_pyarray(py), c.into_pyarray(py))
 }

@@ -9,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray2, PyRea
 use pyo3::prelude::*;
 
 use super::answers::document;
-use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
+use super::arrays::{leg_map_arrays, as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::forms::{ConventionWords, words_of};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
@@ -508,8 +508,7 @@ impl NativeDesign {
             class.build_at(&pattern.unwrap_or(SEPARATE_JOINTS).parse()?, &offsets)
         };
         let (design, map) = py.detach(built).map_err(|e| raised(py, e))?;
-        let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);
-        let c = ndarray::Array1::from_iter(map.c.iter().copied()).into_pyarray(py);
+        let (a, c) = leg_map_arrays(py, &map);
         Ok((Self::of(design), a, c))
     }
 

@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray3};
 use pyo3::prelude::*;
 
 use super::answers::{as_json, document};
-use super::arrays::{complex_matrices, shaped};
+use super::arrays::{complex_matrices, entry, shaped};
 use super::failure::{raised, refused_for_cranks};
 use ask::Design;
 use ask::Error;
@@ -66,7 +66,7 @@ impl NativeSolutions {
 
     /// Poses, complex128, shape (n, 4, 4).
     fn transforms<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<Complex64>> {
-        complex_matrices(self.found.roots.iter().map(|r| &r.pose)).into_pyarray(py)
+        complex_matrices(&self.found.roots.iter().map(|r| &r.pose).collect::<Vec<_>>()).into_pyarray(py)
     }
 
     /// Code of reality: 1 real, 0 not real, -1 undecided; int8, shape (n,).
@@ -277,14 +277,7 @@ impl SolutionColumns {
 
     fn push_root(&mut self, root: &FkRoot) {
         let (r, p) = (&root.pose.rotation, &root.pose.position);
-        let mut matrix = [Complex64::ZERO; 16];
-        for i in 0..3 {
-            for j in 0..3 {
-                matrix[4 * i + j] = r[(i, j)];
-            }
-            matrix[4 * i + 3] = p[i];
-        }
-        matrix[15] = Complex64::ONE;
+        let matrix: [Complex64; 16] = std::array::from_fn(|k| entry(r, p, (k / 4, k % 4)));
         if self.real_only {
             self.real_transforms.extend(matrix.map(|z| z.re));
         } else {

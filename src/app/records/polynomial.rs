@@ -68,16 +68,31 @@ impl PolynomialRecord {
     /// A polynomial with integer coefficients in one unknown, with its real roots if they are already known.
     fn of_integers(unknown: String, p: &IntPoly, distinct: usize, roots: &[EnclosedRoot]) -> Self {
         Self {
-            unknowns: vec![unknown],
-            degree_before: p.degree().unwrap_or(0),
-            degree: p.degree(),
-            removed: Vec::new(),
             distinct_roots: Some(distinct),
-            coefficients_known: CoefficientsWord::Integers,
-            exponents: (0..p.coefficients().len()).map(|k| vec![k]).collect(),
             coefficients: p.coefficients().iter().map(ToString::to_string).collect(),
-            coefficient_bounds: None,
             real_roots_by_sturm: p.degree().map(|_| sturm_count_of_line(p)),
+            ..Self::in_one_unknown(unknown, p.degree(), CoefficientsWord::Integers, roots)
+        }
+    }
+
+    /// A polynomial in one unknown, of which nothing is removed and no coefficients are listed.
+    fn in_one_unknown(
+        unknown: String,
+        degree: Option<usize>,
+        coefficients_known: CoefficientsWord,
+        roots: &[EnclosedRoot],
+    ) -> Self {
+        Self {
+            unknowns: vec![unknown],
+            degree_before: degree.unwrap_or(0),
+            degree,
+            removed: Vec::new(),
+            distinct_roots: degree,
+            coefficients_known,
+            exponents: degree.into_iter().flat_map(|n| 0..=n).map(|k| vec![k]).collect(),
+            coefficients: Vec::new(),
+            coefficient_bounds: None,
+            real_roots_by_sturm: None,
             real_roots: roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
             real_root_multiplicities: roots.iter().map(|r| r.multiplicity).collect(),
         }
@@ -108,19 +123,9 @@ impl PolynomialRecord {
     pub(crate) fn of_poses(unknown: String, p: &PosePolynomial) -> Self {
         let degree = p.coefficients.len().saturating_sub(1);
         Self {
-            unknowns: vec![unknown],
-            degree_before: degree,
-            degree: Some(degree),
-            removed: Vec::new(),
-            // the discs of the roots are disjoint
-            distinct_roots: Some(degree),
-            coefficients_known: CoefficientsWord::Enclosed,
-            exponents: (0..=degree).map(|k| vec![k]).collect(),
-            coefficients: Vec::new(),
             coefficient_bounds: Some(p.coefficients.iter().map(|c| [c.lo(), c.hi()].map(Number)).collect()),
-            real_roots_by_sturm: None,
-            real_roots: p.real_roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
-            real_root_multiplicities: p.real_roots.iter().map(|r| r.multiplicity).collect(),
+            // the discs of the roots are disjoint, so that all roots are distinct
+            ..Self::in_one_unknown(unknown, Some(degree), CoefficientsWord::Enclosed, &p.real_roots)
         }
     }
 

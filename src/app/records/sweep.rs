@@ -127,7 +127,7 @@ pub struct SweepEstimateAnswer {
 }
 
 /// A column of the table.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepColumnRecord {
     /// The name of the column.
     pub name: String,

@@ -122,11 +122,11 @@ pub struct TopologyRecord {
 
 /// The computed properties of a topology.
 #[derive(Debug)]
-pub struct TopologyFindings<'a> {
+pub struct TopologyFindings {
     /// The topology.
     pub named: NamedTopology,
     /// The sequence of trilaterations that gives its poses.
-    pub sequence: &'a Sequence,
+    pub sequence: Sequence,
     /// Whether the position of some joint is found before the others.
     pub decoupled: bool,
     /// Number of finite poses of random members.
@@ -134,11 +134,11 @@ pub struct TopologyFindings<'a> {
     /// Whether this number is proved.
     pub proved: bool,
     /// The closure degrees of a random member, for at most one virtual leg.
-    pub closure: Option<&'a ClosureDegrees>,
+    pub closure: Option<ClosureDegrees>,
 }
 
-impl From<&TopologyFindings<'_>> for TopologyRecord {
-    fn from(f: &TopologyFindings<'_>) -> Self {
+impl From<&TopologyFindings> for TopologyRecord {
+    fn from(f: &TopologyFindings) -> Self {
         let t = f.named.topology();
         Self {
             id: f.named.id(),
@@ -154,9 +154,9 @@ impl From<&TopologyFindings<'_>> for TopologyRecord {
             sequence: f.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, joint_name)).collect(),
             finite_roots: f.poses,
             finite_roots_proved: f.proved,
-            closure_degree: f.closure.map(|c| c.after),
-            closure_degree_before: f.closure.map(|c| c.before),
-            closure_distinct_roots: f.closure.map(|c| c.distinct),
+            closure_degree: f.closure.as_ref().map(|c| c.after),
+            closure_degree_before: f.closure.as_ref().map(|c| c.before),
+            closure_distinct_roots: f.closure.as_ref().map(|c| c.distinct),
         }
     }
 }

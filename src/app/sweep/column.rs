@@ -3,31 +3,18 @@
 /// The first column: the numbers of the candidates.
 pub(crate) const CANDIDATE: &str = "candidate";
 
-/// The type of the cells of a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColumnKind {
-    /// Doubles.
-    Number,
-    /// Integers of 64 bits.
-    Integer,
-    /// Truth values.
-    Truth,
-    /// Texts.
-    Text,
-}
-
-impl ColumnKind {
-    /// All kinds.
-    pub(crate) const ALL: [Self; 4] = [Self::Number, Self::Integer, Self::Truth, Self::Text];
-
-    /// The word in plans.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Number => "number",
-            Self::Integer => "integer",
-            Self::Truth => "truth",
-            Self::Text => "text",
-        }
+num::words! {
+    /// The type of the cells of a column.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum ColumnKind: name, ALL {
+        /// Doubles.
+        Number = "number",
+        /// Integers of 64 bits.
+        Integer = "integer",
+        /// Truth values.
+        Truth = "truth",
+        /// Texts.
+        Text = "text",
     }
 }
 

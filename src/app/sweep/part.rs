@@ -13,12 +13,12 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::column::{CANDIDATE, ColumnKind, SweepCell, SweepColumn};
 use super::rows::SweepRow;
 use num::Purpose;
+use records::SweepColumnRecord;
 
 /// Number of rows collected before they are written.
 const ROWS: usize = 1 << 14;
@@ -55,31 +55,22 @@ impl PartError {
     }
 }
 
-/// The description of a column in the file.
-#[derive(Debug, Serialize, Deserialize)]
-struct DescribedColumn {
-    name: String,
-    kind: String,
-    unit: Option<String>,
-    meaning: String,
+impl From<&SweepColumn> for SweepColumnRecord {
+    fn from(c: &SweepColumn) -> Self {
+        let (name, kind) = (c.name.clone(), c.kind.name().into());
+        Self { name, kind, unit: c.unit.clone(), meaning: c.meaning.clone() }
+    }
 }
 
+/// The description of the columns in the file.
 fn described(columns: &[SweepColumn]) -> String {
-    let all: Vec<DescribedColumn> = columns
-        .iter()
-        .map(|c| DescribedColumn {
-            name: c.name.clone(),
-            kind: c.kind.name().into(),
-            unit: c.unit.clone(),
-            meaning: c.meaning.clone(),
-        })
-        .collect();
+    let all: Vec<SweepColumnRecord> = columns.iter().map(SweepColumnRecord::from).collect();
     serde_json::to_string(&all).unwrap_or_default()
 }
 
 fn columns_from(text: &str) -> Option<Vec<SweepColumn>> {
-    let all: Vec<DescribedColumn> = serde_json::from_str(text).ok()?;
-    let column = |c: DescribedColumn| {
+    let all: Vec<SweepColumnRecord> = serde_json::from_str(text).ok()?;
+    let column = |c: SweepColumnRecord| {
         let kind = ColumnKind::ALL.into_iter().find(|k| k.name() == c.kind)?;
         Some(SweepColumn { name: c.name, kind, unit: c.unit, meaning: c.meaning })
     };

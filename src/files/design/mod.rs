@@ -51,16 +51,18 @@ pub use table::{
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 
-use num::names::{UnknownName, named};
+use platform::geom::PoseConvention;
 
-/// The two notations of the same structure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Format {
-    /// TOML 1.
-    Toml,
-    /// JSON as in RFC 8259: no comments, no trailing commas.
-    Json,
+num::words! {
+    /// The two notations of the same structure.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Format: name, Display, FromStr("notation") {
+        /// TOML 1.
+        Toml = "toml",
+        /// JSON as in RFC 8259: no comments, no trailing commas.
+        Json = "json",
+    }
 }
 
 impl Format {
@@ -71,29 +73,6 @@ impl Format {
             Some(ext) if ext.eq_ignore_ascii_case("json") => Self::Json,
             _ => Self::Toml,
         }
-    }
-
-    /// The name: `"toml"` or `"json"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Toml => "toml",
-            Self::Json => "json",
-        }
-    }
-}
-
-impl std::fmt::Display for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl std::str::FromStr for Format {
-    type Err = UnknownName;
-
-    fn from_str(text: &str) -> Result<Self, UnknownName> {
-        named("notation", text, &[Self::Toml, Self::Json], Self::name)
     }
 }
 
@@ -141,6 +120,17 @@ pub fn parse_ideal(text: &str, format: Format) -> Result<(DesignModel, Vec<Warni
         }
         read => read,
     }
+}
+
+/// Reads the keys of a `[frames]` table (TOML), for poses in another convention than that of the design.
+///
+/// # Errors
+/// All violations found.
+pub fn parse_frames(text: &str) -> Result<PoseConvention, Vec<Violation>> {
+    let mut report = violation::Findings::new(text);
+    let root = tree::read(text, Format::Toml, &mut report);
+    let convention = root.map(|root| keys::frames(&root, &mut report));
+    convention.filter(|_| report.is_clean()).ok_or_else(|| report.into_violations())
 }
 
 fn read(

@@ -2,132 +2,84 @@
 
 use std::fmt;
 
-use super::tree::Span;
+use super::tree::{Node, Span};
 use platform::manipulator::Body;
 
-/// The kind of a violation; the name in [`Code::name`] is stable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum Code {
-    /// The text is not TOML or not JSON.
-    Syntax,
-    /// The file is empty.
-    Empty,
-    /// A key occurs twice in one table.
-    DuplicateKey,
-    /// Values are nested deeper than any design needs.
-    NestingTooDeep,
-    /// A key that no version of the format has.
-    UnknownKey,
-    /// A required key is absent.
-    MissingKey,
-    /// A value of another kind than the key requires.
-    WrongType,
-    /// A name, unit or joint name without a character.
-    EmptyName,
-    /// A text with characters that change the direction of text.
-    TextDirection,
-    /// A point or vector with other than three coordinates.
-    CoordinateCount,
-    /// NaN or infinite.
-    NonFinite,
-    /// The number or its square is outside the range of doubles.
-    OutOfRange,
-    /// Other than six legs.
-    LegCount,
-    /// A leg that is not a pair of joint names.
-    LegShape,
-    /// A leg names a joint that does not exist.
-    MissingJoint,
-    /// Two legs join the same pair of joints.
-    IdenticalLegs,
-    /// A body with exactly three joints in use, all on one line.
-    CollinearTriangle,
-    /// All joints of each body coincide.
-    NoSize,
-    /// Other than six leg lengths.
-    LengthCount,
-    /// A leg length below zero.
-    NegativeLength,
-    /// A quantity with the wrong sign: it must be positive, or not negative.
-    NotPositive,
-    /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or invalid numbers of a rotation.
-    Rotation,
-    /// A workspace box without the `[home]` at its centre.
-    MissingHome,
-    /// Two keys that state the same thing in different ways.
-    ConflictingKeys,
-    /// A grid with other than 1 to 5 points an axis.
-    Grid,
-    /// A text that is not an arithmetic expression.
-    Expression,
-    /// An expression or a construction names something that does not exist.
-    UnknownName,
-    /// Parameters or joints with circular dependencies.
-    Cycle,
-    /// An expression divides by zero, or by a value indistinguishable from it.
-    DivisionByZero,
-    /// A square root of a number that is or may be negative.
-    NegativeRoot,
-    /// The line through two joints that are the same point.
-    NoLine,
-    /// Rods on cranks, where the command needs legs of variable length.
-    Rotary,
-    /// Joint offsets, where the command takes the length of a drive for the distance of its joints.
-    NotIdeal,
-    /// Expressions or constructions longer or more than any design needs.
-    TooComplex,
-    /// More violations than the list holds.
-    TooMany,
-}
-
-impl Code {
-    /// The stable name, for example `design::unknown_key`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Syntax => "design::syntax",
-            Self::Empty => "design::empty",
-            Self::DuplicateKey => "design::duplicate_key",
-            Self::NestingTooDeep => "design::nesting_too_deep",
-            Self::UnknownKey => "design::unknown_key",
-            Self::MissingKey => "design::missing_key",
-            Self::WrongType => "design::wrong_type",
-            Self::EmptyName => "design::empty_name",
-            Self::TextDirection => "design::text_direction",
-            Self::CoordinateCount => "design::coordinate_count",
-            Self::NonFinite => "design::non_finite",
-            Self::OutOfRange => "design::out_of_range",
-            Self::LegCount => "design::leg_count",
-            Self::LegShape => "design::leg_shape",
-            Self::MissingJoint => "design::missing_joint",
-            Self::IdenticalLegs => "design::identical_legs",
-            Self::CollinearTriangle => "design::collinear_triangle",
-            Self::NoSize => "design::no_size",
-            Self::LengthCount => "design::length_count",
-            Self::NegativeLength => "design::negative_length",
-            Self::NotPositive => "design::not_positive",
-            Self::Rotation => "design::rotation",
-            Self::MissingHome => "design::missing_home",
-            Self::ConflictingKeys => "design::conflicting_keys",
-            Self::Grid => "design::grid",
-            Self::Expression => "design::expression",
-            Self::UnknownName => "design::unknown_name",
-            Self::Cycle => "design::cycle",
-            Self::DivisionByZero => "design::division_by_zero",
-            Self::NegativeRoot => "design::negative_root",
-            Self::NoLine => "design::no_line",
-            Self::Rotary => "design::rotary",
-            Self::NotIdeal => "design::not_ideal",
-            Self::TooComplex => "design::too_complex",
-            Self::TooMany => "design::too_many",
-        }
-    }
-}
-
-impl fmt::Display for Code {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+num::words! {
+    /// The kind of a violation; the name in [`Code::name`] is stable.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    #[non_exhaustive]
+    pub enum Code: name, Display {
+        /// The text is not TOML or not JSON.
+        Syntax = "design::syntax",
+        /// The file is empty.
+        Empty = "design::empty",
+        /// A key occurs twice in one table.
+        DuplicateKey = "design::duplicate_key",
+        /// Values are nested deeper than any design needs.
+        NestingTooDeep = "design::nesting_too_deep",
+        /// A key that no version of the format has.
+        UnknownKey = "design::unknown_key",
+        /// A required key is absent.
+        MissingKey = "design::missing_key",
+        /// A value of another kind than the key requires.
+        WrongType = "design::wrong_type",
+        /// A name, unit or joint name without a character.
+        EmptyName = "design::empty_name",
+        /// A text with characters that change the direction of text.
+        TextDirection = "design::text_direction",
+        /// A point or vector with other than three coordinates.
+        CoordinateCount = "design::coordinate_count",
+        /// NaN or infinite.
+        NonFinite = "design::non_finite",
+        /// The number or its square is outside the range of doubles.
+        OutOfRange = "design::out_of_range",
+        /// Other than six legs.
+        LegCount = "design::leg_count",
+        /// A leg that is not a pair of joint names.
+        LegShape = "design::leg_shape",
+        /// A leg names a joint that does not exist.
+        MissingJoint = "design::missing_joint",
+        /// Two legs join the same pair of joints.
+        IdenticalLegs = "design::identical_legs",
+        /// A body with exactly three joints in use, all on one line.
+        CollinearTriangle = "design::collinear_triangle",
+        /// All joints of each body coincide.
+        NoSize = "design::no_size",
+        /// Other than six leg lengths.
+        LengthCount = "design::length_count",
+        /// A leg length below zero.
+        NegativeLength = "design::negative_length",
+        /// A quantity with the wrong sign: it must be positive, or not negative.
+        NotPositive = "design::not_positive",
+        /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or invalid numbers of a rotation.
+        Rotation = "design::rotation",
+        /// A workspace box without the `[home]` at its centre.
+        MissingHome = "design::missing_home",
+        /// Two keys that state the same thing in different ways.
+        ConflictingKeys = "design::conflicting_keys",
+        /// A grid with other than 1 to 5 points an axis.
+        Grid = "design::grid",
+        /// A text that is not an arithmetic expression.
+        Expression = "design::expression",
+        /// An expression or a construction names something that does not exist.
+        UnknownName = "design::unknown_name",
+        /// Parameters or joints with circular dependencies.
+        Cycle = "design::cycle",
+        /// An expression divides by zero, or by a value indistinguishable from it.
+        DivisionByZero = "design::division_by_zero",
+        /// A square root of a number that is or may be negative.
+        NegativeRoot = "design::negative_root",
+        /// The line through two joints that are the same point.
+        NoLine = "design::no_line",
+        /// Rods on cranks, where the command needs legs of variable length.
+        Rotary = "design::rotary",
+        /// Joint offsets, where the command takes the length of a drive for the distance of its joints.
+        NotIdeal = "design::not_ideal",
+        /// Expressions or constructions longer or more than any design needs.
+        TooComplex = "design::too_complex",
+        /// More violations than the list holds.
+        TooMany = "design::too_many",
     }
 }
 
@@ -323,6 +275,24 @@ impl<'t> Findings<'t> {
         let (line, column, width) = self.locate(span);
         let (message, help) = (message.into(), help.into());
         self.violations.push(Violation { code, line, column, width, message, help });
+    }
+
+    /// Adds a violation at a place whose value cannot be used: there is none.
+    pub fn refused<T>(
+        &mut self,
+        code: Code,
+        span: &Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.refuse(code, span, message, help);
+        None
+    }
+
+    /// Adds a violation at a value of a wrong type: `what` is not what was `wanted`, such as `an array`.
+    pub fn not_a<T>(&mut self, node: &Node, what: &str, wanted: &str, help: impl Into<String>) -> Option<T> {
+        let message = format!("{what} is {}, not {wanted}", node.value.kind());
+        self.refused(Code::WrongType, &node.span, message, help)
     }
 
     pub(crate) fn warn(&mut self, warning: Warning) {

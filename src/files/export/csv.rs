@@ -9,33 +9,23 @@ use num::shown::rounded_down;
 use platform::geom::Pose;
 
 /// The format `csv`.
-#[derive(Debug)]
-pub(super) struct Csv;
+pub(super) static WRITER: Writer =
+    Writer::new("tables of joints, leg lengths and parts, for spreadsheets and controllers", files);
 
-impl Writer for Csv {
-    fn name(&self) -> &'static str {
-        "csv"
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    let mut out = vec![
+        ExportedFile::new("joints.csv", joints(export)),
+        ExportedFile::new("legs.csv", legs(export)),
+        ExportedFile::new("parts.csv", export.parts_csv()),
+        ExportedFile::new("lengths-workspace.csv", lengths(export, &export.workspace)),
+    ];
+    if let Some(found) = &export.calibration {
+        out.push(ExportedFile::new("calibration.csv", calibration(export, found)));
     }
-
-    fn purpose(&self) -> &'static str {
-        "tables of joints, leg lengths and parts, for spreadsheets and controllers"
+    if !export.trajectory.is_empty() {
+        out.push(ExportedFile::new("lengths-trajectory.csv", lengths(export, &export.trajectory)));
     }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        let mut out = vec![
-            ExportedFile::new("joints.csv", joints(export)),
-            ExportedFile::new("legs.csv", legs(export)),
-            ExportedFile::new("parts.csv", export.parts_csv()),
-            ExportedFile::new("lengths-workspace.csv", lengths(export, &export.workspace)),
-        ];
-        if let Some(found) = &export.calibration {
-            out.push(ExportedFile::new("calibration.csv", calibration(export, found)));
-        }
-        if !export.trajectory.is_empty() {
-            out.push(ExportedFile::new("lengths-trajectory.csv", lengths(export, &export.trajectory)));
-        }
-        Ok(out)
-    }
+    Ok(out)
 }
 
 /// Comment lines, which most readers skip if `#` marks a comment.

@@ -10,43 +10,30 @@ use crate::plot::{ThreeViewBody, ThreeViewFigure, three_views};
 use machine::requirements::on_circle;
 use platform::geom::any_across;
 
-/// The format `svg`.
-#[derive(Debug)]
-pub(super) struct Drawing;
-
 /// Chords in a full circle: extents are exact to 3e-6 of a radius; the picture keeps only visible corners.
 const CHORDS: usize = 1440;
 
-impl Writer for Drawing {
-    fn name(&self) -> &'static str {
-        "svg"
-    }
+/// The format `svg`.
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "what hides what: the silhouettes of all parts are seen",
+    ..Writer::new("drawing with three views at home, third angle, millimetres", files)
+};
 
-    fn purpose(&self) -> &'static str {
-        "drawing with three views at home, third angle, millimetres"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "what hides what: the silhouettes of all parts are seen"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        let mm = export.unit.millimetres;
-        let [base, platform] = &export.bodies;
-        let legs = export.legs.iter().map(|leg| bars(leg, mm)).collect::<Result<Vec<_>, _>>()?;
-        let note =
-            format!("Base frame, home pose, mm. One unit of the design is {mm} mm. {}.", export.program);
-        let figure = ThreeViewFigure {
-            title: format!("{}: three views at home", one_line(&export.name)),
-            note,
-            base: drawn(base, mm, &|p| *p)?,
-            platform: drawn(platform, mm, &|p| export.home.transform(p))?,
-            legs: export.legs.map(|l| [l.foot, l.head].map(|p| p * mm)),
-            leg_bodies: legs.into_iter().flatten().collect(),
-            origins: [Point3::origin(), Point3::from(Vector3::from(export.home.position * mm))],
-        };
-        Ok(vec![ExportedFile::new("three-views.svg", three_views(&figure))])
-    }
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    let mm = export.unit.millimetres;
+    let [base, platform] = &export.bodies;
+    let legs = export.legs.iter().map(|leg| bars(leg, mm)).collect::<Result<Vec<_>, _>>()?;
+    let note = format!("Base frame, home pose, mm. One unit of the design is {mm} mm. {}.", export.program);
+    let figure = ThreeViewFigure {
+        title: format!("{}: three views at home", one_line(&export.name)),
+        note,
+        base: drawn(base, mm, &|p| *p)?,
+        platform: drawn(platform, mm, &|p| export.home.transform(p))?,
+        legs: export.legs.map(|l| [l.foot, l.head].map(|p| p * mm)),
+        leg_bodies: legs.into_iter().flatten().collect(),
+        origins: [Point3::origin(), Point3::from(Vector3::from(export.home.position * mm))],
+    };
+    Ok(vec![ExportedFile::new("three-views.svg", three_views(&figure))])
 }
 
 fn circle(at: &Point2<f64>, diameter: f64) -> Vec<Point2<f64>> {

@@ -3,30 +3,16 @@
 use std::fmt::Write as _;
 
 use super::text::{ascii, commented, one_line, real};
-use super::{Export, ExportedFile, Unsupported, Writer};
+use super::{Export, ExportedFile, Writer};
 use platform::manipulator::Body;
 
 /// The format `hal`.
-#[derive(Debug)]
-pub(super) struct Hal;
-
-impl Writer for Hal {
-    fn name(&self) -> &'static str {
-        "hal"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "LinuxCNC: settings of the hexapod kinematics genhexkins, millimetres"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are; correlations of a calibration, which the formats csv, json and c have"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are; correlations of a calibration, which the formats csv, json and c have",
+    ..Writer::new("LinuxCNC: settings of the hexapod kinematics genhexkins, millimetres", |export| {
         Ok(vec![ExportedFile::new("genhexkins.hal", settings(export))])
-    }
-}
+    })
+};
 
 /// The home pose in the form of the table reader: position in millimetres, angles of `R = Rz(C) Ry(B) Rx(A)` in
 /// degrees.

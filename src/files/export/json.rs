@@ -3,30 +3,20 @@
 use serde::Serialize;
 
 use super::{
-    DrilledHole, Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, Plate, SizeChoice,
+    DrilledHole, Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, LengthUnit, Plate, SizeChoice,
     Unsupported, Writer,
 };
 use platform::geom::Pose;
 
 /// The format `json`.
-#[derive(Debug)]
-pub(super) struct Json;
+pub(super) static WRITER: Writer =
+    Writer::new("joints, plates, legs, poses and lengths in one document, for scripts", files);
 
-impl Writer for Json {
-    fn name(&self) -> &'static str {
-        "json"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "joints, plates, legs, poses and lengths in one document, for scripts"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        // texts, numbers, lists and fields always serialise
-        let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();
-        text.push('\n');
-        Ok(vec![ExportedFile::new("platform.json", text)])
-    }
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    // texts, numbers, lists and fields always serialise
+    let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();
+    text.push('\n');
+    Ok(vec![ExportedFile::new("platform.json", text)])
 }
 
 /// The frames of the numbers.
@@ -41,7 +31,7 @@ struct ExportedDocument<'a> {
     source: Option<&'a str>,
     program: &'a str,
     units: &'static str,
-    design_unit: UnitRecord,
+    design_unit: LengthUnit,
     frames: &'static str,
     home: ExportedPose,
     base: BodyRecord<'a>,
@@ -52,13 +42,7 @@ struct ExportedDocument<'a> {
     calibration: Option<UncertaintyRecord<'a>>,
     workspace: Vec<LengthsRecord>,
     trajectory: Vec<LengthsRecord>,
-    choices: Vec<ChoiceRecord<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct UnitRecord {
-    label: &'static str,
-    mm: f64,
+    choices: &'a [SizeChoice],
 }
 
 #[derive(Debug, Serialize)]
@@ -155,14 +139,6 @@ impl<'a> UncertaintyRecord<'a> {
     }
 }
 
-#[derive(Debug, Serialize)]
-struct ChoiceRecord<'a> {
-    what: &'a str,
-    value: f64,
-    unit: &'a str,
-    from: &'a str,
-}
-
 impl<'a> ExportedDocument<'a> {
     fn of(export: &'a Export) -> Self {
         let mm = export.unit.millimetres;
@@ -185,15 +161,13 @@ impl<'a> ExportedDocument<'a> {
                 rod_length: rod(leg),
             }
         };
-        let choice =
-            |c: &'a SizeChoice| ChoiceRecord { what: &c.what, value: c.value, unit: c.unit, from: c.from };
         Self {
             schema_version: 1,
             name: &export.name,
             source: export.source.as_deref(),
             program: &export.program,
             units: "mm",
-            design_unit: UnitRecord { label: export.unit.label, mm },
+            design_unit: export.unit,
             frames: FRAMES,
             home: ExportedPose::of(&export.home, mm),
             base: BodyRecord::of(&export.bodies[0], mm),
@@ -202,7 +176,7 @@ impl<'a> ExportedDocument<'a> {
             calibration: export.calibration.as_ref().map(|found| UncertaintyRecord::of(found, mm)),
             workspace: lengths(export, &export.workspace),
             trajectory: lengths(export, &export.trajectory),
-            choices: export.choices.iter().map(choice).collect(),
+            choices: &export.choices,
         }
     }
 }

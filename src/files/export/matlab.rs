@@ -3,25 +3,13 @@
 use std::fmt::Write as _;
 
 use super::text::{commented, one_line, real};
-use super::{Export, ExportedFile, Unsupported, Writer};
+use super::{Export, ExportedFile, Writer};
 
 /// The format `matlab`.
-#[derive(Debug)]
-pub(super) struct Matlab;
-
-impl Writer for Matlab {
-    fn name(&self) -> &'static str {
-        "matlab"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "3x6 arrays in metres and the inverse kinematics, for MATLAB, Octave and Simscape"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        Ok(vec![ExportedFile::new("platform.m", script(export))])
-    }
-}
+pub(super) static WRITER: Writer = Writer::new(
+    "3x6 arrays in metres and the inverse kinematics, for MATLAB, Octave and Simscape",
+    |export| Ok(vec![ExportedFile::new("platform.m", script(export))]),
+);
 
 /// A string literal: quotes are doubled.
 fn quoted(text: &str) -> String {

@@ -23,7 +23,7 @@ mod parts;
 mod plate;
 mod robots;
 #[cfg(test)]
-mod round_trip;
+mod round_trip_tests;
 mod sizes;
 mod step;
 mod stl;
@@ -37,7 +37,6 @@ mod units;
 
 use thiserror::Error;
 
-use num::names::{UnknownName, named};
 use platform::manipulator::Body;
 
 pub use controller::EquivalentOctahedral;
@@ -138,119 +137,86 @@ pub enum Unsupported {
     },
 }
 
-/// A format.
-pub trait Writer: std::fmt::Debug + Sync {
-    /// Its name on the command line.
-    fn name(&self) -> &'static str;
-
+/// How a format is written.
+#[derive(Debug)]
+pub struct Writer {
     /// Its purpose, in a few words.
-    fn purpose(&self) -> &'static str;
-
+    pub purpose: &'static str,
     /// The parts of a design that the format leaves out; empty if nothing important.
-    fn leaves_out(&self) -> &'static str {
-        ""
-    }
-
+    pub leaves_out: &'static str,
     /// Whether it supports rods on cranks.
-    fn takes_cranks(&self) -> bool {
-        false
-    }
-
+    pub takes_cranks: bool,
     /// Whether it supports drives with joint offsets or leads.
-    fn takes_coupled(&self) -> bool {
-        false
+    pub takes_coupled: bool,
+    write: fn(&Export) -> Result<Vec<ExportedFile>, Unsupported>,
+}
+
+impl Writer {
+    const fn new(
+        purpose: &'static str,
+        write: fn(&Export) -> Result<Vec<ExportedFile>, Unsupported>,
+    ) -> Self {
+        Self { purpose, leaves_out: "", takes_cranks: false, takes_coupled: false, write }
     }
 
     /// The files. For rods on cranks only formats that [support them](Self::takes_cranks) are asked.
     ///
     /// # Errors
     /// The design has parts that the format cannot express.
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported>;
+    pub fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        (self.write)(export)
+    }
 }
 
-/// A format by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum ExportFormat {
-    /// C99 for controllers.
-    C,
-    /// Joints, lengths at home, workspace and trajectory as tables.
-    Csv,
-    /// Hole plans of both plates.
-    Dxf,
-    /// Geometry for `genhexkins` of `LinuxCNC`.
-    Hal,
-    /// All data, for programs.
-    Json,
-    /// MATLAB and Octave.
-    Matlab,
-    /// A closed mechanism for `MuJoCo` and other simulators.
-    Mjcf,
-    /// A closed mechanism for Gazebo.
-    Sdf,
-    /// Solids for CAD programs.
-    Step,
-    /// Solids as meshes.
-    Stl,
-    /// A drawing with three views.
-    Drawing,
-    /// A tree of links for ROS.
-    Urdf,
+num::words! {
+    /// A format by its name.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum ExportFormat: name, ALL, Display, FromStr("format") {
+        /// C99 for controllers.
+        C = "c",
+        /// Joints, lengths at home, workspace and trajectory as tables.
+        Csv = "csv",
+        /// Hole plans of both plates.
+        Dxf = "dxf",
+        /// Geometry for `genhexkins` of `LinuxCNC`.
+        Hal = "hal",
+        /// All data, for programs.
+        Json = "json",
+        /// MATLAB and Octave.
+        Matlab = "matlab",
+        /// A closed mechanism for `MuJoCo` and other simulators.
+        Mjcf = "mjcf",
+        /// A closed mechanism for Gazebo.
+        Sdf = "sdf",
+        /// Solids for CAD programs.
+        Step = "step",
+        /// Solids as meshes.
+        Stl = "stl",
+        /// A drawing with three views.
+        Drawing = "svg",
+        /// A tree of links for ROS.
+        Urdf = "urdf",
+    }
 }
 
 impl ExportFormat {
-    /// Every format, by name.
-    pub const ALL: [Self; 12] = [
-        Self::C,
-        Self::Csv,
-        Self::Dxf,
-        Self::Hal,
-        Self::Json,
-        Self::Matlab,
-        Self::Mjcf,
-        Self::Sdf,
-        Self::Step,
-        Self::Stl,
-        Self::Drawing,
-        Self::Urdf,
-    ];
-
     /// Its writer.
     #[must_use]
-    pub fn writer(self) -> &'static dyn Writer {
+    pub fn writer(self) -> &'static Writer {
         match self {
-            Self::C => &controller::C,
-            Self::Csv => &csv::Csv,
-            Self::Dxf => &dxf::Dxf,
-            Self::Hal => &hal::Hal,
-            Self::Json => &json::Json,
-            Self::Matlab => &matlab::Matlab,
-            Self::Mjcf => &mjcf::Mjcf,
-            Self::Sdf => &robots::Sdf,
-            Self::Step => &step::StepFile,
-            Self::Stl => &stl::Stl,
-            Self::Drawing => &drawing::Drawing,
-            Self::Urdf => &robots::Urdf,
+            Self::C => &controller::WRITER,
+            Self::Csv => &csv::WRITER,
+            Self::Dxf => &dxf::WRITER,
+            Self::Hal => &hal::WRITER,
+            Self::Json => &json::WRITER,
+            Self::Matlab => &matlab::WRITER,
+            Self::Mjcf => &mjcf::WRITER,
+            Self::Sdf => &robots::sdf::WRITER,
+            Self::Step => &step::WRITER,
+            Self::Stl => &stl::WRITER,
+            Self::Drawing => &drawing::WRITER,
+            Self::Urdf => &robots::urdf::WRITER,
         }
-    }
-
-    /// Its name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.writer().name()
-    }
-}
-
-impl std::fmt::Display for ExportFormat {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl std::str::FromStr for ExportFormat {
-    type Err = UnknownName;
-
-    fn from_str(text: &str) -> Result<Self, UnknownName> {
-        named("format", text, &Self::ALL, Self::name)
     }
 }

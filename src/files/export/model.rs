@@ -6,7 +6,7 @@ use super::controller::EquivalentOctahedral;
 use super::plate::Plate;
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, moving, positive};
 use super::units::LengthUnit;
-use super::{ExportedFile, Unsupported, Writer};
+use super::{ExportFormat, ExportedFile, Unsupported};
 use crate::design::{CalibratedNumber, DesignModel};
 use machine::coupled::CoupledLegs;
 use machine::requirements::{Hardware, KeepOutShape, MovingBodies, TermKind, plate_normal};
@@ -87,6 +87,12 @@ pub(super) fn frame_along(direction: &Vector3<f64>, origin: Vector3<f64>) -> Pos
     let x = any_across(direction);
     let axes = Matrix3::from_columns(&[x, direction.cross(&x), *direction]);
     Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin }
+}
+
+/// The pose `inner` relative to the pose `outer`, both given in the same frame.
+pub(super) fn seen_from(outer: &Pose, inner: &Pose) -> Pose {
+    let back = outer.rotation.inverse();
+    Pose { rotation: back * inner.rotation, position: back * (inner.position - outer.position) }
 }
 
 /// The cranks of a rotary design.
@@ -374,11 +380,12 @@ impl Export {
     /// # Errors
     /// The format cannot express the design. [`Unsupported::Cranks`]: rods on cranks without
     /// [support](Writer::takes_cranks). [`Unsupported::NotIdeal`]: joint offsets or leads.
-    pub fn files(&self, writer: &dyn Writer) -> Result<Vec<ExportedFile>, Unsupported> {
-        if self.cranks.is_some() && !writer.takes_cranks() {
+    pub fn files(&self, format: ExportFormat) -> Result<Vec<ExportedFile>, Unsupported> {
+        let writer = format.writer();
+        if self.cranks.is_some() && !writer.takes_cranks {
             return Err(Unsupported::Cranks);
         }
-        if self.coupled.is_some() && !writer.takes_coupled() {
+        if self.coupled.is_some() && !writer.takes_coupled {
             return Err(Unsupported::NotIdeal);
         }
         writer.files(self)

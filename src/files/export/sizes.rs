@@ -40,61 +40,24 @@ impl ExportOptions {
         Self::default()
     }
 
-    /// The length of a design unit.
-    #[must_use]
-    pub fn unit(mut self, unit: LengthUnit) -> Self {
-        self.unit = Some(unit);
-        self
-    }
-
-    /// Thickness of the plates, design units.
-    #[must_use]
-    pub fn thickness(mut self, thickness: f64) -> Self {
-        self.thickness = Some(thickness);
-        self
-    }
-
-    /// Distance of the outline of a plate from the hull of its joints, design units.
-    #[must_use]
-    pub fn margin(mut self, margin: f64) -> Self {
-        self.margin = Some(margin);
-        self
-    }
-
-    /// Diameter of the holes in the plates, design units.
-    #[must_use]
-    pub fn hole(mut self, hole: f64) -> Self {
-        self.hole = Some(hole);
-        self
-    }
-
-    /// Diameter of the tolerance circle for the centre of each hole, design units: twice the radius from
-    /// `build tolerances` for all joints.
-    #[must_use]
-    pub fn hole_places(mut self, diameter: f64) -> Self {
-        self.hole_places = Some(diameter);
-        self
-    }
-
-    /// Diameter of the balls of the joints, design units.
-    #[must_use]
-    pub fn ball(mut self, ball: f64) -> Self {
-        self.ball = Some(ball);
-        self
-    }
-
-    /// Mass of the platform with its payload, kilograms.
-    #[must_use]
-    pub fn mass(mut self, mass: f64) -> Self {
-        self.mass = Some(mass);
-        self
-    }
-
-    /// Whether simulators compensate the weight of all bodies.
-    #[must_use]
-    pub fn gravity_compensation(mut self, wanted: bool) -> Self {
-        self.gravity_compensation = wanted;
-        self
+    num::setters! {
+        /// The length of a design unit.
+        fn unit(unit: LengthUnit) = Some(unit);
+        /// Thickness of the plates, design units.
+        fn thickness(thickness: f64) = Some(thickness);
+        /// Distance of the outline of a plate from the hull of its joints, design units.
+        fn margin(margin: f64) = Some(margin);
+        /// Diameter of the holes in the plates, design units.
+        fn hole(hole: f64) = Some(hole);
+        /// Diameter of the tolerance circle for the centre of each hole, design units: twice the radius from
+        /// `build tolerances` for all joints.
+        fn hole_places(diameter: f64) = Some(diameter);
+        /// Diameter of the balls of the joints, design units.
+        fn ball(ball: f64) = Some(ball);
+        /// Mass of the platform with its payload, kilograms.
+        fn mass(mass: f64) = Some(mass);
+        /// Whether simulators compensate the weight of all bodies.
+        fn gravity_compensation(wanted: bool) = wanted;
     }
 }
 

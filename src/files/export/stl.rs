@@ -10,34 +10,25 @@ use super::triangulate::triangulate;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
 use machine::requirements::on_circle;
 
-/// The format `stl`.
-#[derive(Debug)]
-pub(super) struct Stl;
-
 /// Number of chords in a full circle. The outline is off by less than 0.03 % of its corner radius, a hole by less than
 /// 0.13 % of its radius.
 const OUTLINE_CHORDS: usize = 128;
 const HOLE_CHORDS: usize = 64;
 
-impl Writer for Stl {
-    fn name(&self) -> &'static str {
-        "stl"
-    }
+/// The format `stl`.
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "legs and balls; circles are polygons; a post is a shell of its own that touches the plate",
+    ..Writer::new(
+        "meshes of both plates with their posts in the frames of their bodies (ASCII, millimetres), for 3D printing",
+        files,
+    )
+};
 
-    fn purpose(&self) -> &'static str {
-        "meshes of both plates with their posts in the frames of their bodies (ASCII, millimetres), for 3D printing"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "legs and balls; circles are polygons; a post is a shell of its own that touches the plate"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        let mesh = |body: &ExportBody| {
-            Ok(ExportedFile::new(&format!("{}-plate.stl", body.body), mesh(export, body, body.plate()?)))
-        };
-        export.bodies.iter().map(mesh).collect()
-    }
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    let mesh = |body: &ExportBody| {
+        Ok(ExportedFile::new(&format!("{}-plate.stl", body.body), mesh(export, body, body.plate()?)))
+    };
+    export.bodies.iter().map(mesh).collect()
 }
 
 /// Triangles of the plate and its posts in the frame of the body, design units, with their corners counter-clockwise

@@ -1,6 +1,6 @@
 //! A signed quantity along a path, with the pieces of proved sign.
 
-use super::style::{PixelAxis, Svg};
+use super::style::{PixelAxis, Svg, ticked_frame};
 
 /// One straight part of the path.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,18 +64,10 @@ pub fn sign_along(figure: &AlongFigure) -> String {
 
 fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, figure: &AlongFigure) {
     let bottom = TOP + PANEL.1;
-    svg.rect("frame", (x.from, TOP), PANEL);
-    for (value, label) in x.ticks(10) {
-        svg.line("tick", (x.at(value), bottom), (x.at(value), bottom + 5.0));
-        svg.text("mid", (x.at(value), bottom + 20.0), &label);
-    }
     // powers of ten go into the label, since det J of small platforms is tiny
     let power = y.high.abs().max(y.low.abs()).log10().floor();
     let scaled = PixelAxis { low: y.low / 10f64.powf(power), high: y.high / 10f64.powf(power), ..*y };
-    for (value, label) in scaled.ticks(8) {
-        svg.line("tick", (x.from - 5.0, scaled.at(value)), (x.from, scaled.at(value)));
-        svg.text("end", (x.from - 9.0, scaled.at(value) + 4.0), &label);
-    }
+    ticked_frame(svg, (x, &scaled), (x.ticks(10), scaled.ticks(8)), 20.0);
     svg.text("", (x.from, TOP - 10.0), &format!("{} / 1e{power}", figure.quantity));
     svg.text("mid", (f64::midpoint(x.from, x.to), bottom + 42.0), "parameter of the path");
     svg.text("note", (LEFT, HEIGHT - 12.0), &figure.note);

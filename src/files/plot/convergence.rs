@@ -1,6 +1,6 @@
 //! The best value of several methods over the time they took.
 
-use super::style::{PixelAxis, Svg};
+use super::style::{LINES, PixelAxis, Svg, legend, mark, ticked_frame};
 
 /// One method.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,8 +38,8 @@ const LEFT: f64 = 74.0;
 const TOP: f64 = 92.0;
 const BETWEEN: f64 = 76.0;
 const HEIGHT: f64 = 496.0;
-/// Lines of the curves; their marks differ too.
-const LINES: [&str; ConvergenceFigure::MOST_CURVES] = ["level", "below", "virtual", "leg"];
+/// Sizes of the marks of curves: disc, ring, square.
+const MARKS: [f64; 3] = [4.0, 3.4, 3.0];
 
 /// Two panels over the logarithm of the time: the value itself, and its relative shortfall from the best of all curves,
 /// logarithmic.
@@ -56,7 +56,7 @@ pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
     // curves have their own joins; the shared classes are for straight lines
     svg.style("polyline{fill:none;stroke-linejoin:round}");
     svg.text("title", (LEFT, 30.0), &figure.title);
-    legend(&mut svg, figure);
+    legend(&mut svg, LEFT, figure.curves.iter().map(|c| &c.label), MARKS);
     let curves: Vec<Vec<(f64, f64)>> = figure.curves.iter().take(LINES.len()).map(drawable).collect();
     let all = || curves.iter().flatten();
     let best = all().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
@@ -109,50 +109,20 @@ fn steps(points: &[(f64, f64)], x: &PixelAxis, y: &PixelAxis) -> Vec<(f64, f64)>
 fn draw(svg: &mut Svg, kind: usize, corners: &[(f64, f64)]) {
     svg.polyline(LINES[kind], corners);
     if let Some(end) = corners.last() {
-        mark(svg, kind, *end);
-    }
-}
-
-fn mark(svg: &mut Svg, kind: usize, at: (f64, f64)) {
-    match kind {
-        0 => svg.circle("mark", at, 4.0),
-        1 => svg.circle("hollow", at, 3.4),
-        2 => svg.rect("hollow", (at.0 - 3.0, at.1 - 3.0), (6.0, 6.0)),
-        _ => svg.polygon(
-            "mark",
-            &[(at.0, at.1 - 4.6), (at.0 + 4.6, at.1), (at.0, at.1 + 4.6), (at.0 - 4.6, at.1)],
-        ),
+        mark(svg, kind, *end, MARKS);
     }
 }
 
 fn frame(svg: &mut Svg, (x, y): (&PixelAxis, &PixelAxis), panel: usize, figure: &ConvergenceFigure) {
     let bottom = TOP + PANEL.1;
-    svg.rect("frame", (x.from, TOP), PANEL);
-    for (value, label) in x.decades(7) {
-        svg.line("tick", (x.at(value), bottom), (x.at(value), bottom + 5.0));
-        svg.text("mid", (x.at(value), bottom + 20.0), &label);
-    }
     let rows = if panel == 0 { y.ticks(6) } else { y.decades(10) };
-    for (value, label) in rows {
-        svg.line("tick", (x.from - 5.0, y.at(value)), (x.from, y.at(value)));
-        svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
-    }
+    ticked_frame(svg, (x, y), (x.decades(7), rows), 20.0);
     let below_best = format!(
         "share by which it falls short of the best, {} or less at the bottom",
         "10\u{207b}\u{b9}\u{2070}"
     );
     svg.text("", (x.from, TOP - 10.0), if panel == 0 { &figure.quantity } else { &below_best });
     svg.text("mid", (f64::midpoint(x.from, x.to), bottom + 44.0), "elapsed time, seconds");
-}
-
-fn legend(svg: &mut Svg, figure: &ConvergenceFigure) {
-    let mut x = LEFT;
-    for (kind, curve) in figure.curves.iter().take(LINES.len()).enumerate() {
-        svg.line(LINES[kind], (x, 50.0), (x + 34.0, 50.0));
-        mark(svg, kind, (x + 17.0, 50.0));
-        svg.text("", (x + 42.0, 54.0), &curve.label);
-        x += 70.0 + 7.5 * curve.label.chars().count() as f64;
-    }
 }
 
 #[cfg(test)]

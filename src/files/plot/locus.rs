@@ -3,7 +3,7 @@
 //! Values are tracked from step to step, to join values of one curve and to find meetings on the real axis. Pieces of
 //! curves are joined to strokes, which keeps the document short.
 
-use super::style::{PixelAxis, Svg};
+use super::style::{PixelAxis, Svg, ticked_frame};
 
 /// The contents of the picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -228,15 +228,7 @@ fn round(x: f64) -> String {
 fn frame(svg: &mut Svg, panel: &Panel, quantity: &str) {
     let (x, y) = (&panel.x, &panel.y);
     let bottom = TOP + PANEL.1;
-    svg.rect("frame", (x.from, TOP), PANEL);
-    for (value, label) in x.ticks(6) {
-        svg.line("tick", (x.at(value), bottom), (x.at(value), bottom + 5.0));
-        svg.text("mid", (x.at(value), bottom + 20.0), &label);
-    }
-    for (value, label) in y.ticks(8) {
-        svg.line("tick", (x.from - 5.0, y.at(value)), (x.from, y.at(value)));
-        svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
-    }
+    ticked_frame(svg, (x, y), (x.ticks(6), y.ticks(8)), 20.0);
     svg.text("mid", (f64::midpoint(x.from, x.to), bottom + 42.0), &format!("Re {quantity}"));
     svg.turned_text("mid", (x.from - 54.0, f64::midpoint(TOP, bottom)), -90.0, &format!("Im {quantity}"));
 }

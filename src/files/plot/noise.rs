@@ -1,6 +1,6 @@
 //! Errors of poses over errors of leg lengths, both on logarithmic axes.
 
-use super::style::{PixelAxis, Svg};
+use super::style::{LINES, PixelAxis, Svg, legend, mark, ticked_frame};
 
 /// One point of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,8 +46,8 @@ const LEFT: f64 = 74.0;
 const TOP: f64 = 92.0;
 const BETWEEN: f64 = 76.0;
 const HEIGHT: f64 = 596.0;
-/// Lines of the curves; their marks differ too.
-const LINES: [&str; NoiseFigure::MOST_CURVES] = ["level", "below", "virtual", "leg"];
+/// Sizes of the marks of curves: disc, ring, square.
+const MARKS: [f64; 3] = [3.6, 3.0, 2.8];
 /// Sideways shift between overlapping curves, pixels.
 const APART: f64 = 4.0;
 
@@ -64,7 +64,8 @@ pub fn noise_chart(figure: &NoiseFigure) -> String {
     );
     let mut svg = Svg::new(width, HEIGHT, &figure.title, &description);
     svg.text("title", (LEFT, 30.0), &figure.title);
-    legend(&mut svg, figure);
+    let end = legend(&mut svg, LEFT, figure.curves.iter().map(|c| &c.label), MARKS);
+    svg.text("note", (end, 54.0), "marks: medians; bars: from the lower to the upper quartile");
     for (panel, title) in figure.panels.iter().enumerate() {
         let left = LEFT + panel as f64 * (PANEL.0 + BETWEEN);
         let (x, y) = axes(figure, panel, left);
@@ -139,50 +140,19 @@ fn draw(svg: &mut Svg, kind: usize, places: &[[(f64, f64); 3]]) {
         svg.line("tick", *lower, *upper);
     }
     for at in medians {
-        mark(svg, kind, at);
-    }
-}
-
-fn mark(svg: &mut Svg, kind: usize, at: (f64, f64)) {
-    match kind {
-        0 => svg.circle("mark", at, 3.6),
-        1 => svg.circle("hollow", at, 3.0),
-        2 => svg.rect("hollow", (at.0 - 2.8, at.1 - 2.8), (5.6, 5.6)),
-        _ => svg.polygon(
-            "mark",
-            &[(at.0, at.1 - 4.6), (at.0 + 4.6, at.1), (at.0, at.1 + 4.6), (at.0 - 4.6, at.1)],
-        ),
+        mark(svg, kind, at, MARKS);
     }
 }
 
 fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, title: &str) {
     let bottom = TOP + PANEL.1;
-    svg.rect("frame", (x.from, TOP), PANEL);
-    for (value, label) in x.decades(7) {
-        svg.line("tick", (x.at(value), bottom), (x.at(value), bottom + 5.0));
-        svg.text("mid", (x.at(value), bottom + 20.0), &label);
-    }
-    for (value, label) in y.decades(9) {
-        svg.line("tick", (x.from - 5.0, y.at(value)), (x.from, y.at(value)));
-        svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
-    }
+    ticked_frame(svg, (x, y), (x.decades(7), y.decades(9)), 20.0);
     svg.text("", (x.from, TOP - 10.0), title);
     svg.text(
         "mid",
         (f64::midpoint(x.from, x.to), bottom + 44.0),
         "relative error of the leg lengths, \u{3c3}",
     );
-}
-
-fn legend(svg: &mut Svg, figure: &NoiseFigure) {
-    let mut x = LEFT;
-    for (k, curve) in figure.curves.iter().take(LINES.len()).enumerate() {
-        svg.line(LINES[k], (x, 50.0), (x + 34.0, 50.0));
-        mark(svg, k, (x + 17.0, 50.0));
-        svg.text("", (x + 42.0, 54.0), &curve.label);
-        x += 70.0 + 7.5 * curve.label.chars().count() as f64;
-    }
-    svg.text("note", (x, 54.0), "marks: medians; bars: from the lower to the upper quartile");
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The steps of a search: value and violation.
 
-use super::style::{PixelAxis, Svg};
+use super::style::{PixelAxis, Svg, ticked_frame};
 
 /// A step of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,15 +85,9 @@ fn draw(svg: &mut Svg, figure: &StepsFigure, panel: usize, left: f64, height: &d
         svg.circle(class, (x.at(*at), y.at(*value)), radius);
     }
     let bottom = TOP + PANEL.1;
-    svg.rect("frame", (left, TOP), PANEL);
-    for (value, label) in x.ticks(8).into_iter().filter(|t| t.0.fract().abs() < 1e-9) {
-        svg.line("tick", (x.at(value), bottom), (x.at(value), bottom + 5.0));
-        svg.text("mid", (x.at(value), bottom + 20.0), &label);
-    }
-    for (value, label) in if panel == 0 { y.ticks(6) } else { y.decades(10) } {
-        svg.line("tick", (left - 5.0, y.at(value)), (left, y.at(value)));
-        svg.text("end", (left - 9.0, y.at(value) + 4.0), &label);
-    }
+    let whole = x.ticks(8).into_iter().filter(|t| t.0.fract().abs() < 1e-9).collect();
+    let rows = if panel == 0 { y.ticks(6) } else { y.decades(10) };
+    ticked_frame(svg, (&x, &y), (whole, rows), 20.0);
     svg.text("mid", (left + PANEL.0 / 2.0, bottom + 42.0), "step");
 }
 

@@ -244,6 +244,9 @@ fn list(points: &[(f64, f64)]) -> String {
     points.iter().map(|p| format!("{},{}", px(p.0), px(p.1))).collect::<Vec<_>>().join(" ")
 }
 
+/// A value on an axis, with its label.
+pub(super) type Tick = (f64, String);
+
 /// A linear axis: values `low..high` on pixels `from..to`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PixelAxis {
@@ -267,7 +270,7 @@ impl PixelAxis {
     }
 
     /// Tick values and labels, about `count` of them.
-    pub(super) fn ticks(&self, count: usize) -> Vec<(f64, String)> {
+    pub(super) fn ticks(&self, count: usize) -> Vec<Tick> {
         let step = self.step(count);
         let decimals = (0..12usize).find(|k| step * 10f64.powf(*k as f64) > 0.999).unwrap_or(12);
         // slightly beyond the ends, so that rounding loses no tick there
@@ -282,7 +285,7 @@ impl PixelAxis {
     }
 
     /// Ticks of an axis of common logarithms: powers of ten, at most about `count` of them.
-    pub(super) fn decades(&self, count: i64) -> Vec<(f64, String)> {
+    pub(super) fn decades(&self, count: i64) -> Vec<Tick> {
         let (first, last) = (self.low.ceil() as i64, self.high.floor() as i64);
         let stride = (last - first).max(0) / count.max(1) + 1;
         // multiples of the stride, so that the exponents are the same on neighbouring pictures
@@ -293,15 +296,58 @@ impl PixelAxis {
 
 /// The frame of a plot with about this many ticks on either axis; `x` runs to the right, `y` upwards.
 pub(super) fn frame(svg: &mut Svg, x: &PixelAxis, y: &PixelAxis, (across, up): (usize, usize)) {
+    ticked_frame(svg, (x, y), (x.ticks(across), y.ticks(up)), 19.0);
+}
+
+/// A frame with these ticks at the bottom and on the left, the labels at the bottom this far below it.
+pub(super) fn ticked_frame(
+    svg: &mut Svg,
+    (x, y): (&PixelAxis, &PixelAxis),
+    (across, up): (Vec<Tick>, Vec<Tick>),
+    below: f64,
+) {
     svg.rect("frame", (x.from, y.to), (x.to - x.from, y.from - y.to));
-    for (value, label) in x.ticks(across) {
+    for (value, label) in across {
         svg.line("tick", (x.at(value), y.from), (x.at(value), y.from + 5.0));
-        svg.text("mid", (x.at(value), y.from + 19.0), &label);
+        svg.text("mid", (x.at(value), y.from + below), &label);
     }
-    for (value, label) in y.ticks(up) {
+    for (value, label) in up {
         svg.line("tick", (x.from - 5.0, y.at(value)), (x.from, y.at(value)));
         svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
     }
+}
+
+/// The lines of the curves of a chart, in order.
+pub(super) const LINES: [&str; 4] = ["level", "below", "virtual", "leg"];
+
+/// Marks points of the curve with this number; the sizes are those of disc, ring and square.
+pub(super) fn mark(svg: &mut Svg, kind: usize, at: (f64, f64), [disc, ring, square]: [f64; 3]) {
+    match kind {
+        0 => svg.circle("mark", at, disc),
+        1 => svg.circle("hollow", at, ring),
+        2 => svg.rect("hollow", (at.0 - square, at.1 - square), (2.0 * square, 2.0 * square)),
+        _ => svg.polygon(
+            "mark",
+            &[(at.0, at.1 - 4.6), (at.0 + 4.6, at.1), (at.0, at.1 + 4.6), (at.0 - 4.6, at.1)],
+        ),
+    }
+}
+
+/// Names the curves in a row from the left; returns the end of the row.
+pub(super) fn legend<'a>(
+    svg: &mut Svg,
+    left: f64,
+    labels: impl Iterator<Item = &'a String>,
+    sizes: [f64; 3],
+) -> f64 {
+    let mut x = left;
+    for (kind, label) in labels.take(LINES.len()).enumerate() {
+        svg.line(LINES[kind], (x, 50.0), (x + 34.0, 50.0));
+        mark(svg, kind, (x + 17.0, 50.0), sizes);
+        svg.text("", (x + 42.0, 54.0), label);
+        x += 70.0 + 7.5 * label.chars().count() as f64;
+    }
+    x
 }
 
 fn superscript(k: i64) -> String {

@@ -3,7 +3,6 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
-use num::names::{UnknownName, named};
 
 num::answer_words! {
     /// The loss of a distance.
@@ -31,14 +30,6 @@ impl Loss {
             Self::Cauchy => 2.385,
             Self::Tukey => 4.685,
         }
-    }
-}
-
-impl std::str::FromStr for Loss {
-    type Err = UnknownName;
-
-    fn from_str(text: &str) -> Result<Self, UnknownName> {
-        named("loss", text, &Self::ALL, Self::name)
     }
 }
 

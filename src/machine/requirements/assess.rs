@@ -61,54 +61,22 @@ impl AssessOptions {
         Self::default()
     }
 
-    /// Points of a Halton sequence, and as many random ones.
-    #[must_use]
-    pub fn points(mut self, points: usize) -> Self {
-        self.points = points;
-        self
-    }
-
-    /// Steps between two poses of a trajectory.
-    #[must_use]
-    pub fn steps(mut self, steps: usize) -> Self {
-        self.steps = steps;
-        self
-    }
-
-    /// Local searches for the worst pose of each kind of requirement.
-    #[must_use]
-    pub fn searches(mut self, searches: usize) -> Self {
-        self.searches = searches;
-        self
-    }
-
-    /// Threads for the proofs; the answers do not depend on it.
-    #[must_use]
-    pub fn threads(mut self, threads: NonZeroUsize) -> Self {
-        self.threads = Some(threads);
-        self
-    }
-
-    /// Whether proved margins come close to the least margins found, which takes longer than the decision alone.
-    #[must_use]
-    pub fn close(mut self, close: bool) -> Self {
-        self.close = close;
-        self
-    }
-
-    /// Number of cells for a kind of requirement that the usual number leaves undecided; 0, the default: it stays
-    /// undecided.
-    #[must_use]
-    pub fn patient_cells(mut self, cells: usize) -> Self {
-        self.patient_cells = cells;
-        self
-    }
-
-    /// Optional time at which proofs end with their current bounds; open ones stay undecided.
-    #[must_use]
-    pub fn until(mut self, until: Option<Instant>) -> Self {
-        self.until = until;
-        self
+    num::setters! {
+        /// Points of a Halton sequence, and as many random ones.
+        fn points(points: usize) = points;
+        /// Steps between two poses of a trajectory.
+        fn steps(steps: usize) = steps;
+        /// Local searches for the worst pose of each kind of requirement.
+        fn searches(searches: usize) = searches;
+        /// Threads for the proofs; the answers do not depend on it.
+        fn threads(threads: NonZeroUsize) = Some(threads);
+        /// Whether proved margins come close to the least margins found, which takes longer than the decision alone.
+        fn close(close: bool) = close;
+        /// Number of cells for a kind of requirement that the usual number leaves undecided; 0, the default: it stays
+        /// undecided.
+        fn patient_cells(cells: usize) = cells;
+        /// Optional time at which proofs end with their current bounds; open ones stay undecided.
+        fn until(until: Option<Instant>) = until;
     }
 
     /// Whether the time of the proofs is over.

@@ -55,19 +55,12 @@ impl<'a> VerifyOptions<'a> {
         Self::default()
     }
 
-    /// Sets the number of length sets; both platforms are solved at each.
-    #[must_use]
-    pub fn samples(mut self, samples: usize) -> Self {
-        self.samples = samples;
-        self
-    }
-
-    /// Sets the seed of the sample poses and of forward kinematics. The answer depends on the seed and not on the
-    /// number of threads.
-    #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
-        self.seed = seed;
-        self
+    num::setters! {
+        /// Sets the number of length sets; both platforms are solved at each.
+        fn samples(samples: usize) = samples;
+        /// Sets the seed of the sample poses and of forward kinematics. The answer depends on the seed and not on the
+        /// number of threads.
+        fn seed(seed: u64) = seed;
     }
 
     /// Sets the number of threads that solve samples.

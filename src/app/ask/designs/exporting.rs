@@ -52,6 +52,6 @@ impl Design {
         if format == ExportFormat::C && export.cranks.is_none() {
             export = export.with_octahedral(octahedral_of_controllers(self));
         }
-        Ok(export.files(format.writer())?)
+        Ok(export.files(format)?)
     }
 }

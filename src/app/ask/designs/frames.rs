@@ -36,13 +36,6 @@ impl PoseFrames {
         self.convention.write(pose, &self.home)
     }
 
-    /// Position and angles of a pose in the convention.
-    #[must_use]
-    pub fn numbers(&self, pose: &Pose) -> [f64; 6] {
-        let WrittenPose { position: [x, y, z], angles: [a, b, c], .. } = self.write(pose);
-        [x, y, z, a, b, c]
-    }
-
     /// The ways on which one of the six numbers of a pose grows and the others stay; for a rotation vector turns about
     /// x, y and z in place of its components.
     #[must_use]

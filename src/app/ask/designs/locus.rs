@@ -55,30 +55,19 @@ pub struct VirtualLeg {
     pub names: [String; 2],
 }
 
-/// The structure of the set of poses at one length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LocusWord {
-    /// Isolated poses.
-    Isolated,
-    /// No pose.
-    Empty,
-    /// Curves or surfaces.
-    PositiveDimensional,
-    /// They could not be computed.
-    Failed,
-}
-
-impl LocusWord {
-    /// The code of the structure.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Isolated => "isolated",
-            Self::Empty => "empty",
-            Self::PositiveDimensional => "positive_dimensional",
-            Self::Failed => "failed",
-        }
+num::words! {
+    /// The structure of the set of poses at one length.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    pub enum LocusWord: name {
+        /// Isolated poses.
+        Isolated = "isolated",
+        /// No pose.
+        Empty = "empty",
+        /// Curves or surfaces.
+        PositiveDimensional = "positive_dimensional",
+        /// They could not be computed.
+        Failed = "failed",
     }
 }
 

@@ -3,36 +3,24 @@
 use crate::design::parse_with_cranks;
 use files::design::Format;
 
-/// The purpose of a machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum PresetClass {
-    /// Small machines with drives from a catalogue.
-    Bench,
-    /// Machines that move a person or a cabin.
-    #[serde(rename = "motion simulator")]
-    MotionSimulator,
-    /// Machines with a travel of millimetres and micrometre steps.
-    #[serde(rename = "precision positioner")]
-    PrecisionPositioner,
-    /// Machines that carry a spindle.
-    #[serde(rename = "machine tool")]
-    MachineTool,
-    /// Machines that move a part of a robot.
-    Robot,
-}
-
-impl PresetClass {
-    /// Stable name, as in `equipod design presets`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bench => "bench",
-            Self::MotionSimulator => "motion simulator",
-            Self::PrecisionPositioner => "precision positioner",
-            Self::MachineTool => "machine tool",
-            Self::Robot => "robot",
-        }
+num::words! {
+    /// The purpose of a machine.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    pub enum PresetClass: name {
+        /// Small machines with drives from a catalogue.
+        Bench = "bench",
+        /// Machines that move a person or a cabin.
+        #[serde(rename = "motion simulator")]
+        MotionSimulator = "motion simulator",
+        /// Machines with a travel of millimetres and micrometre steps.
+        #[serde(rename = "precision positioner")]
+        PrecisionPositioner = "precision positioner",
+        /// Machines that carry a spindle.
+        #[serde(rename = "machine tool")]
+        MachineTool = "machine tool",
+        /// Machines that move a part of a robot.
+        Robot = "robot",
     }
 }
 

@@ -56,25 +56,16 @@ impl RoundingChoices {
     }
 }
 
-/// The kind of rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "VariantWord")]
-pub enum RoundingWay {
-    /// All joints exactly on the sides of two triangles.
-    Exact,
-    /// All joints on holes near their given positions.
-    Nearest,
-}
-
-impl RoundingWay {
-    /// The code: `"exact"` or `"nearest"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Nearest => "nearest",
-        }
+num::words! {
+    /// The kind of rounding.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    #[schemars(rename = "VariantWord")]
+    pub enum RoundingWay: name {
+        /// All joints exactly on the sides of two triangles.
+        Exact = "exact",
+        /// All joints on holes near their given positions.
+        Nearest = "nearest",
     }
 }
 

@@ -32,31 +32,20 @@ pub struct SelfMotionOptions {
     pub motion: MotionOptions,
 }
 
-/// The origin of the first pose of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "OriginWord")]
-pub enum MotionOrigin {
-    /// The given pose.
-    Pose,
-    /// A point on a section of the set of poses.
-    Section,
-    /// A critical point.
-    CriticalPoint,
-    /// A search.
-    Search,
-}
-
-impl MotionOrigin {
-    /// The code of the origin.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pose => "pose",
-            Self::Section => "section",
-            Self::CriticalPoint => "critical_point",
-            Self::Search => "search",
-        }
+num::words! {
+    /// The origin of the first pose of a curve.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    #[schemars(rename = "OriginWord")]
+    pub enum MotionOrigin: name {
+        /// The given pose.
+        Pose = "pose",
+        /// A point on a section of the set of poses.
+        Section = "section",
+        /// A critical point.
+        CriticalPoint = "critical_point",
+        /// A search.
+        Search = "search",
     }
 }
 

@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use super::build::drives;
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
 use crate::app::cli::progress::ProgressLine;
+use crate::app::cli::{Answer, Context, Failure};
 use ask::Error;
 use machine::requirements::AssessOptions;
 use records::AssessAnswer;

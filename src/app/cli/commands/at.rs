@@ -4,11 +4,8 @@ use std::path::PathBuf;
 
 use nalgebra::Vector3;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::frames::FrameArgs;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use crate::app::cli::{numbers, poses};
 use ask::AtPoseOptions;
 use platform::manipulator::Body;

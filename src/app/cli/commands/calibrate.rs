@@ -4,13 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::{FrameArgs, note_frames};
-use crate::app::cli::output::Answer;
 use crate::app::cli::rows;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::{Design, Error, PoseFrames};
 use machine::calibration::{
     CalibrateOptions, Calibration, CalibrationError, CalibrationStatus, CarriedFrames, HeldParts, Loss,

@@ -4,9 +4,7 @@ use std::path::PathBuf;
 
 use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure};
 use ask::design::parse;
 use records::CheckAnswer;
 

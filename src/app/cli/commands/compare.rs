@@ -5,12 +5,9 @@ use std::path::PathBuf;
 
 use super::build::drives;
 use super::build::tolerances::numbers;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use super::motion::manoeuvres;
 use crate::app::cli::table::{csv_line, number};
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use crate::app::report::{Comparison, comparison_page};
 use ::files::export::LengthUnit;
 use ::files::plot::thumbnail;
@@ -91,18 +88,6 @@ pub(crate) fn run(args: &CompareArgs, context: &mut Context) -> Result<Answer, F
 }
 
 fn asked(args: &CompareArgs, context: &Context) -> Result<CompareQuestion, Failure> {
-    let bad = |option: &str, why: &dyn std::fmt::Display| {
-        let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
-        Failure::refused("compare::bad_manoeuvre", format!("{option}: {why}")).with_help(help)
-    };
-    let mut motions = Vec::new();
-    for text in &args.sine {
-        motions.push((format!("sine {text}"), Manoeuvre::sine(text).map_err(|e| bad("--sine", &e))?));
-    }
-    for text in &args.accelerate {
-        let start = Manoeuvre::acceleration(text).map_err(|e| bad("--accelerate", &e))?;
-        motions.push((format!("accelerate {text}"), start));
-    }
     let accuracy = args.accuracy.as_deref().map(|text| -> Result<ErrorBound, Failure> {
         let [position, rotation_deg] = numbers(text, "--accuracy", "compare::bad_accuracy")?;
         if !(position > 0.0 && rotation_deg > 0.0) {
@@ -113,7 +98,7 @@ fn asked(args: &CompareArgs, context: &Context) -> Result<CompareQuestion, Failu
         Ok(ErrorBound { position, rotation_deg })
     });
     Ok(CompareQuestion {
-        motions,
+        motions: manoeuvres(&args.sine, &args.accelerate, "compare::bad_manoeuvre")?,
         accuracy: accuracy.transpose()?,
         points: args.points as usize,
         seed: context.seed(),

@@ -5,12 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::build::tolerances;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::{Length, length};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use ask::Design;
 use ask::exporting::octahedral_of_controllers;
@@ -98,10 +94,10 @@ pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
 }
 
 /// The requested formats, each once, in the order of the list.
-fn wanted(args: &ExportArgs) -> Vec<&'static dyn Writer> {
+fn wanted(args: &ExportArgs) -> Vec<ExportFormat> {
     let all = args.to.iter().any(|t| t == "all");
     let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
-    ExportFormat::ALL.into_iter().filter(asked).map(ExportFormat::writer).collect()
+    ExportFormat::ALL.into_iter().filter(asked).collect()
 }
 
 fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
@@ -114,7 +110,7 @@ fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<
         context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
         return Ok(None);
     };
-    if !wanted(args).iter().any(|f| ["dxf", "csv"].contains(&f.name())) {
+    if !wanted(args).iter().any(|f| [ExportFormat::Dxf, ExportFormat::Csv].contains(f)) {
         context.no_effect("bound", "only hole plans, dxf, and tables, csv, say how far joints may be off")?;
     }
     let radius = tolerances::joint_radius(design, (bound, &args.tool), context.seed())?;
@@ -125,14 +121,12 @@ fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<
 pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
-    if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.takes_coupled())) {
+    if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.writer().takes_coupled)) {
         // refuses cranks and joints that are not ideal at their place in the file: either no requested format holds
         // them, or their tolerances are unknown
         context.load(&args.design)?;
     }
-    let asked = |formats: &[ExportFormat]| {
-        args.to.iter().any(|t| t == "all" || formats.iter().any(|format| t == format.name()))
-    };
+    let asked = |formats: &[ExportFormat]| wanted(args).iter().any(|format| formats.contains(format));
     let simulated = asked(&[ExportFormat::Mjcf, ExportFormat::Sdf, ExportFormat::Urdf]);
     if !simulated {
         context.no_effect("mass", "only the formats of simulators (mjcf, sdf, urdf) hold masses")?;
@@ -141,13 +135,14 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         context.no_effect("gravity_compensation", "only the formats mjcf and sdf can switch gravity off")?;
     }
     let mut export = model(args, &design, hole_places(args, &design, context)?)?;
-    let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());
+    let controller = asked(&[ExportFormat::C]);
     if controller && export.cranks.is_none() && !coupled {
         export = export.with_octahedral(octahedral_of_controllers(&design));
     }
     files::make_folder(&args.output)?;
     let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), Sheet::new());
     for format in wanted(args) {
+        let Writer { purpose, leaves_out, .. } = *format.writer();
         let (files, outcome) = match export.files(format) {
             Ok(made) => {
                 let paths = made.iter().map(|f| write(&args.output, f));
@@ -155,19 +150,18 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
                 for path in &paths {
                     text.line(format_args!("wrote {path}"));
                 }
-                if !format.leaves_out().is_empty() {
-                    text.line(format_args!("  {} leaves out {}", format.name(), format.leaves_out()));
+                if !leaves_out.is_empty() {
+                    text.line(format_args!("  {format} leaves out {leaves_out}"));
                 }
-                (paths, FormatOutcome::Written { leaves_out: format.leaves_out().into() })
+                (paths, FormatOutcome::Written { leaves_out: leaves_out.into() })
             }
             Err(why) => {
                 exit = Exit::No;
-                text.line(format_args!("{} not written: {why}", format.name()));
+                text.line(format_args!("{format} not written: {why}"));
                 (Vec::new(), FormatOutcome::Refused { refused: why.to_string() })
             }
         };
-        let (name, purpose) = (format.name().into(), format.purpose().into());
-        formats.push(FormatRecord { format: name, purpose, files, outcome });
+        formats.push(FormatRecord { format: format.to_string(), purpose: purpose.into(), files, outcome });
     }
     // only legs that change their lengths are assessed
     let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };

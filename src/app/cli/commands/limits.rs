@@ -2,13 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::FrameArgs;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::export::{SurfaceFile, SurfaceFormat};
 use ask::{Design, PoseFrames, RAYS};
 use machine::reach::{NearestPoseOptions, ReachedSurface};

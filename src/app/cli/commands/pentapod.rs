@@ -1,10 +1,7 @@
 //! Designs of five legs, for `equipod check` and `equipod fk`.
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use ::files::design::FiveLegs;
 use ask::{PentapodReport, about_five_legs};
 use records::PentapodAnswer;

@@ -6,12 +6,8 @@ use serde_json::Value;
 
 use super::compare::{CompareQuestion, compare};
 use super::explore::folder::FIRST;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::streams::output_is_terminal;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use crate::app::page::{CORE, Session, page as view};
 use crate::app::report::{Comparison, Report, ReportFile, html};
 use ::files::design::Format;

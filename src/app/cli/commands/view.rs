@@ -2,11 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use crate::app::page::{CORE, Session, page};
 use records::{AssessAnswer, ViewAnswer};
 

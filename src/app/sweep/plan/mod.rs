@@ -190,27 +190,16 @@ pub struct AnswerField {
     pub(crate) unit: Option<String>,
 }
 
-/// The commands whose answers have columns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AnswerName {
-    /// The answer on requirements and margins.
-    Assess,
-    /// The answer on architectural singularity.
-    Check,
-    /// The answer on poses for lengths.
-    Fk,
-}
-
-impl AnswerName {
-    pub(crate) const ALL: [Self; 3] = [Self::Assess, Self::Check, Self::Fk];
-
-    /// The name of the command.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Assess => "assess",
-            Self::Check => "check",
-            Self::Fk => "fk",
-        }
+num::words! {
+    /// The commands whose answers have columns.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum AnswerName: name, ALL {
+        /// The answer on requirements and margins.
+        Assess = "assess",
+        /// The answer on architectural singularity.
+        Check = "check",
+        /// The answer on poses for lengths.
+        Fk = "fk",
     }
 }
 

@@ -19,31 +19,23 @@ pub use self::origins::{InvalidShare, Origin, Share, length_in};
 use num::exact::rational;
 use num::real::RealNumber;
 use num::surd::{Surd, generators};
-use platform::geom::Pose;
+use platform::geom::{FrameAxis, Pose};
 use platform::manipulator::Body;
 
-/// The exactness of the coordinates of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Exactness {
-    /// All coordinates are fractions.
-    Rational,
-    /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
-    Field,
-    /// At least one coordinate is known only between two close bounds.
-    Interval,
+num::words! {
+    /// The exactness of the coordinates of a joint.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Exactness: name, Display {
+        /// All coordinates are fractions.
+        Rational = "rational",
+        /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
+        Field = "field",
+        /// At least one coordinate is known only between two close bounds.
+        Interval = "interval",
+    }
 }
 
 impl Exactness {
-    /// The name: `"rational"`, `"field"` or `"interval"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rational => "rational",
-            Self::Field => "field",
-            Self::Interval => "interval",
-        }
-    }
-
     fn of(point: &RealPoint) -> Self {
         let one = |x: &RealNumber| match x.exact() {
             None => Self::Interval,
@@ -51,12 +43,6 @@ impl Exactness {
             Some(_) => Self::Field,
         };
         point.iter().map(one).max().unwrap_or(Self::Rational)
-    }
-}
-
-impl fmt::Display for Exactness {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 
@@ -125,55 +111,23 @@ pub(crate) enum LinePlace {
     Offset(WrittenNumber),
 }
 
-/// A plane of two axes of the frame of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CoordinatePlane {
-    Xy,
-    Xz,
-    Yz,
+num::words! {
+    /// A plane of two axes of the frame of the body.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum CoordinatePlane: name, ALL {
+        Xy = "xy",
+        Xz = "xz",
+        Yz = "yz",
+    }
 }
 
 impl CoordinatePlane {
-    pub(super) const ALL: [Self; 3] = [Self::Xy, Self::Xz, Self::Yz];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Xy => "xy",
-            Self::Xz => "xz",
-            Self::Yz => "yz",
-        }
-    }
-
     /// The axis that changes its sign.
     fn normal(self) -> usize {
         match self {
             Self::Xy => 2,
             Self::Xz => 1,
             Self::Yz => 0,
-        }
-    }
-}
-
-/// An axis of a turn, parallel to an axis of the frame of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TurnAxis {
-    X,
-    Y,
-    Z,
-}
-
-impl TurnAxis {
-    pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
-
-    pub(super) fn name(self) -> &'static str {
-        ["x", "y", "z"][self.index()]
-    }
-
-    pub(super) fn index(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-            Self::Z => 2,
         }
     }
 }
@@ -198,7 +152,7 @@ pub(crate) enum Construction {
     /// `{ radius = "r", angle_deg = 30, z = 0 }`: the angle from the x axis towards the y axis.
     Polar { radius: WrittenNumber, angle_deg: WrittenNumber, z: Option<WrittenNumber> },
     /// `{ turn = "A1", deg = 120 }`: about the z axis, or about a parallel to an axis through a point.
-    Turned { joint: usize, deg: WrittenNumber, about: TurnAxis, through: Option<[WrittenNumber; 3]> },
+    Turned { joint: usize, deg: WrittenNumber, about: FrameAxis, through: Option<[WrittenNumber; 3]> },
     /// `{ mirror = "A1", plane = "xz" }`, `{ mirror = "A1", normal = [1, 2, 0], through = [10, 0, 0] }`.
     Mirrored { joint: usize, plane: MirrorPlane, through: Option<[WrittenNumber; 3]> },
 }

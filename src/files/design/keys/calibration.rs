@@ -150,8 +150,12 @@ fn correlations(
     let rows = list(report, &matrix.node, "`matrix`")?;
     if rows.len() != unknowns.len() {
         let message = format!("`matrix` has {} rows for {} unknowns", rows.len(), unknowns.len());
-        report.refuse(Code::OutOfRange, &matrix.node.span, message, "give a row for each of `unknowns`");
-        return None;
+        return report.refused(
+            Code::OutOfRange,
+            &matrix.node.span,
+            message,
+            "give a row for each of `unknowns`",
+        );
     }
     let triangle: Vec<Option<Vec<f64>>> =
         rows.iter().enumerate().map(|(i, row)| triangle_row(report, row, i)).collect();
@@ -162,8 +166,7 @@ fn correlations(
     if least < -ROUNDED * rows.len() as f64 {
         let message = format!("no quantities have these correlations: the least eigenvalue is {least:.3e}");
         let help = "a matrix of correlations is positive semidefinite; give six decimals or more";
-        report.refuse(Code::OutOfRange, &matrix.node.span, message, help);
-        return None;
+        return report.refused(Code::OutOfRange, &matrix.node.span, message, help);
     }
     Some(out)
 }
@@ -172,9 +175,7 @@ fn list<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a
     if let Value::Array(list) = &node.value {
         return Some(list);
     }
-    let message = format!("{what} is {}, not an array", node.value.kind());
-    report.refuse(Code::WrongType, &node.span, message, format!("write {what} as an array"));
-    None
+    report.not_a(node, what, "an array", format!("write {what} as an array"))
 }
 
 /// The unknowns behind names like `base.A1.x` and `offset.3`.
@@ -236,24 +237,21 @@ fn triangle_row(report: &mut Findings<'_>, row: &Node, i: usize) -> Option<Vec<f
         let message = format!("{what} has {} numbers instead of {}", entries.len(), i + 1);
         let help =
             "the matrix is symmetric: give its lower triangle with the diagonal, one number more in each row";
-        report.refuse(Code::OutOfRange, &row.span, message, help);
-        return None;
+        return report.refused(Code::OutOfRange, &row.span, message, help);
     }
     let mut out = Vec::with_capacity(i + 1);
     for (j, node) in entries.iter().enumerate() {
         let x = number(report, node, &format!("number {} of {what}", j + 1))?;
         if x.abs() > 1.0 {
             let help = "correlations are from -1 to 1";
-            report.refuse(Code::OutOfRange, &node.span, format!("a correlation of {x}"), help);
-            return None;
+            return report.refused(Code::OutOfRange, &node.span, format!("a correlation of {x}"), help);
         }
         out.push(x);
     }
     if (out[i] - 1.0).abs() > 0.0 {
         let message = format!("{what} ends with {}, not with 1", out[i]);
         let help = "the diagonal is 1: every quantity is wholly correlated with itself";
-        report.refuse(Code::OutOfRange, &element_span(row, i), message, help);
-        return None;
+        return report.refused(Code::OutOfRange, &element_span(row, i), message, help);
     }
     Some(out)
 }

@@ -15,11 +15,12 @@ use super::{Code, KeyTable, TEXT, key};
 use crate::design::construction::expression::{Slip, UnitsBehind, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
-    Construction, Constructions, CoordinatePlane, LinePlace, MirrorPlane, TurnAxis, WrittenCranks,
-    WrittenHome, WrittenNumber,
+    Construction, Constructions, CoordinatePlane, LinePlace, MirrorPlane, WrittenCranks, WrittenHome,
+    WrittenNumber,
 };
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
+use platform::geom::FrameAxis;
 
 /// A point on the line of two joints.
 static ON_LINE: KeyTable<()> = KeyTable {
@@ -56,7 +57,7 @@ static TURNED: KeyTable<()> = KeyTable {
     keys: &[
         key!("turn": TEXT; ""),
         key!("deg": quantity_of(unit::DEGREES); "about an axis of the frame of the body"),
-        key!("about": word(TurnAxis::words); "the direction of the axis; default z"),
+        key!("about": word(FrameAxis::words); "the direction of the axis; default z"),
         key!("through": list_of(3, &LENGTH); "a point of the axis; default the origin"),
     ],
     rules: r#"{"required": ["turn", "deg"], "description": "a joint of the same body, turned"}"#,
@@ -123,7 +124,7 @@ pub(super) fn written(made: &Construction, names: &[String]) -> Json {
         }
         Construction::Turned { joint, deg, about, through } => {
             let mut out = json!({"turn": name(joint), "deg": deg.json()});
-            if *about != TurnAxis::Z {
+            if *about != FrameAxis::Z {
                 out["about"] = json!(about.name());
             }
             with_point(out, through.as_ref())
@@ -205,11 +206,9 @@ pub(super) fn quantity(
             let digits = report.source(&node.span).replace('_', "");
             WrittenNumber::decimal(digits.trim_start_matches('+'), x)
         }
-        other => {
-            let message = format!("{what} is {}, not a number", other.kind());
+        _ => {
             let help = "write a number, or an expression in quotes such as \"6*sqrt(3)\"";
-            report.refuse(Code::WrongType, &node.span, message, help);
-            return None;
+            return report.not_a(node, what, "a number", help);
         }
     };
     match read {
@@ -218,8 +217,7 @@ pub(super) fn quantity(
             let code = if too_complex { Code::TooComplex } else { Code::Expression };
             let help = "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg(); a unit of length may stand behind a length";
             let span = inner(report, &node.span, Some(&place));
-            report.refuse(code, &span, format!("{what}: {message}"), help);
-            None
+            report.refused(code, &span, format!("{what}: {message}"), help)
         }
     }
 }
@@ -277,14 +275,11 @@ pub(super) fn three_quantities(
     (number, noun): (&str, &str),
 ) -> Option<([WrittenNumber; 3], Vec<Span>)> {
     let Value::Array(list) = &node.value else {
-        let message = format!("{what} is {}, not an array", node.value.kind());
-        report.refuse(Code::WrongType, &node.span, message, format!("write an array of 3 {noun}"));
-        return None;
+        return report.not_a(node, what, "an array", format!("write an array of 3 {noun}"));
     };
     let [x, y, z] = list.as_slice() else {
         let message = format!("{what} has {} {number}s instead of 3", list.len());
-        report.refuse(Code::CoordinateCount, &node.span, message, format!("give 3 {noun}"));
-        return None;
+        return report.refused(Code::CoordinateCount, &node.span, message, format!("give 3 {noun}"));
     };
     let mut place = 0;
     // evaluate all of them, so that each fault is reported
@@ -309,8 +304,12 @@ fn form(
             Some(e) if !report.is_full() => (&e.key_span, nearest_help("known keys", &e.key, &kinds)),
             _ => (&node.span, format!("begin with one of {}", kinds.join(", "))),
         };
-        report.refuse(Code::MissingKey, span, format!("{what} has none of {}", kinds.join(", ")), help);
-        return None;
+        return report.refused(
+            Code::MissingKey,
+            span,
+            format!("{what} has none of {}", kinds.join(", ")),
+            help,
+        );
     };
     let keys = form.names();
     check_keys(report, entries, &keys, what);
@@ -324,8 +323,7 @@ fn form(
         None if optional => Some(None),
         None => {
             let help = format!("a joint with `{}` takes {}", keys[0], keys.join(", "));
-            report.refuse(Code::MissingKey, &node.span, format!("`{key}` of {what} is missing"), help);
-            None
+            report.refused(Code::MissingKey, &node.span, format!("`{key}` of {what} is missing"), help)
         }
     };
     Some(match keys[0] {
@@ -342,7 +340,7 @@ fn form(
                 Some(entry) => {
                     known_word(report, entry, what, "no axis", "write about = \"x\", \"y\" or \"z\"")
                 }
-                None => Some(TurnAxis::Z),
+                None => Some(FrameAxis::Z),
             };
             let through = vector(report, entries, "through", what);
             let mut places = vec![span("turn"), span("deg")];
@@ -361,8 +359,7 @@ fn form(
                 (Some(_), Some(_)) => {
                     let message = format!("{what} has both `plane` and `normal`");
                     let help = "give one of them";
-                    report.refuse(Code::ConflictingKeys, &node.span, message, help);
-                    return None;
+                    return report.refused(Code::ConflictingKeys, &node.span, message, help);
                 }
                 (Some((normal, spans)), None) => {
                     places.extend(spans);
@@ -389,8 +386,7 @@ fn form(
                         (Code::MissingKey, "neither `t` nor `offset`")
                     };
                     let help = "give one: t = \"1/5\" of the way from the first joint to the second, or offset = 2.4 in units of length";
-                    report.refuse(code, &node.span, format!("{what} has {says}"), help);
-                    return None;
+                    return report.refused(code, &node.span, format!("{what} has {says}"), help);
                 }
             };
             (Construction::OnLine { through: through?, at }, vec![span("on"), span("on"), place])
@@ -401,8 +397,7 @@ fn form(
 fn plane(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> Option<CoordinatePlane> {
     let help = "write plane = \"xy\", \"xz\" or \"yz\", or the normal of the plane: normal = [1, 2, 0]";
     let Some(entry) = find(entries, "plane") else {
-        report.refuse(Code::MissingKey, &node.span, format!("`plane` of {what} is missing"), help);
-        return None;
+        return report.refused(Code::MissingKey, &node.span, format!("`plane` of {what} is missing"), help);
     };
     known_word(report, entry, what, "no plane of two axes", help)
 }
@@ -446,14 +441,16 @@ fn line(
     names: &BTreeMap<String, usize>,
 ) -> Option<[usize; 2]> {
     let Value::Array(list) = &node.value else {
-        let message = format!("`on` of {what} is {}, not a pair of joints", node.value.kind());
-        report.refuse(Code::WrongType, &node.span, message, "write on = [\"P1\", \"P2\"]");
-        return None;
+        return report.not_a(
+            node,
+            &format!("`on` of {what}"),
+            "a pair of joints",
+            "write on = [\"P1\", \"P2\"]",
+        );
     };
     let [a, b] = list.as_slice() else {
         let message = format!("`on` of {what} names {} joints instead of two", list.len());
-        report.refuse(Code::CoordinateCount, &node.span, message, "write on = [\"P1\", \"P2\"]");
-        return None;
+        return report.refused(Code::CoordinateCount, &node.span, message, "write on = [\"P1\", \"P2\"]");
     };
     let ends = [a, b].map(|e| reference(report, e, what, names));
     Some([ends[0]?, ends[1]?])
@@ -468,13 +465,12 @@ fn reference(
 ) -> Option<usize> {
     let Value::Text(name) = &node.value else {
         let message = format!("{what} starts from {}, not from a joint", node.value.kind());
-        report.refuse(
+        return report.refused(
             Code::WrongType,
             &node.span,
             message,
             "write the name of a joint of the same body in quotes",
         );
-        return None;
     };
     let found = names.get(name).copied();
     if found.is_none() {

@@ -180,8 +180,7 @@ pub(super) fn cranks(
     if let (Some(e), false) = (drive, takes_cranks) {
         let message = "the design has rods on cranks, but this question needs legs that change their lengths";
         let help = "`equipod ik`, `fk`, `assess`, `limits`, `motion`, `compare`, `view`, `export` and `design convert` take cranks; `assess` proves that no pose of the workspace is singular; leg maps hold between squared lengths of rods, and nothing follows from them for the angles of cranks";
-        report.refuse(Code::Rotary, &e.node.span, message, help);
-        return None;
+        return report.refused(Code::Rotary, &e.node.span, message, help);
     }
     for e in OF_LENGTHS.iter().filter_map(|key| find(top, key)) {
         let message =
@@ -192,8 +191,12 @@ pub(super) fn cranks(
     let Some(e) = table_entry else {
         let span = drive.map_or(0..0, |e| e.key_span.clone());
         let help = "add [cranks] with length, rod_length, axis, zero and elbow, and [cranks.NAME] for what is different at the base joint NAME";
-        report.refuse(Code::MissingKey, &span, "`drive` is \"rotary\", and [cranks] is missing", help);
-        return None;
+        return report.refused(
+            Code::MissingKey,
+            &span,
+            "`drive` is \"rotary\", and [cranks] is missing",
+            help,
+        );
     };
     let before = report.count();
     let entries = table(report, &e.node, "[cranks]")?;
@@ -277,14 +280,11 @@ fn range(found: &mut FoundKey<'_, '_>, places: &mut Places) -> Option<[WrittenNu
     let help = "write angle_deg = [least, greatest]";
     let (node, what) = (&found.entry.node, found.place);
     let Value::Array(list) = &node.value else {
-        let message = format!("`angle_deg` of {what} is {}, not a pair of angles", node.value.kind());
-        found.refuse(Code::WrongType, message, help);
-        return None;
+        return found.report.not_a(node, &format!("`angle_deg` of {what}"), "a pair of angles", help);
     };
     let [least, most] = list.as_slice() else {
         let message = format!("`angle_deg` of {what} has {} angles instead of two", list.len());
-        found.refuse(Code::CoordinateCount, message, help);
-        return None;
+        return found.refused(Code::CoordinateCount, message, help);
     };
     let [a, b] =
         [least, most].map(|e| quantity(found.report, e, NumberKind::Plain, &format!("an angle of {what}")));
@@ -305,8 +305,12 @@ fn copy(
     let (turn, mirror) = (find(entries, "turn"), find(entries, "mirror"));
     if let (Some(_), Some(second)) = (turn, mirror) {
         let message = format!("{what} is both turned and mirrored");
-        report.refuse(Code::ConflictingKeys, &span(second), message, "keep one of `turn` and `mirror`");
-        return None;
+        return report.refused(
+            Code::ConflictingKeys,
+            &span(second),
+            message,
+            "keep one of `turn` and `mirror`",
+        );
     }
     for (key, of) in [("deg", "turn"), ("plane", "mirror")] {
         let (own, first) = (find(entries, key), find(entries, of));
@@ -331,8 +335,12 @@ fn copy(
     let name = text(report, from)?;
     let Some(crank) = names.iter().position(|known| **known == name) else {
         let message = format!("{what} starts from `{}`, which is not a joint of the base", shown(&name));
-        report.refuse(Code::UnknownName, &from.node.span, message, nearest_help("known names", &name, names));
-        return None;
+        return report.refused(
+            Code::UnknownName,
+            &from.node.span,
+            message,
+            nearest_help("known names", &name, names),
+        );
     };
     if turn.is_some() {
         let e = find(entries, "deg")?;

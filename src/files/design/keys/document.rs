@@ -124,13 +124,12 @@ fn placeholder() -> Option<Manipulator> {
 pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<DesignModel> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
-        report.refuse(
+        return report.refused(
             Code::WrongType,
             &root.span,
             format!("a design is a table, not {}", root.value.kind()),
             help,
         );
-        return None;
     };
     check_keys(report, entries, &TOP.names(), "a design");
     let mut design = DesignModel::new("", "", placeholder()?);
@@ -260,30 +259,24 @@ fn manipulator(
     match Manipulator::try_new(points(base), points(platform), legs.pairs) {
         Ok(m) if m.size() < SMALLEST => {
             let message = format!("the design is {:e} long", m.size());
-            report.refuse(
+            report.refused(
                 Code::OutOfRange,
                 root,
                 message,
                 "use a smaller unit: squares of such lengths underflow",
-            );
-            None
+            )
         }
         Ok(m) => Some(m),
         Err(InvalidManipulator::NoSize) => {
             let message = "all joints in use of the base coincide, and so do those of the platform";
-            report.refuse(Code::NoSize, root, message, "give the joints different coordinates");
-            None
+            report.refused(Code::NoSize, root, message, "give the joints different coordinates")
         }
         Err(InvalidManipulator::TooSmall) => {
             let advice = "use a smaller unit";
-            report.refuse(Code::OutOfRange, root, InvalidManipulator::TooSmall.to_string(), advice);
-            None
+            report.refused(Code::OutOfRange, root, InvalidManipulator::TooSmall.to_string(), advice)
         }
         // names, coordinates and pairs were checked before, so no other fault is possible
-        Err(other) => {
-            report.refuse(Code::MissingJoint, root, other.to_string(), "check joints and legs");
-            None
-        }
+        Err(other) => report.refused(Code::MissingJoint, root, other.to_string(), "check joints and legs"),
     }
 }
 

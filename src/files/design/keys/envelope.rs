@@ -65,8 +65,7 @@ impl StoredValue for Envelope {
         {
             let help = "give `{ radius = R }`, with `center = [x, y]` where it is not the origin, or `{ min = [x, y, z], max = [x, y, z] }`";
             let span = &found.entry.key_span;
-            found.report.refuse(Code::MissingKey, span, format!("{place} is no shape"), help);
-            return None;
+            return found.report.refused(Code::MissingKey, span, format!("{place} is no shape"), help);
         }
         if has("radius") {
             let center = if has("center") { keys.center? } else { [0.0; 2] };

@@ -54,14 +54,9 @@ pub fn text(report: &mut Findings<'_>, entry: &Entry) -> Option<String> {
         Value::Text(s) if !s.trim().is_empty() => Some(s.clone()),
         Value::Text(_) => {
             let help = format!("write something between the quotes of `{key}`");
-            report.refuse(Code::EmptyName, &entry.node.span, format!("`{key}` is empty"), help);
-            None
+            report.refused(Code::EmptyName, &entry.node.span, format!("`{key}` is empty"), help)
         }
-        other => {
-            let message = format!("`{key}` is {}, not a string", other.kind());
-            report.refuse(Code::WrongType, &entry.node.span, message, format!("write `{key} = \"...\"`"));
-            None
-        }
+        _ => report.not_a(&entry.node, &format!("`{key}`"), "a string", format!("write `{key} = \"...\"`")),
     }
 }
 
@@ -70,25 +65,19 @@ pub fn number(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<f64>
     match &node.value {
         Value::Number(x) if !x.is_finite() => {
             let message = format!("{what} is {x}, not a finite number");
-            report.refuse(Code::NonFinite, &node.span, message, "write a finite number");
-            None
+            report.refused(Code::NonFinite, &node.span, message, "write a finite number")
         }
         Value::Number(x) if x.abs() > LARGEST => {
             let message = format!("{what} is {x:e}, which is too large to compute with");
-            report.refuse(
+            report.refused(
                 Code::OutOfRange,
                 &node.span,
                 message,
                 format!("stay below {LARGEST:e}; use a larger unit"),
-            );
-            None
+            )
         }
         Value::Number(x) => Some(*x),
-        other => {
-            let message = format!("{what} is {}, not a number", other.kind());
-            report.refuse(Code::WrongType, &node.span, message, "write a number without quotes");
-            None
-        }
+        _ => report.not_a(node, what, "a number", "write a number without quotes"),
     }
 }
 
@@ -101,9 +90,7 @@ pub(super) fn numbers<const N: usize>(
     noun: &str,
 ) -> Option<[f64; N]> {
     let Value::Array(elements) = &node.value else {
-        let message = format!("{what} is {}, not an array", node.value.kind());
-        report.refuse(Code::WrongType, &node.span, message, format!("write an array of {N} {noun}"));
-        return None;
+        return report.not_a(node, what, "an array", format!("write an array of {N} {noun}"));
     };
     if elements.len() != N {
         let message = format!("{what} has {} numbers instead of {N}", elements.len());
@@ -136,11 +123,7 @@ pub(super) fn element_span(node: &Node, i: usize) -> Span {
 pub fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
     match &node.value {
         Value::Table(entries) => Some(entries),
-        other => {
-            let message = format!("{what} is {}, not a table", other.kind());
-            report.refuse(Code::WrongType, &node.span, message, format!("write {what} as a table"));
-            None
-        }
+        _ => report.not_a(node, what, "a table", format!("write {what} as a table")),
     }
 }
 
@@ -165,9 +148,19 @@ impl<'a> FoundKey<'a, '_> {
         field.fill(self);
     }
 
-    /// Refuses the value.
+    /// Refuses the value; what can be read of it may be used for later checks.
     pub(super) fn refuse(&mut self, code: Code, message: impl Into<String>, help: impl Into<String>) {
         self.report.refuse(code, &self.entry.node.span, message, help);
+    }
+
+    /// Refuses the value, of which nothing can be used.
+    pub(super) fn refused<T>(
+        &mut self,
+        code: Code,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.report.refused(code, &self.entry.node.span, message, help)
     }
 
     /// A number in the range of the key. Numbers out of range are returned too, for later checks.

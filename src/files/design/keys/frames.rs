@@ -5,6 +5,8 @@ use serde_json::{Value as Json, json};
 use super::kind::{KeyKind, own, unit, vector, word};
 use super::stored::{StoredValue, Word};
 use super::{Code, FoundKey, KeyTable, key};
+use crate::design::tree::Node;
+use crate::design::violation::Findings;
 use platform::geom::{AngleUnit, ListedFrom, PoseConvention, QuaternionOrder, RotationOrder, UpAxis};
 
 const ORDER: KeyKind = own(
@@ -28,6 +30,13 @@ pub(super) static FRAMES: KeyTable<PoseConvention> = KeyTable {
     ],
     ..KeyTable::EMPTY
 };
+
+/// The convention that the keys of `[frames]` state, without the name of the table above them.
+pub(crate) fn frames(root: &Node, report: &mut Findings<'_>) -> PoseConvention {
+    let mut convention = PoseConvention::default();
+    FRAMES.read(report, root, "[frames]", &mut convention);
+    convention
+}
 
 impl StoredValue for RotationOrder {
     fn take(found: &mut FoundKey<'_, '_>) -> Option<Self> {

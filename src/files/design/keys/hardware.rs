@@ -290,8 +290,7 @@ fn joint_axes(found: &mut FoundKey<'_, '_>) -> Option<JointAxes> {
         }
         _ => {
             let help = "write \"home\", \"normal\", \"optimize\", one vector for all joints, or six in leg order, each a vector or \"normal\"";
-            found.refuse(Code::WrongType, format!("`{}` is not a choice of axes", entry.key), help);
-            None
+            found.refused(Code::WrongType, format!("`{}` is not a choice of axes", entry.key), help)
         }
     }
 }

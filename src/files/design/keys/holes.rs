@@ -134,8 +134,7 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Option<
     let plates = Body::BOTH.map(|body| find(entries, body.name()));
     if common.is_empty() && plates.iter().all(Option::is_none) {
         let help = "add pitch = 25 for both plates, or [holes.base] for one";
-        report.refuse(Code::MissingKey, &entry.key_span, format!("{place} has no grid"), help);
-        return None;
+        return report.refused(Code::MissingKey, &entry.key_span, format!("{place} has no grid"), help);
     }
     // keys of both plates are read once, so their faults are reported once
     let shared = if plates.iter().any(Option::is_none) && !common.is_empty() {
@@ -247,8 +246,7 @@ fn radii(report: &mut Findings<'_>, entry: &Entry) -> Option<Vec<f64>> {
     if all.is_empty() || all.len() > HoleCircles::MOST {
         let message = format!("`radii` has {} numbers", all.len());
         let help = format!("give 1 to {} radii", HoleCircles::MOST);
-        report.refuse(Code::Grid, &entry.node.span, message, help);
-        return None;
+        return report.refused(Code::Grid, &entry.node.span, message, help);
     }
     for (radius, node) in all.iter().filter(|(radius, _)| *radius <= 0.0) {
         let message = format!("a radius of `radii` is {radius}");
@@ -267,27 +265,24 @@ fn counts(
     let entry = match (find(entries, "count"), find(entries, "step_deg")) {
         (Some(_), Some(step)) => {
             let message = format!("{place} gives the holes of a circle by `count` and by `step_deg`");
-            report.refuse(Code::ConflictingKeys, &step.key_span, message, "keep one of them");
-            return None;
+            return report.refused(Code::ConflictingKeys, &step.key_span, message, "keep one of them");
         }
         (None, None) => {
             let message = format!("{place} has neither `count` nor `step_deg`");
             let help = "add count = 24, the number of holes on each circle, or step_deg = 15, the angle between neighbours";
-            report.refuse(Code::MissingKey, span, message, help);
-            return None;
+            return report.refused(Code::MissingKey, span, message, help);
         }
         (Some(e), None) | (None, Some(e)) => e,
     };
     let all = one_or_more(report, entry)?;
     if all.len() != 1 && all.len() != circles {
         let message = format!("`{}` has {} numbers for circles that are {circles}", entry.key, all.len());
-        report.refuse(
+        return report.refused(
             Code::Grid,
             &entry.node.span,
             message,
             "give one number for all circles, or one for each",
         );
-        return None;
     }
     let mut found = Vec::new();
     for (x, node) in &all {
@@ -301,8 +296,7 @@ fn counts(
                     _ => "give a whole number of holes, at least 1",
                 },
             );
-            report.refuse(Code::Grid, &node.span, message, help);
-            return None;
+            return report.refused(Code::Grid, &node.span, message, help);
         }
         found.extend(u32::try_from(whole as i64));
     }

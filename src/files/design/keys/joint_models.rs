@@ -154,8 +154,7 @@ pub(super) fn models(found: &mut FoundKey<'_, '_>) -> Option<JointModel> {
     if list.len() != 6 {
         let message = format!("`{key}` is a list of {}", list.len());
         let help = "write one table for all joints of the body, or a list of six in leg order";
-        report.refuse(Code::WrongType, &entry.node.span, message, help);
-        return None;
+        return report.refused(Code::WrongType, &entry.node.span, message, help);
     }
     let mut all = [JointKeys::default(); 6];
     let mut are_read = true;
@@ -281,8 +280,7 @@ fn first_axes(found: &mut FoundKey<'_, '_>, is_of_all: bool) -> Option<[Unit<Vec
         _ => {
             let message = "`first_axis` is neither a direction nor six of them";
             let help = "write [x, y, z], or six of them in leg order";
-            report.refuse(Code::WrongType, &entry.node.span, message, help);
-            None
+            report.refused(Code::WrongType, &entry.node.span, message, help)
         }
     }
 }

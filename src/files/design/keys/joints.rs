@@ -93,8 +93,7 @@ pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Opt
         let help = format!(
             "name the joints, a line each below [{which}]: {letter}1 = [100, 0, 0]; `equipod new --points FILE` makes a design of twelve points in a table"
         );
-        report.refuse(Code::WrongType, &entry.node.span, message, help);
-        return None;
+        return report.refused(Code::WrongType, &entry.node.span, message, help);
     }
     let entries = found::table(report, &entry.node, &format!("[{which}]"))?;
     let mut body = NamedJoints {
@@ -174,9 +173,7 @@ pub(super) fn pairs<const N: usize>(
         if number_of_legs(entry) == Some(5) { five } else { "" }
     );
     let Value::Array(list) = &entry.node.value else {
-        let message = format!("`legs` is {}, not an array of pairs", entry.node.value.kind());
-        report.refuse(Code::WrongType, &entry.node.span, message, help);
-        return None;
+        return report.not_a(&entry.node, "`legs`", "an array of pairs", help);
     };
     if list.len() != N {
         let message = format!("there are {} legs instead of six", list.len());
@@ -212,8 +209,12 @@ fn pair(
     };
     let [Some(a), Some(b)] = ends.as_slice() else {
         let message = format!("leg {leg} is not a pair of joint names");
-        report.refuse(Code::LegShape, &node.span, message, "write [\"base joint\", \"platform joint\"]");
-        return None;
+        return report.refused(
+            Code::LegShape,
+            &node.span,
+            message,
+            "write [\"base joint\", \"platform joint\"]",
+        );
     };
     let a = lookup(report, leg, *a, base, platform);
     let b = lookup(report, leg, *b, platform, base);
@@ -240,8 +241,7 @@ fn lookup(
         format!("add `{} = [x, y, z]` to [{label}]", shown(name))
     };
     let message = format!("leg {leg} names `{}`, which is not a joint of the {label}", shown(name));
-    report.refuse(Code::MissingJoint, span, message, help);
-    None
+    report.refused(Code::MissingJoint, span, message, help)
 }
 
 /// Two legs between the same two points: architecturally singular, but still a valid question.

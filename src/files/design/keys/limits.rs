@@ -101,9 +101,7 @@ fn safety_margin(found: &mut FoundKey<'_, '_>, to: &mut SafetyMargins) {
 fn percent(found: &mut FoundKey<'_, '_>) -> Option<f64> {
     let (key, help) = (&found.entry.key, "write a percentage in quotes, such as \"5%\"");
     if !matches!(found.entry.node.value, Value::Text(_)) {
-        let message = format!("`{key}` is {}, not a percentage", found.entry.node.value.kind());
-        found.refuse(Code::WrongType, message, help);
-        return None;
+        return found.report.not_a(&found.entry.node, &format!("`{key}`"), "a percentage", help);
     }
     let word = found.text()?;
     let value = word.trim().strip_suffix('%').and_then(|x| x.trim().parse::<f64>().ok());

@@ -97,9 +97,8 @@ fn read_all<'e, M>(
 ) -> Vec<(M, &'e [Entry])> {
     let Some(entry) = find(top, key) else { return Vec::new() };
     let Value::Array(list) = &entry.node.value else {
-        let message = format!("`{key}` is {}, not a list of tables", entry.node.value.kind());
-        report.refuse(Code::WrongType, &entry.node.span, message, format!("write [[{key}]] above each"));
-        return Vec::new();
+        let (what, help) = (format!("`{key}`"), format!("write [[{key}]] above each"));
+        return report.not_a(&entry.node, &what, "a list of tables", help).unwrap_or_default();
     };
     let place = format!("[[{key}]]");
     let mut out = Vec::new();

@@ -33,6 +33,7 @@ use serde_json::{Map, Value as Json};
 pub(super) use document::design;
 pub(super) use five_legs::{five_legs, has_five_legs};
 pub use found::{check_keys, nearest_help, number, shown, table, text};
+pub(super) use frames::frames;
 pub(super) use kind::{KeyForm, KeyKind, KeyShape};
 pub(super) use renamed::give_new_names;
 pub use schema::SCHEMA;

@@ -31,23 +31,13 @@ pub(super) struct OptimizeKeys {
     joints: [Option<Vec<String>>; 2],
 }
 
-/// The combination of several objectives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum WeighingMode {
-    Weighted,
-    Lexicographic,
-    Pareto,
-}
-
-impl WeighingMode {
-    pub(super) const ALL: [Self; 3] = [Self::Weighted, Self::Lexicographic, Self::Pareto];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Weighted => "weighted",
-            Self::Lexicographic => "lexicographic",
-            Self::Pareto => "pareto",
-        }
+num::words! {
+    /// The combination of several objectives.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(super) enum WeighingMode: name, ALL {
+        Weighted = "weighted",
+        Lexicographic = "lexicographic",
+        Pareto = "pareto",
     }
 }
 
@@ -219,14 +209,7 @@ fn fixed(found: &mut FoundKey<'_, '_>, joints: &[Option<Vec<String>>; 2]) -> [Ve
 /// One of the words of a type; `what` is one of them.
 fn named<W: Word>(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<W> {
     let Value::Text(text) = &node.value else {
-        let message = format!("{what} is {}, not a string", node.value.kind());
-        report.refuse(
-            Code::WrongType,
-            &node.span,
-            message,
-            format!("write one of {}", W::words().join(", ")),
-        );
-        return None;
+        return report.not_a(node, what, "a string", format!("write one of {}", W::words().join(", ")));
     };
     let value = W::of(text);
     if value.is_none() {

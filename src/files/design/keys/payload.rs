@@ -76,8 +76,7 @@ fn inertia(found: &mut FoundKey<'_, '_>) -> Option<Matrix3<f64>> {
             let rows: Vec<[f64; 3]> = rows.into_iter().collect::<Option<_>>()?;
             if rows.len() != 3 {
                 let message = format!("{what} has {} rows", rows.len());
-                found.refuse(Code::CoordinateCount, message, "give three rows of three moments");
-                return None;
+                return found.refused(Code::CoordinateCount, message, "give three rows of three moments");
             }
             Matrix3::from_fn(|i, j| rows[i][j])
         }
@@ -94,8 +93,7 @@ fn inertia(found: &mut FoundKey<'_, '_>) -> Option<Matrix3<f64>> {
         m.symmetric_eigenvalues().min() > 0.0 && spread.symmetric_eigenvalues().min() >= -1e-9 * size;
     if !(symmetric && possible) {
         let help = "give a symmetric matrix with positive principal moments, none greater than the sum of the other two";
-        found.refuse(Code::OutOfRange, format!("{what} is that of no body"), help);
-        return None;
+        return found.refused(Code::OutOfRange, format!("{what} is that of no body"), help);
     }
     Some(m)
 }

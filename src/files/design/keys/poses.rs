@@ -148,14 +148,10 @@ fn pose_rotation<'a>(
     let given: Vec<&Entry> = entries.iter().filter(|e| POSE.names()[1..].contains(&e.key.as_str())).collect();
     match given.as_slice() {
         [one] => Some(*one),
-        [] => {
-            report.refuse(Code::Rotation, &node.span, format!("{place} has no rotation"), ROTATION_HELP);
-            None
-        }
+        [] => report.refused(Code::Rotation, &node.span, format!("{place} has no rotation"), ROTATION_HELP),
         [_, second, ..] => {
             let message = format!("{place} gives its rotation more than once");
-            report.refuse(Code::Rotation, &second.key_span, message, ROTATION_HELP);
-            None
+            report.refused(Code::Rotation, &second.key_span, message, ROTATION_HELP)
         }
     }
 }
@@ -180,8 +176,12 @@ fn rotation(report: &mut Findings<'_>, entry: &Entry, place: &str) -> Option<Rot
             let q = Quaternion::new(w, x, y, z);
             if (q.norm() - 1.0).abs() > 1e-3 {
                 let message = format!("{what} has norm {}, not 1", q.norm());
-                report.refuse(Code::Rotation, &entry.node.span, message, "divide the quaternion by its norm");
-                return None;
+                return report.refused(
+                    Code::Rotation,
+                    &entry.node.span,
+                    message,
+                    "divide the quaternion by its norm",
+                );
             }
             Some(UnitQuaternion::from_quaternion(q).to_rotation_matrix())
         }
@@ -195,8 +195,7 @@ fn rotation_matrix(report: &mut Findings<'_>, node: &Node, what: &str) -> Option
         Value::Array(rows) if rows.len() == 3 => rows,
         _ => {
             let message = format!("{what} is not an array of three rows");
-            report.refuse(Code::WrongType, &node.span, message, ROTATION_HELP);
-            return None;
+            return report.refused(Code::WrongType, &node.span, message, ROTATION_HELP);
         }
     };
     let rows: Vec<Option<[f64; 3]>> = rows
@@ -212,8 +211,7 @@ fn rotation_matrix(report: &mut Findings<'_>, node: &Node, what: &str) -> Option
             m.determinant()
         );
         let help = "give all digits and a right-handed frame, or use quat_wxyz, which is normalised";
-        report.refuse(Code::Rotation, &node.span, message, help);
-        return None;
+        return report.refused(Code::Rotation, &node.span, message, help);
     }
     Some(Rotation3::from_matrix_unchecked(m))
 }

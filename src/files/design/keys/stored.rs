@@ -6,16 +6,13 @@ use serde_json::{Value as Json, json};
 use super::found::FoundKey;
 use super::optimize::WeighingMode;
 use crate::design::construction::Spelling;
-use crate::design::{
-    WrittenNumber,
-    construction::{CoordinatePlane, TurnAxis},
-};
+use crate::design::{WrittenNumber, construction::CoordinatePlane};
 use machine::requirements::{
     BoltsFrom, ForceUnit, HolePattern, JointType, KeptSymmetry, ListedFrom, MassUnit, Objective, PlateMass,
     Region, VariableKind,
 };
 use machine::rotary::Elbow;
-use platform::geom::{AngleUnit, QuaternionOrder, UpAxis};
+use platform::geom::{AngleUnit, FrameAxis, QuaternionOrder, UpAxis};
 use platform::manipulator::Body;
 
 /// A value behind a key.
@@ -143,7 +140,7 @@ words! {
     Body: Self::BOTH, Self::name;
     BoltsFrom: Self::ALL, Self::name;
     CoordinatePlane: Self::ALL, Self::name;
-    TurnAxis: Self::ALL, Self::name;
+    FrameAxis: Self::ALL, Self::name;
     Elbow: Self::BOTH, Self::name;
     ForceUnit: Self::ALL, Self::label;
     HolePattern: Self::ALL, Self::name;

@@ -100,50 +100,24 @@ pub enum InvalidDriveTable {
     Empty,
 }
 
-/// The meaning of a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum DriveColumn {
-    Name,
-    Stroke,
-    DeadLength,
-    RetractedLength,
-    Force,
-    Speed,
-    Mass,
-    Stiffness,
-    Price,
-    Source,
+num::words! {
+    /// The meaning of a column.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    enum DriveColumn: name, ALL {
+        Name = "name",
+        Stroke = "stroke",
+        DeadLength = "dead_length",
+        RetractedLength = "retracted_length",
+        Force = "force",
+        Speed = "speed",
+        Mass = "mass",
+        Stiffness = "stiffness",
+        Price = "price",
+        Source = "source",
+    }
 }
 
 impl DriveColumn {
-    const ALL: [Self; 10] = [
-        Self::Name,
-        Self::Stroke,
-        Self::DeadLength,
-        Self::RetractedLength,
-        Self::Force,
-        Self::Speed,
-        Self::Mass,
-        Self::Stiffness,
-        Self::Price,
-        Self::Source,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Name => "name",
-            Self::Stroke => "stroke",
-            Self::DeadLength => "dead_length",
-            Self::RetractedLength => "retracted_length",
-            Self::Force => "force",
-            Self::Speed => "speed",
-            Self::Mass => "mass",
-            Self::Stiffness => "stiffness",
-            Self::Price => "price",
-            Self::Source => "source",
-        }
-    }
-
     fn quantity(self) -> &'static str {
         match self {
             Self::Stroke | Self::DeadLength | Self::RetractedLength => "length",

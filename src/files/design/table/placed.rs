@@ -1,6 +1,6 @@
 //! Six legs from a model of a machine, with both ends in one frame and rounded coordinates.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3};
 
 use super::points::PointTable;
 use platform::geom::Pose;
@@ -34,23 +34,6 @@ pub(super) fn order_of(numbers: &[Option<u64>]) -> Option<Vec<usize>> {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
     order.sort_by_key(|k| numbers[*k]);
     order.windows(2).all(|pair| numbers[pair[0]] < numbers[pair[1]]).then_some(order)
-}
-
-/// The identity motion.
-pub(super) fn identity() -> Pose {
-    Pose { rotation: Rotation3::identity(), position: Vector3::zeros() }
-}
-
-/// The pose `inner`, given in the frame `outer`, in the frame outside `outer`.
-pub(super) fn within(outer: &Pose, inner: &Pose) -> Pose {
-    let position = outer.transform(&Point3::from(inner.position)).coords;
-    Pose { rotation: outer.rotation * inner.rotation, position }
-}
-
-/// The inverse motion.
-pub(super) fn inverse(inner: &Pose) -> Pose {
-    let rotation = inner.rotation.inverse();
-    Pose { rotation, position: -(rotation * inner.position) }
 }
 
 /// Legs at home.

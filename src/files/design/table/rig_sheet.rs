@@ -20,30 +20,20 @@ use thiserror::Error;
 use super::text::decode;
 use crate::design::{DesignModel, HexapodSizes};
 use machine::rotary::{Elbow, RotaryPlatform};
-use num::names::{UnknownName, named};
 
-/// The program of a sheet; it determines which of `L3` and `L4` is the long side of the base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SheetDialect {
-    /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long
-    /// one.
-    Motion4Sim,
-    /// DR Sim Manager of Departed Reality: `L3` is the long side of the base, `L4` the short one.
-    DrSimManager,
+num::words! {
+    /// The program of a sheet; it determines which of `L3` and `L4` is the long side of the base.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum SheetDialect: name, ALL, FromStr("dialect") {
+        /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long
+        /// one.
+        Motion4Sim = "motion4sim",
+        /// DR Sim Manager of Departed Reality: `L3` is the long side of the base, `L4` the short one.
+        DrSimManager = "dr-sim-manager",
+    }
 }
 
 impl SheetDialect {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Motion4Sim, Self::DrSimManager];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Motion4Sim => "motion4sim",
-            Self::DrSimManager => "dr-sim-manager",
-        }
-    }
-
     fn other(self) -> Self {
         match self {
             Self::Motion4Sim => Self::DrSimManager,
@@ -65,14 +55,6 @@ impl SheetDialect {
             Self::Motion4Sim => "L4",
             Self::DrSimManager => "L3",
         }
-    }
-}
-
-impl std::str::FromStr for SheetDialect {
-    type Err = UnknownName;
-
-    fn from_str(text: &str) -> Result<Self, UnknownName> {
-        named("dialect", text, &Self::ALL, Self::name)
     }
 }
 

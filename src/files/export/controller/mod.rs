@@ -20,50 +20,35 @@ use platform::geom::{Pose, any_across};
 use platform::manipulator::{Body, Manipulator};
 
 /// The format `c`.
-#[derive(Debug)]
-pub(super) struct C;
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "limits other than leg lengths, cone angles and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker",
+    takes_cranks: true,
+    takes_coupled: true,
+    ..Writer::new(
+        "C99 for controllers, with a self-test, and LinuxCNC: inverse and tracked forward kinematics, Jacobian, limits",
+        files,
+    )
+};
 
-impl Writer for C {
-    fn name(&self) -> &'static str {
-        "c"
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    if let Some(coupled) = &export.coupled {
+        return Ok(drives::files(export, coupled));
     }
-
-    fn purpose(&self) -> &'static str {
-        "C99 for controllers, with a self-test, and LinuxCNC: inverse and tracked forward kinematics, Jacobian, limits"
+    if let Some(cranks) = &export.cranks {
+        return Ok(cranks::files(export, cranks));
     }
-
-    fn leaves_out(&self) -> &'static str {
-        "limits other than leg lengths, cone angles and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker"
-    }
-
-    fn takes_cranks(&self) -> bool {
-        true
-    }
-
-    fn takes_coupled(&self) -> bool {
-        true
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        if let Some(coupled) = &export.coupled {
-            return Ok(drives::files(export, coupled));
-        }
-        if let Some(cranks) = &export.cranks {
-            return Ok(cranks::files(export, cranks));
-        }
-        one_cone_angle_a_body(export)?;
-        let mut files = vec![
-            ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
-            ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
-            ExportedFile::new("equipod_design.h", header(export)),
-            ExportedFile::new("equipod_design.c", source(export)),
-            ExportedFile::new("equipod_vectors.h", vectors::text(export)),
-            ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
-            ExportedFile::new("CMakeLists.txt", include_str!("CMakeLists.txt").to_string()),
-        ];
-        files.extend(kinematics_modules());
-        Ok(files)
-    }
+    one_cone_angle_a_body(export)?;
+    let mut files = vec![
+        ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
+        ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),
+        ExportedFile::new("equipod_design.h", header(export)),
+        ExportedFile::new("equipod_design.c", source(export)),
+        ExportedFile::new("equipod_vectors.h", vectors::text(export)),
+        ExportedFile::new("equipod_selftest.c", include_str!("equipod_selftest.c").to_string()),
+        ExportedFile::new("CMakeLists.txt", include_str!("CMakeLists.txt").to_string()),
+    ];
+    files.extend(kinematics_modules());
+    Ok(files)
 }
 
 /// Kinematics for `LinuxCNC`, which include the other files. They are in a separate folder, so that a C compiler takes
@@ -216,24 +201,14 @@ fn source(export: &Export) -> String {
     out.push_str("#include \"equipod_design.h\"\n\n#include <math.h>\n\n#define R(x) ((real_t)(x))\n\n");
     legs(&mut out, "equipod_nominal", &export.manipulator);
     limits(&mut out, &export.hardware, &ConeAxes::of(export));
-    let home = &export.home;
-    let r = home.rotation.matrix();
-    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
-    let _ = writeln!(
-        out,
-        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};",
-        matrix(&rows),
-        reals(home.position.iter().copied())
-    );
+    home(&mut out, &export.home);
     let across = across_at_home(export);
-    let in_platform = across.map(|x| home.rotation.inverse() * x);
+    let in_platform = across.map(|x| export.home.rotation.inverse() * x);
     for (name, list) in [("base", across), ("platform", in_platform)] {
         let _ =
             writeln!(out, "const real_t equipod_across_{name}[6][3] = {};", matrix(&list.map(Into::into)));
     }
-    if let Some(offsets) = export.leg_offsets {
-        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
-    }
+    leg_offsets(&mut out, export);
     if let Some(found) = &export.calibration {
         let whole = found.of_legs(&export.manipulator.pairs());
         let rows = whole.row_iter().map(|row| reals(row.iter().copied())).collect::<Vec<_>>().join(",\n    ");
@@ -297,6 +272,22 @@ impl ConeAxes {
             platform: given(hardware.platform_cone_angle)
                 .unwrap_or_else(|| at_home.map(|u| home.rotation.inverse() * u)),
         }
+    }
+}
+
+/// The home pose.
+fn home(out: &mut String, pose: &Pose) {
+    let r = pose.rotation.matrix();
+    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
+    let position = reals(pose.position.iter().copied());
+    let _ =
+        writeln!(out, "const equipod_pose equipod_home = {{\n    {},\n    {position}\n}};", matrix(&rows));
+}
+
+/// The leg offsets of a calibration.
+fn leg_offsets(out: &mut String, export: &Export) {
+    if let Some(offsets) = export.leg_offsets {
+        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
     }
 }
 

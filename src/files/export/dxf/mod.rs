@@ -14,28 +14,19 @@ use super::text::one_line;
 use super::{DrilledHole, Export, ExportBody, ExportedFile, OutlinePart, Plate, Unsupported, Writer};
 
 /// The format `dxf`.
-#[derive(Debug)]
-pub(super) struct Dxf;
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "legs; heights of joints above the plate are text only",
+    ..Writer::new(
+        "hole plans of both plates with dimensions (DXF R12, millimetres), for laser, plasma, mill and drill",
+        files,
+    )
+};
 
-impl Writer for Dxf {
-    fn name(&self) -> &'static str {
-        "dxf"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "hole plans of both plates with dimensions (DXF R12, millimetres), for laser, plasma, mill and drill"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "legs; heights of joints above the plate are text only"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        let plan = |body: &ExportBody| {
-            Ok(ExportedFile::new(&format!("{}-plate.dxf", body.body), plan(export, body, body.plate()?)))
-        };
-        export.bodies.iter().map(plan).collect()
-    }
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    let plan = |body: &ExportBody| {
+        Ok(ExportedFile::new(&format!("{}-plate.dxf", body.body), plan(export, body, body.plate()?)))
+    };
+    export.bodies.iter().map(plan).collect()
 }
 
 /// Height of text over the greater extent of the plate.

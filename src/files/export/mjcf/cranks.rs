@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::swing::{self, ConeTendon};
 use super::{Export, ModelMasses, Scale, Unsupported, inertial, opening, platform, quat, shape};
-use crate::export::model::ExportCranks;
+use crate::export::model::{ExportCranks, seen_from};
 use crate::export::text::{real, reals};
 use platform::geom::Pose;
 
@@ -15,12 +15,6 @@ use platform::geom::Pose;
 fn gains(scale: &Scale, length: f64) -> (f64, f64) {
     let arm = (length * scale.metres).powi(2);
     (scale.kp * arm, scale.kv * arm)
-}
-
-/// The pose of `child` in the frame of `parent`.
-fn seen(parent: &Pose, child: &Pose) -> Pose {
-    let back = parent.rotation.inverse();
-    Pose { rotation: back * child.rotation, position: back * (child.position - parent.position) }
 }
 
 /// Home frames, base frame: of a crank (first axis along it, third along its axis) and of its rod (third axis along
@@ -59,7 +53,7 @@ fn leg(
     let leg = &cranks.platform.legs()[i];
     let end = export.home.transform(&leg.platform).coords;
     let [turned, rod] = frames(cranks, i, &end)?;
-    let hung = seen(&turned, &rod);
+    let hung = seen_from(&turned, &rod);
     let number = i + 1;
     let capsule = |from: &Vector3<f64>, to: &Vector3<f64>, diameter: f64| {
         let size = real(0.5 * diameter * scale.metres);
@@ -99,7 +93,7 @@ fn leg(
         tendon.at_rod(out, scale);
     }
     if i == 0 {
-        platform(out, (scale, masses), export, &export.legs[0], &seen(&rod, &export.home));
+        platform(out, (scale, masses), export, &export.legs[0], &seen_from(&rod, &export.home));
     }
     out.push_str("        </body>\n      </body>\n");
     Ok(())

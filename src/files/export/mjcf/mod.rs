@@ -20,33 +20,21 @@ use super::masses::{ModelMasses, Solid};
 use super::model::frame_along;
 
 /// The format `mjcf`.
-#[derive(Debug)]
-pub(super) struct Mjcf;
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "contacts, friction, limits of speeds and of the angles of universal joints",
+    takes_cranks: true,
+    ..Writer::new(
+        "MuJoCo model in metres and kilograms with six position actuators; Drake and Pinocchio load it too",
+        files,
+    )
+};
 
-impl Writer for Mjcf {
-    fn name(&self) -> &'static str {
-        "mjcf"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "MuJoCo model in metres and kilograms with six position actuators; Drake and Pinocchio load it too"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "contacts, friction, limits of speeds and of the angles of universal joints"
-    }
-
-    fn takes_cranks(&self) -> bool {
-        true
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        let text = match &export.cranks {
-            Some(made) => cranks::model(export, made)?,
-            None => model(export)?,
-        };
-        Ok(vec![ExportedFile::new("platform.xml", text)])
-    }
+fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+    let text = match &export.cranks {
+        Some(made) => cranks::model(export, made)?,
+        None => model(export)?,
+    };
+    Ok(vec![ExportedFile::new("platform.xml", text)])
 }
 
 /// Natural frequency of the platform on its actuators times the square root of the size, rad/s. The value is for a

@@ -5,21 +5,18 @@
 //! The frame of a rod has its origin in the platform joint and the same axes. Base and platform have the frames of the
 //! design.
 
-mod sdf;
-mod urdf;
+pub(super) mod sdf;
+pub(super) mod urdf;
 
 use std::fmt::Write as _;
 
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::masses::{ModelMasses, Solid};
-use super::model::frame_along;
+use super::model::{frame_along, seen_from};
 use super::text::xml_comment;
 use super::{Export, ExportBody, ExportLeg, Unsupported};
 use platform::geom::Pose;
-
-pub(super) use sdf::Sdf;
-pub(super) use urdf::Urdf;
 
 /// Colours of base, platform, cylinders and rods.
 const BASE_COLOUR: &str = "0.45 0.45 0.48 1";
@@ -46,12 +43,6 @@ enum ShapeKind {
         radius: f64,
         length: f64,
     },
-}
-
-/// The pose `inner` relative to the pose `outer`, both given in the same frame.
-fn seen_from(outer: &Pose, inner: &Pose) -> Pose {
-    let back = outer.rotation.inverse();
-    Pose { rotation: back * inner.rotation, position: back * (inner.position - outer.position) }
 }
 
 /// A link with its frame at home in the base frame, metres.
@@ -91,7 +82,7 @@ impl Robot {
         let [base, platform] = &export.bodies;
         let legs =
             export.legs.iter().map(|leg| RobotLeg::of(export, &masses, leg)).collect::<Result<_, _>>()?;
-        let origin = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
+        let origin = Pose::identity();
         let home = Pose { rotation: export.home.rotation, position: export.home.position * metres };
         let mut heading = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!--\n");
         for line in export.heading("m") {
@@ -134,10 +125,7 @@ impl RobotLeg {
         // from `from` to `to` along the leg, measured from the origin of the link
         let tube = |from: f64, to: f64, diameter: f64, colour: &'static str| Shape {
             kind: ShapeKind::Cylinder { radius: 0.5 * diameter * metres, length: (to - from) * metres },
-            at: Pose {
-                rotation: Rotation3::identity(),
-                position: Vector3::new(0.0, 0.0, 0.5 * (from + to) * metres),
-            },
+            at: Pose::shifted(Vector3::new(0.0, 0.0, 0.5 * (from + to) * metres)),
             colour,
         };
         let cylinder = leg.cylinder.min(length);
@@ -173,7 +161,7 @@ fn plate(body: &ExportBody, metres: f64, colour: &'static str) -> Vec<Shape> {
         .iter()
         .map(|joint| Shape {
             kind: ShapeKind::Sphere { radius },
-            at: Pose { rotation: Rotation3::identity(), position: joint.at.coords * metres },
+            at: Pose::shifted(joint.at.coords * metres),
             colour,
         })
         .collect();

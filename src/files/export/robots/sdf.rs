@@ -8,30 +8,16 @@ use crate::export::{Export, ExportedFile, Unsupported, Writer};
 use crate::plot::escape;
 use platform::geom::Pose;
 
-/// The format `sdf`.
-#[derive(Debug)]
-pub(in crate::export) struct Sdf;
-
 /// Text about this kind of model for the comment in the file.
 const ABOUT: &str = "The joints ball2 to ball6 close the loops: Gazebo Classic simulates them; Gazebo with DART loads a tree and leaves them out.";
 
-impl Writer for Sdf {
-    fn name(&self) -> &'static str {
-        "sdf"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "Gazebo model in metres and kilograms, its loops closed by ball joints"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "contacts, friction, controllers of the drives, limits of speeds and joint angles"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+/// The format `sdf`.
+pub(in crate::export) static WRITER: Writer = Writer {
+    leaves_out: "contacts, friction, controllers of the drives, limits of speeds and joint angles",
+    ..Writer::new("Gazebo model in metres and kilograms, its loops closed by ball joints", |export| {
         Ok(vec![ExportedFile::new("platform.sdf", model(export)?)])
-    }
-}
+    })
+};
 
 fn pose(pose: &Pose) -> String {
     format!("{} {}", reals(pose.position.iter().copied(), " "), reals(angles(pose), " "))

@@ -9,33 +9,20 @@ use crate::export::{Export, ExportedFile, Unsupported, Writer};
 use crate::plot::escape;
 use platform::geom::Pose;
 
-/// The format `urdf`.
-#[derive(Debug)]
-pub(in crate::export) struct Urdf;
-
 /// Text about this kind of model for the comment in the file.
 const ABOUT: &str = "URDF has trees only: the platform hangs on leg 1, and each other leg ends in a link closure2 to closure6.\n  The loops are closed where the frames of these links are that of the platform, as they are at home; weld them where a simulator can.\n  A ball joint is three hinges about axes through its centre.";
 
 /// Value for efforts and speeds that the design does not limit, since URDF requires a number.
 const UNLIMITED: f64 = 1e9;
 
-impl Writer for Urdf {
-    fn name(&self) -> &'static str {
-        "urdf"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "ROS model in metres and kilograms: a tree, with links that say where its loops close"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "closed loops, contacts, friction, limits of speeds and joint angles"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        Ok(vec![ExportedFile::new("platform.urdf", model(export)?)])
-    }
-}
+/// The format `urdf`.
+pub(in crate::export) static WRITER: Writer = Writer {
+    leaves_out: "closed loops, contacts, friction, limits of speeds and joint angles",
+    ..Writer::new(
+        "ROS model in metres and kilograms: a tree, with links that say where its loops close",
+        |export| Ok(vec![ExportedFile::new("platform.urdf", model(export)?)]),
+    )
+};
 
 fn origin(pose: &Pose) -> String {
     format!(

@@ -8,51 +8,24 @@ mod assembly;
 mod builder;
 mod solids;
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Rotation3, Vector3};
 
 use self::assembly::{Group, StepAssembly, StepPart};
+use super::model::frame_along;
 use super::telescope::{LegKind, Telescope, kind_suffix};
 use super::text::rounded;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
 use machine::requirements::Housing;
-use platform::geom::{Pose, any_across};
+use platform::geom::Pose;
 
 /// The format `step`.
-#[derive(Debug)]
-pub(super) struct StepFile;
-
-impl Writer for StepFile {
-    fn name(&self) -> &'static str {
-        "step"
-    }
-
-    fn purpose(&self) -> &'static str {
-        "AP242 assembly at home (millimetres): plates with holes, joints, and legs with rods that run in their cylinders, as exact solids, for CAD"
-    }
-
-    fn leaves_out(&self) -> &'static str {
-        "joint constraints: the parts stand at home; every joint is drawn as a ball, inside its housing box if it has one, and its part name states its kind; legs at a shared ball overlap near it"
-    }
-
-    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        Ok(vec![ExportedFile::new("platform.step", assembly(export)?)])
-    }
-}
-
-/// The frame with its third axis along `d`.
-fn along(origin: &Point3<f64>, d: &Vector3<f64>) -> Pose {
-    let x = any_across(d);
-    let axes = Matrix3::from_columns(&[x, d.cross(&x), *d]);
-    Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: origin.coords }
-}
-
-/// The pose `inner`, given in the frame `outer`, in the frame outside `outer`.
-fn within(outer: &Pose, inner: &Pose) -> Pose {
-    Pose {
-        rotation: outer.rotation * inner.rotation,
-        position: outer.rotation * inner.position + outer.position,
-    }
-}
+pub(super) static WRITER: Writer = Writer {
+    leaves_out: "joint constraints: the parts stand at home; every joint is drawn as a ball, inside its housing box if it has one, and its part name states its kind; legs at a shared ball overlap near it",
+    ..Writer::new(
+        "AP242 assembly at home (millimetres): plates with holes, joints, and legs with rods that run in their cylinders, as exact solids, for CAD",
+        |export| Ok(vec![ExportedFile::new("platform.step", assembly(export)?)]),
+    )
+};
 
 fn plate_frame(plate: &Plate) -> Pose {
     Pose { rotation: Rotation3::from_matrix_unchecked(plate.axes), position: plate.origin.coords }
@@ -74,7 +47,7 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Step
         let ball =
             a.part((&name, &sort.description(mm)), |b| solids::ball(b, &name, body.ball_diameter * mm));
         for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
-            let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
+            let at = Pose::shifted(joint.at.coords);
             a.place(&mut group, ball, &joint.name, &at);
         }
         // the box that distances of joints and envelopes use, along the axes of the body
@@ -82,7 +55,7 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Step
         let name = format!("housing of the {name}");
         let block = a.part((&name, ""), |b| solids::block(b, &name, &(edges * mm)));
         for joint in body.joints.iter().filter(|j| joints.contains(&j.name.as_str())) {
-            let at = Pose { rotation: Rotation3::identity(), position: joint.at.coords };
+            let at = Pose::shifted(joint.at.coords);
             a.place(&mut group, block, &format!("housing of {}", joint.name), &at);
         }
     }
@@ -91,8 +64,8 @@ fn body(a: &mut StepAssembly, export: &Export, body: &ExportBody) -> Result<Step
         let (diameter, height) = (plate.post_diameter * mm, hole.post * mm);
         let part = a.part((&name, material), |b| solids::cylinder(b, &name, diameter, height));
         let foot = Vector3::new(hole.at.x, hole.at.y, plate.post_span(hole).0);
-        let local = Pose { rotation: Rotation3::identity(), position: foot };
-        a.place(&mut group, part, &name, &within(&frame, &local));
+        let local = Pose::shifted(foot);
+        a.place(&mut group, part, &name, &frame.compose(&local));
     }
     Ok(a.assembled(body.body.name(), "", &group))
 }
@@ -131,7 +104,7 @@ fn leg(
     let mm = export.unit.millimetres;
     let (thick, thin) = export.legs[kind.legs[0]].diameters;
     let mut group = Group::default();
-    let up = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
+    let up = |z: f64| Pose::shifted(Vector3::new(0.0, 0.0, z));
     let height = (t.mouth - t.foot) * mm;
     // without individual limits, cylinder sizes are the same for the whole machine
     let cylinder = *parts.cylinder.get_or_insert_with(|| {
@@ -162,7 +135,7 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
     let lines = kinds.iter().map(|(kind, t)| stroke(kind, t, mm)).collect();
     let mut a = StepAssembly::new(export, lines);
     let mut whole = Group::default();
-    let base_frame = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
+    let base_frame = Pose::identity();
     for (of, placed) in export.bodies.iter().zip([base_frame, export.home]) {
         let part = body(&mut a, export, of)?;
         a.place(&mut whole, part, of.body.name(), &placed);
@@ -180,7 +153,12 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
     legs.sort_unstable_by_key(|(i, _)| *i);
     for (i, part) in legs {
         let of = &export.legs[i];
-        a.place(&mut whole, part, &format!("leg {}", of.number), &along(&of.foot, &of.direction()?));
+        a.place(
+            &mut whole,
+            part,
+            &format!("leg {}", of.number),
+            &frame_along(&of.direction()?, of.foot.coords),
+        );
     }
     Ok(a.finish(&whole))
 }

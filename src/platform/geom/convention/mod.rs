@@ -238,7 +238,7 @@ pub(super) fn angles_of_product(r: &Matrix3<f64>, [i, j, last]: [usize; 3]) -> W
 num::words! {
     /// The unit of angles.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum AngleUnit as name {
+    pub enum AngleUnit: name, BOTH {
         /// Degrees.
         #[default]
         Degrees = "deg",
@@ -248,9 +248,6 @@ num::words! {
 }
 
 impl AngleUnit {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::Degrees, Self::Radians];
-
     fn radians(self, angle: f64) -> f64 {
         match self {
             Self::Degrees => angle.to_radians(),
@@ -271,7 +268,7 @@ impl AngleUnit {
 num::words! {
     /// The place of the scalar in a quaternion.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum QuaternionOrder as name {
+    pub enum QuaternionOrder: name, BOTH {
         /// In front.
         #[default]
         ScalarFirst = "wxyz",
@@ -281,9 +278,6 @@ num::words! {
 }
 
 impl QuaternionOrder {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::ScalarFirst, Self::ScalarLast];
-
     /// Four things in the order `w, x, y, z`, from the one in which they are written.
     #[must_use]
     pub fn scalar_first<T>(self, [a, b, c, d]: [T; 4]) -> [T; 4] {
@@ -306,7 +300,7 @@ impl QuaternionOrder {
 num::words! {
     /// The axis that points up.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum UpAxis as name {
+    pub enum UpAxis: name, BOTH {
         /// y, in the base frame and in that of the platform: `(x, y, z)` are our `(x, -z, y)`.
         Y = "y",
         /// z, as in this program.
@@ -316,9 +310,6 @@ num::words! {
 }
 
 impl UpAxis {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::Y, Self::Z];
-
     fn to_ours(self, v: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Y => Vector3::new(v.x, -v.z, v.y),
@@ -373,6 +364,15 @@ pub struct WrittenPose {
     pub angles_are_unique: bool,
     /// The unit quaternion in the order of the convention, its scalar not negative.
     pub quaternion: [f64; 4],
+}
+
+impl WrittenPose {
+    /// Position and angles.
+    #[must_use]
+    pub fn numbers(&self) -> [f64; 6] {
+        let ([x, y, z], [a, b, c]) = (self.position, self.angles);
+        [x, y, z, a, b, c]
+    }
 }
 
 impl PoseConvention {

@@ -4,13 +4,13 @@ mod general;
 mod octahedral;
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use thiserror::Error as ThisError;
 
 pub use self::general::{ExploredDesign, NEAREST_EXTENSION, nearest_options};
 pub use self::octahedral::{ExploreJudgement, ExploredClass};
-use crate::optimizing::EXTENSION;
+use crate::optimizing::{EXTENSION, ends_of};
 use crate::{Design, Error, NoReplaceableLegs, OptimizeOptions, OptimizeProgress, SAMPLES};
 use files::design::DriveTable;
 use fk::{FkError, FkOptions, FkSolutions, PoseCounting};
@@ -39,7 +39,7 @@ pub struct ExploreOptions<'a> {
     samples: usize,
     extension: Option<f64>,
     drives: Option<&'a DriveTable>,
-    until: Option<Instant>,
+    ends: Option<[Instant; 2]>,
     cancel: Cancel,
     on_progress: Option<OnProgress<'a>>,
 }
@@ -51,7 +51,7 @@ impl std::fmt::Debug for ExploreOptions<'_> {
             .field("samples", &self.samples)
             .field("extension", &self.extension)
             .field("drives", &self.drives.map(|table| table.drives.len()))
-            .field("until", &self.until)
+            .field("ends", &self.ends)
             .finish_non_exhaustive()
     }
 }
@@ -63,7 +63,7 @@ impl Default for ExploreOptions<'_> {
             samples: SAMPLES,
             extension: None,
             drives: None,
-            until: None,
+            ends: None,
             cancel: Cancel::new(),
             on_progress: None,
         }
@@ -77,54 +77,22 @@ impl<'a> ExploreOptions<'a> {
         Self::default()
     }
 
-    /// Sets the seed of all random numbers.
-    #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
-        self.seed = seed;
-        self
-    }
-
-    /// Sets the number of length sets; two designs are solved and compared at each.
-    #[must_use]
-    pub fn samples(mut self, samples: usize) -> Self {
-        self.samples = samples;
-        self
-    }
-
-    /// Sets the greatest distance of a joint beyond a corner, on the extension of its side, in lengths of the side. The
-    /// default is 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral.
-    #[must_use]
-    pub fn extension(mut self, extension: Option<f64>) -> Self {
-        self.extension = extension;
-        self
-    }
-
-    /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
-    #[must_use]
-    pub fn drives(mut self, table: Option<&'a DriveTable>) -> Self {
-        self.drives = table;
-        self
-    }
-
-    /// Sets the end of the assessments that follow an interrupted search.
-    #[must_use]
-    pub fn until(mut self, until: Option<Instant>) -> Self {
-        self.until = until;
-        self
-    }
-
-    /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
-    #[must_use]
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.cancel = cancel.clone();
-        self
-    }
-
-    /// Sets a function that sees the progress, and may end the search for the best platform.
-    #[must_use]
-    pub fn on_progress(mut self, look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) -> Self {
-        self.on_progress = Some(Box::new(look));
-        self
+    num::setters! {
+        /// Sets the seed of all random numbers.
+        fn seed(seed: u64) = seed;
+        /// Sets the number of length sets; two designs are solved and compared at each.
+        fn samples(samples: usize) = samples;
+        /// Sets the greatest distance of a joint beyond a corner, on the extension of its side, in lengths of the side.
+        /// The default is 0.3, and 1 for the nearest octahedral platform of a design that is not octahedral.
+        fn extension(extension: Option<f64>) = extension;
+        /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
+        fn drives(table: Option<&'a DriveTable>) = table;
+        /// Sets the time limit from now on ([`OptimizeOptions::time_limit`]).
+        fn time_limit(limit: Option<Duration>) ends = limit.and_then(ends_of);
+        /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
+        fn cancel(cancel: &Cancel) = cancel.clone();
+        /// Sets a function that sees the progress, and may end the search for the best platform.
+        fn on_progress(look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) = Some(Box::new(look));
     }
 
     fn flow(&mut self, progress: ExploreProgress) -> ControlFlow<()> {
@@ -146,17 +114,17 @@ impl<'a> ExploreOptions<'a> {
 
     /// Options of the search for the best platform.
     fn optimize(&mut self, explains: bool) -> OptimizeOptions<'_> {
-        let Self { seed, extension, drives, until, cancel, on_progress, .. } = self;
-        let options = OptimizeOptions::new()
+        let Self { seed, extension, drives, ends, cancel, on_progress, .. } = self;
+        let mut options = OptimizeOptions::new()
             .seed(*seed)
             .extension(extension.unwrap_or(EXTENSION))
             .explains(explains)
-            .until(*until)
             .cancel(cancel)
             .on_progress(|p| match on_progress {
                 Some(look) => look(ExploreProgress::Search(p)),
                 None => ControlFlow::Continue(()),
             });
+        options.ends = *ends;
         match drives {
             Some(table) => options.drives(table),
             None => options,

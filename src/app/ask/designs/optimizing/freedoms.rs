@@ -15,76 +15,47 @@ use optimize::offsets::DEFAULT_MIN_ABS_DET;
 use platform::manipulator::Octahedral;
 use verify::VerifyError;
 
-/// A freedom that a design does not allow.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "Freedom")]
-pub enum ConflictFreedom {
-    /// The height of home is chosen.
-    HomeHeight,
-    /// The sizes of the triangles, or of base and platform, are chosen.
-    TriangleSizes,
-    /// Shapes and sizes of the triangles are chosen.
-    Triangles,
-    /// The legs have a longer stroke.
-    Stroke,
-    /// The base envelope is wider on every side.
-    BaseEnvelope,
-    /// The platform envelope is wider on every side.
-    PlatformEnvelope,
-    /// The machine envelope is wider on every side.
-    MachineEnvelope,
-    /// The base plate is wider on every side: its outline has a greater margin around the joints.
-    BaseMargin,
-    /// The platform plate is wider on every side.
-    PlatformMargin,
-    /// The default limit of the least `|det A|`, which the design does not state, is dropped.
-    MinAbsDet,
+num::words! {
+    /// A freedom that a design does not allow.
+    #[derive(
+        Debug,
+        Clone,
+        Copy,
+        PartialEq,
+        Eq,
+        PartialOrd,
+        Ord,
+        serde::Serialize,
+        serde::Deserialize,
+        schemars::JsonSchema,
+    )]
+    #[serde(rename_all = "snake_case")]
+    #[schemars(rename = "Freedom")]
+    pub enum ConflictFreedom: name, ALL {
+        /// The height of home is chosen.
+        HomeHeight = "home_height",
+        /// The sizes of the triangles, or of base and platform, are chosen.
+        TriangleSizes = "triangle_sizes",
+        /// Shapes and sizes of the triangles are chosen.
+        Triangles = "triangles",
+        /// The legs have a longer stroke.
+        Stroke = "stroke",
+        /// The base envelope is wider on every side.
+        BaseEnvelope = "base_envelope",
+        /// The platform envelope is wider on every side.
+        PlatformEnvelope = "platform_envelope",
+        /// The machine envelope is wider on every side.
+        MachineEnvelope = "machine_envelope",
+        /// The base plate is wider on every side: its outline has a greater margin around the joints.
+        BaseMargin = "base_margin",
+        /// The platform plate is wider on every side.
+        PlatformMargin = "platform_margin",
+        /// The default limit of the least `|det A|`, which the design does not state, is dropped.
+        MinAbsDet = "min_abs_det",
+    }
 }
 
 impl ConflictFreedom {
-    /// Every freedom.
-    pub const ALL: [Self; 10] = [
-        Self::HomeHeight,
-        Self::TriangleSizes,
-        Self::Triangles,
-        Self::Stroke,
-        Self::BaseEnvelope,
-        Self::PlatformEnvelope,
-        Self::MachineEnvelope,
-        Self::BaseMargin,
-        Self::PlatformMargin,
-        Self::MinAbsDet,
-    ];
-
-    /// The code of the freedom.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::HomeHeight => "home_height",
-            Self::TriangleSizes => "triangle_sizes",
-            Self::Triangles => "triangles",
-            Self::Stroke => "stroke",
-            Self::BaseEnvelope => "base_envelope",
-            Self::PlatformEnvelope => "platform_envelope",
-            Self::MachineEnvelope => "machine_envelope",
-            Self::BaseMargin => "base_margin",
-            Self::PlatformMargin => "platform_margin",
-            Self::MinAbsDet => "min_abs_det",
-        }
-    }
-
     /// The variables that it adds; `None` for a limit that is relaxed.
     fn variable(self) -> Option<VariableKind> {
         match self {

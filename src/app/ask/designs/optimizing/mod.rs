@@ -70,7 +70,7 @@ impl std::fmt::Display for OptimizeProgress {
 }
 
 /// The end of a search with this time limit, and the end of the assessments of its results.
-pub fn ends_of(limit: Duration) -> Option<[Instant; 2]> {
+pub(crate) fn ends_of(limit: Duration) -> Option<[Instant; 2]> {
     let now = Instant::now();
     let kept = (limit / FOR_JUDGING.0).min(FOR_JUDGING.1);
     Some([now.checked_add(limit.saturating_sub(kept))?, now.checked_add(limit)?])
@@ -90,8 +90,7 @@ pub struct OptimizeOptions<'a> {
     freedoms: bool,
     explains: bool,
     drives: Option<&'a DriveTable>,
-    ends: Option<Instant>,
-    until: Option<Instant>,
+    pub(crate) ends: Option<[Instant; 2]>,
     cancel: Cancel,
     on_progress: Option<OnProgress<'a>>,
 }
@@ -107,7 +106,7 @@ impl std::fmt::Debug for OptimizeOptions<'_> {
             .field("candidates", &self.candidates)
             .field("freedoms", &self.freedoms)
             .field("drives", &self.drives.map(|table| table.drives.len()))
-            .field("until", &self.until)
+            .field("ends", &self.ends)
             .finish_non_exhaustive()
     }
 }
@@ -125,7 +124,6 @@ impl Default for OptimizeOptions<'_> {
             explains: true,
             drives: None,
             ends: None,
-            until: None,
             cancel: Cancel::new(),
             on_progress: None,
         }
@@ -140,103 +138,43 @@ impl<'a> OptimizeOptions<'a> {
         Self::default()
     }
 
-    /// Sets the seed of the starting points. The answer depends on the seed and not on the number of threads.
-    #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
-        self.seed = seed;
-        self
+    num::setters! {
+        /// Sets the seed of the starting points. The answer depends on the seed and not on the number of threads.
+        fn seed(seed: u64) = seed;
+        /// Sets the number of search threads.
+        fn threads(threads: Threads) = threads;
+        /// Sets the greatest distance of a joint on the extension of its edge, in edge lengths; 0 keeps joints inside
+        /// the edges.
+        fn extension(extension: f64) = extension;
+        /// Sets whether every branch of offsets is searched for its own best, which takes ten times as long.
+        fn survey(survey: bool) = survey;
+        /// Sets the greatest relative gap between the answer and the proved upper bound over all offsets at which the
+        /// answer counts as optimal.
+        fn gap(gap: f64) = gap;
+        /// Sets whether the other local optima under requirements are assessed too; each takes as long as the answer.
+        fn candidates(candidates: bool) = candidates;
+        /// Sets whether a search without success is repeated with one more freedom each: a longer stroke, another
+        /// height of home, a wider envelope.
+        fn freedoms(freedoms: bool) = freedoms;
+        /// Sets the drives to choose from. Each drive that could win is searched, and the answer is the best platform
+        /// with its drive. If every drive has a price, the cheapest that meets the requirements wins.
+        fn drives(table: &'a DriveTable) = Some(table);
     }
 
-    /// Sets the number of search threads.
-    #[must_use]
-    pub fn threads(mut self, threads: Threads) -> Self {
-        self.threads = threads;
-        self
-    }
-
-    /// Sets the greatest distance of a joint on the extension of its edge, in edge lengths; 0 keeps joints inside the
-    /// edges.
-    #[must_use]
-    pub fn extension(mut self, extension: f64) -> Self {
-        self.extension = extension;
-        self
-    }
-
-    /// Sets whether every branch of offsets is searched for its own best, which takes ten times as long.
-    #[must_use]
-    pub fn survey(mut self, survey: bool) -> Self {
-        self.survey = survey;
-        self
-    }
-
-    /// Sets the greatest relative gap between the answer and the proved upper bound over all offsets at which the
-    /// answer counts as optimal.
-    #[must_use]
-    pub fn gap(mut self, gap: f64) -> Self {
-        self.gap = gap;
-        self
-    }
-
-    /// Sets whether the other local optima under requirements are assessed too; each takes as long as the answer.
-    #[must_use]
-    pub fn candidates(mut self, candidates: bool) -> Self {
-        self.candidates = candidates;
-        self
-    }
-
-    /// Sets whether a search without success is repeated with one more freedom each: a longer stroke, another height of
-    /// home, a wider envelope.
-    #[must_use]
-    pub fn freedoms(mut self, freedoms: bool) -> Self {
-        self.freedoms = freedoms;
-        self
-    }
-
-    /// Sets the drives to choose from. Each drive that could win is searched, and the answer is the best platform with
-    /// its drive. If every drive has a price, the cheapest that meets the requirements wins.
-    #[must_use]
-    pub fn drives(mut self, table: &'a DriveTable) -> Self {
-        self.drives = Some(table);
-        self
-    }
-
-    /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
-    /// result until then.
-    #[must_use]
-    pub fn time_limit(mut self, limit: Duration) -> Self {
-        let ends = ends_of(limit);
-        (self.ends, self.until) = (ends.map(|[search, _]| search), ends.map(|[_, judging]| judging));
-        self
-    }
-
-    /// Sets the end of the assessments that follow an interrupted search.
-    pub fn until(mut self, until: Option<Instant>) -> Self {
-        self.until = until;
-        self
-    }
-
-    /// Sets whether a conflict is searched for if no platform meets the requirements.
-    pub fn explains(mut self, explains: bool) -> Self {
-        self.explains = explains;
-        self
-    }
-
-    /// Sets the cancellation of the search; the answer is then the best until then.
-    #[must_use]
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.cancel = cancel.clone();
-        self
-    }
-
-    /// Sets a function that sees the progress, and may end the search.
-    #[must_use]
-    pub fn on_progress(mut self, look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) -> Self {
-        self.on_progress = Some(Box::new(look));
-        self
+    num::setters! {
+        /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
+        /// result until then.
+        fn time_limit(limit: Option<Duration>) ends = limit.and_then(ends_of);
+        /// Sets whether a conflict is searched for if no platform meets the requirements.
+        fn explains(explains: bool) = explains;
+        /// Sets the cancellation of the search; the answer is then the best until then.
+        fn cancel(cancel: &Cancel) = cancel.clone();
+        /// Sets a function that sees the progress, and may end the search.
+        fn on_progress(look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) = Some(Box::new(look));
     }
 
     fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
-        let late = self.ends.is_some_and(|ends| Instant::now() >= ends);
+        let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
         if late || self.cancel.is_cancelled() {
             return ControlFlow::Break(());
         }
@@ -246,54 +184,35 @@ impl<'a> OptimizeOptions<'a> {
     /// The options of a search under requirements.
     pub fn search(&self) -> ShapeSearchOptions {
         let threads = self.threads.count(MOST_THREADS);
-        ShapeSearchOptions { seed: self.seed, threads, until: self.until, ..ShapeSearchOptions::default() }
+        let until = self.ends.map(|[_, judging]| judging);
+        ShapeSearchOptions { seed: self.seed, threads, until, ..ShapeSearchOptions::default() }
     }
 }
 
-/// The status of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "OptimizeWord")]
-pub enum OptimizeStatus {
-    /// The requirements are met, and it is proved that no offsets are better by more than `tolerance`.
-    Optimal,
-    /// The requirements are met, and the platform is a local optimum, the best of all starts; a better one is possible.
-    BestFound,
-    /// The requirements are met; better platforms may be near, or a requested bound is not proved to within
-    /// `tolerance`.
-    Feasible,
-    /// There is no platform: proved if `conflict` says so, otherwise no start met the requirements.
-    Infeasible,
-    /// No platform was found that is proved to meet the requirements.
-    Undecided,
-    /// The platform found violates requirements; the assessment names them.
-    Violated,
-    /// The search was interrupted; the answer is the best until then.
-    Interrupted,
-    /// A Pareto front with mode = "pareto"; its members are proved to meet their requirements.
-    Front,
-}
-
-impl OptimizeStatus {
-    /// The code of the status.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Optimal => "optimal",
-            Self::BestFound => "best_found",
-            Self::Feasible => "feasible",
-            Self::Infeasible => "infeasible",
-            Self::Undecided => "undecided",
-            Self::Violated => "violated",
-            Self::Interrupted => "interrupted",
-            Self::Front => "front",
-        }
-    }
-}
-
-impl std::fmt::Display for OptimizeStatus {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
+num::words! {
+    /// The status of a search.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    #[schemars(rename = "OptimizeWord")]
+    pub enum OptimizeStatus: name, Display {
+        /// The requirements are met, and it is proved that no offsets are better by more than `tolerance`.
+        Optimal = "optimal",
+        /// The requirements are met, and the platform is a local optimum, the best of all starts; a better one is
+        /// possible.
+        BestFound = "best_found",
+        /// The requirements are met; better platforms may be near, or a requested bound is not proved to within
+        /// `tolerance`.
+        Feasible = "feasible",
+        /// There is no platform: proved if `conflict` says so, otherwise no start met the requirements.
+        Infeasible = "infeasible",
+        /// No platform was found that is proved to meet the requirements.
+        Undecided = "undecided",
+        /// The platform found violates requirements; the assessment names them.
+        Violated = "violated",
+        /// The search was interrupted; the answer is the best until then.
+        Interrupted = "interrupted",
+        /// A Pareto front with mode = "pareto"; its members are proved to meet their requirements.
+        Front = "front",
     }
 }
 

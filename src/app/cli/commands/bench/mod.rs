@@ -4,13 +4,10 @@ mod noise;
 
 use clap::ValueEnum;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::OutputPath;
-use crate::app::cli::output::Answer;
+use crate::app::cli::commands::fk::MethodArg;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath};
 use ask::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
-use fk::{self, Homotopy, Method};
+use fk::{self, Homotopy};
 use records::{BenchAnswer, BenchClassRecord};
 
 /// Arguments of `bench`.
@@ -32,8 +29,8 @@ pub(crate) struct BenchArgs {
     threads: u64,
     /// Method of solution; auto takes the best one for the design. sylvester and template also measure the candidates
     /// before refinement
-    #[arg(long, value_enum, default_value_t = BenchMethodArg::Auto)]
-    method: BenchMethodArg,
+    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
+    method: MethodArg,
     /// Source of the lengths: squared lengths uniform in [0.5, 3], or a random real pose; default: the former, if the
     /// class allows it
     #[arg(long, value_enum, value_name = "SOURCE")]
@@ -57,17 +54,6 @@ pub(crate) struct BenchArgs {
     svg: Option<OutputPath>,
 }
 
-/// `--method`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum BenchMethodArg {
-    Auto,
-    Octic,
-    Homotopy,
-    Sylvester,
-    Template,
-    Trilateration,
-}
-
 /// `--lengths-from`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Source {
@@ -78,15 +64,7 @@ enum Source {
 /// Runs one class or several.
 pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Failure> {
     let classes = classes(&args.class)?;
-    let method = match args.method {
-        BenchMethodArg::Auto => None,
-        BenchMethodArg::Octic => Some(Method::Octic),
-        BenchMethodArg::Homotopy => Some(Method::Homotopy),
-        BenchMethodArg::Sylvester => Some(Method::Sylvester),
-        BenchMethodArg::Template => Some(Method::Template),
-        BenchMethodArg::Trilateration => Some(Method::Trilateration),
-    };
-    let solver = fk::solver(method);
+    let solver = fk::solver(args.method.method());
     if args.noise {
         return noise::run(args, &classes, solver.as_ref(), context.seed());
     }

@@ -3,10 +3,7 @@
 use std::num::NonZeroUsize;
 
 use super::BenchArgs;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure, files};
 use ::files::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 use ask::bench::{Class, NOISE_LEVELS, NoiseLevel, NoisePlan, Spread, noise};
 use fk::{ForwardKinematics, Threads};

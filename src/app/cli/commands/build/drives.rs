@@ -3,10 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::motion;
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Failure, OutputPath, files};
 use ::files::design::{AssessedForces, Drive, DriveTable};
 use ask::Design;
 use ask::PlatformMotion;

@@ -6,9 +6,7 @@ pub(super) mod tolerances;
 
 use clap::Subcommand;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Failure};
 
 /// Commands about building a design.
 #[derive(Debug, Subcommand)]

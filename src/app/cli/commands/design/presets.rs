@@ -2,10 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure, OutputPath, files};
 use crate::app::presets::PRESETS;
 use ::files::design::Format;
 use ask::Design;

@@ -3,9 +3,7 @@
 use clap::builder::PossibleValuesParser;
 use serde_json::Value;
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure};
 use files::design::SCHEMA;
 use records::{self, SchemaAnswer};
 

@@ -4,10 +4,7 @@ use std::path::PathBuf;
 
 use crate::app::cli::alignment::{AlignmentArgs, same_units};
 use crate::app::cli::commands::fk::lengths::six;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use ask::Design;
 use num::Number;
 use records::{MapAnswer, MappedLengthsRecord};

@@ -9,9 +9,7 @@ pub(in crate::app::cli::commands) mod topologies;
 
 use clap::Subcommand;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Failure};
 
 /// Commands about equivalent designs.
 #[derive(Debug, Subcommand)]

@@ -3,11 +3,7 @@
 use std::path::PathBuf;
 
 use crate::app::cli::commands::optimize::check_extension;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::equivalents::NearestDesigns;
 use ask::exploring::{NEAREST_EXTENSION, nearest_options};
 use records::NearestAnswer;

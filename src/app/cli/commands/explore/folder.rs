@@ -8,8 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::cli::commands::optimize;
 use crate::app::cli::commands::report;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
+use crate::app::cli::{Failure, files};
 use crate::app::report::ReportFile;
 use ::files::export::ExportedFile;
 use ask::ConflictFreedom;

@@ -6,10 +6,9 @@ use std::fmt::Write as _;
 use super::folder::{self, Folder};
 use super::{ExploreArgs, exit_of, text, verification};
 use crate::app::cli::commands::report::page;
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::ProgressLine;
+use crate::app::cli::{Context, Failure};
 use ask::exploring::NEAREST_EXTENSION;
 use ask::{Design, ExploreVerdict, ExploredDesign, MovedPlatform};
 use records::{
@@ -269,7 +268,7 @@ fn markdown(r: &ExploreGeneralAnswer, design: &Design, repeat: &str) -> String {
 }
 
 /// The text with its first letter a capital.
-fn capital(text: &str) -> String {
+pub(super) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters
         .next()

@@ -16,13 +16,10 @@ use super::build::round::render::RoundReport;
 use super::equivalents::r#move::{self as relocation, found};
 use super::report::page;
 use super::{export, fk as fk_command, optimize, verify as verify_command};
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::{Answer, document};
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::app::cli::streams::output_is_terminal;
+use crate::app::cli::{Context, Exit, Failure, OutputPath, files};
 use ::files::design::DriveTable;
 use ::files::export::{ExportFormat, PartLine};
 use ask::equivalents::Original;
@@ -271,13 +268,13 @@ fn explored(
     let mut progress = ProgressLine::new(context.quiet());
     // only the search for an octahedral design can be interrupted
     let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
-    let interrupt = octahedral.then(|| Interrupt::watch_for(args.time_limit));
+    let interrupt = octahedral.then(Interrupt::watch);
     let options = ExploreOptions::new()
         .seed(context.seed())
         .samples(args.samples)
         .extension(args.extension)
         .drives(table)
-        .until(interrupt.as_ref().and_then(Interrupt::until))
+        .time_limit(args.time_limit.map(|limit| limit.0))
         .on_progress(|p| {
             search::show(&mut progress, &p);
             interrupt.as_ref().map_or(ControlFlow::Continue(()), Interrupt::flow)

@@ -2,12 +2,13 @@
 
 use std::fmt::Write as _;
 
+use super::general::capital;
 use super::{MachineFiles, Results, folder};
 use ask::equivalents::Original;
 use ask::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use ask::{LengthsOrigin, OptimizeEvidence};
 use files::export::{PART_COLUMNS, PartLine};
-use fk::{Completeness, FkSolutions};
+use fk::Completeness;
 use records::{AssessAnswer, DerivationRecord, VerifyAnswer};
 use sheet::{Sheet, Table, answers, left, markdown_escaped as plain};
 use synthesis::Pattern;
@@ -23,7 +24,7 @@ pub(super) fn markdown(r: &Results, headline: &[String]) -> String {
         plain(&r.explanation())
     );
     for line in headline {
-        let _ = writeln!(out, "{}.\n", sentence(line));
+        let _ = writeln!(out, "{}.\n", plain(&capital(line)));
     }
     if let (Some(_), Some(a)) = (r.found.built(), &r.assessment) {
         requirements(&mut out, a);
@@ -144,12 +145,6 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
     );
 }
 
-/// The text with a capital first letter, as a sentence.
-fn sentence(text: &str) -> String {
-    let mut rest = text.chars();
-    rest.next().map_or_else(String::new, |first| plain(&format!("{}{}", first.to_uppercase(), rest.as_str())))
-}
-
 /// The verdict of the comparison, and the map that proves it.
 fn verification(out: &mut String, r: &Results, v: &VerifyAnswer) {
     let [design, optimised] = [r.design.name.as_str(), "the platform found"];
@@ -185,10 +180,6 @@ fn search(out: &mut String, r: &Results) {
     out.push('\n');
 }
 
-fn certified(s: &FkSolutions) -> usize {
-    s.roots.iter().filter(|r| r.certified()).count()
-}
-
 fn poses(out: &mut String, r: &Results) {
     let s = &r.found.poses.solutions;
     let lengths: Vec<String> = r.found.poses.lengths.get().iter().map(ToString::to_string).collect();
@@ -212,7 +203,7 @@ fn poses(out: &mut String, r: &Results) {
         plain(&r.design.units),
         s.roots.len(),
         s.assembly_modes().count(),
-        certified(s),
+        s.roots.iter().filter(|r| r.certified()).count(),
         s.method,
         plain(&reason),
         folder::FK,

@@ -1,9 +1,8 @@
 //! Refusals of `explore` before its search, and the progress of the search.
 
 use crate::app::cli::commands::optimize;
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::progress::ProgressLine;
+use crate::app::cli::{Context, Failure};
 use ::optimize::dimensional::{Progress, Stage, Triangles};
 use ::optimize::offsets::OffsetProgress;
 use ask::optimizing::{EXTENSION, SearchKind, dimensional_problem};

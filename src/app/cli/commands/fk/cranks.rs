@@ -7,13 +7,10 @@ use std::path::Path;
 
 use super::near::{self, TrackedMachine};
 use super::{FkArgs, PoseTable, answered, exit_of, failure_of, threads};
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
 use crate::app::cli::rows::{self, TableName};
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use ask::{Design, PoseFrames};
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use fk::{self, FkOptions, FkSolutions};

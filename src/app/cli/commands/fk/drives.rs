@@ -3,9 +3,7 @@
 use super::PoseTable;
 use super::lengths::{GivenLengths, ShownLengths};
 use super::near::{self, Proof, TrackedMachine, TrackedRow};
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure};
 use ask::Design;
 use fk::{NearWord, Reality};
 use machine::coupled::{CoupledLegs, CoupledStatus, CoupledTracker};

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers;
 use crate::app::cli::rows::{self, TableName};
+use crate::app::cli::{Context, Failure};
 use ask::Design;
 use files::design::{SeriesKind, SeriesRow, TimeSeries};
 use platform::manipulator::LegLengths;

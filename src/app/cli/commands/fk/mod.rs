@@ -15,11 +15,9 @@ use clap::ValueEnum;
 
 use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::frames::FrameArgs;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Exit, Failure};
 use ask::design::parse_with_cranks;
 use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
@@ -80,9 +78,9 @@ pub(super) enum MethodArg {
     Auto,
     Octic,
     Homotopy,
-    Trilateration,
     Sylvester,
     Template,
+    Trilateration,
 }
 
 impl MethodArg {
@@ -202,7 +200,8 @@ fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) ->
     }
 }
 
-fn threads(asked: Option<u16>) -> Threads {
+/// The number of worker threads.
+pub(super) fn threads(asked: Option<u16>) -> Threads {
     asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
 

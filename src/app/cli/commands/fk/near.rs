@@ -2,8 +2,7 @@
 
 use super::lengths::{GivenLengths, ShownLengths};
 use super::{PoseTable, answered};
-use crate::app::cli::exit::Exit;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit};
 use ask::{Design, PoseFrames};
 use fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
 use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet};

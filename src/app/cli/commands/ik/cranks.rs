@@ -1,8 +1,7 @@
 //! Crank angles at given poses, for rods on cranks.
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
+use crate::app::cli::{Answer, Exit};
 use ask::{Design, PoseFrames};
 use files::design::TimeSeries;
 use machine::rotary::RotaryPlatform;

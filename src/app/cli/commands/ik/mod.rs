@@ -4,12 +4,9 @@ mod cranks;
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::frames::{FrameArgs, note_frames};
-use crate::app::cli::output::Answer;
 use crate::app::cli::table::{column_unit, csv_line, number};
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use crate::app::cli::{poses, rows};
 use ask::{Design, PoseFrames};
 use files::design::{SeriesRow, TimeSeries};

@@ -4,12 +4,8 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::{FrameArgs, note_frames};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use crate::app::cli::{poses, rows};
 use ::files::export::LengthUnit;
 use ask::{Design, MotionMasses, MotionReport, PlatformMotion, PoseFrames};
@@ -118,16 +114,36 @@ impl<'a> ChosenMotions<'a> {
             out.push((files::shown(path), motion));
         }
         let about = about(self.about, &frames)?;
-        for text in self.sine {
-            let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
-            out.push((format!("sine {text}"), PlatformMotion::Manoeuvre(sine, about, self.samples as usize)));
-        }
-        for text in self.accelerate {
-            let start = Manoeuvre::acceleration(text).map_err(|e| no_manoeuvre("--accelerate", &e))?;
-            out.push((format!("accelerate {text}"), PlatformMotion::Manoeuvre(start, about, 1)));
+        for (name, manoeuvre) in manoeuvres(self.sine, self.accelerate, "motion::bad_manoeuvre")? {
+            let samples = if matches!(manoeuvre, Manoeuvre::Sine { .. }) { self.samples as usize } else { 1 };
+            out.push((name, PlatformMotion::Manoeuvre(manoeuvre, about, samples)));
         }
         Ok(out)
     }
+}
+
+/// The manoeuvres of `--sine` and `--accelerate` with their names.
+///
+/// # Errors
+/// Exit 2 with this code: a text that states no manoeuvre.
+pub(in crate::app::cli::commands) fn manoeuvres(
+    sine: &[String],
+    accelerate: &[String],
+    code: &str,
+) -> Result<Vec<(String, Manoeuvre)>, Failure> {
+    let refused = |option: &str, why: InvalidManoeuvre| {
+        let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
+        Failure::refused(code, format!("{option}: {why}")).with_help(help)
+    };
+    let mut out = Vec::new();
+    for text in sine {
+        out.push((format!("sine {text}"), Manoeuvre::sine(text).map_err(|e| refused("--sine", e))?));
+    }
+    for text in accelerate {
+        let start = Manoeuvre::acceleration(text).map_err(|e| refused("--accelerate", e))?;
+        out.push((format!("accelerate {text}"), start));
+    }
+    Ok(out)
 }
 
 /// Number of steps between two poses of a trajectory.
@@ -225,11 +241,6 @@ fn stiffness(
                 .with_help("add leg_stiffness to [hardware], force units per design unit")
         })?;
     Ok(Some(StiffnessRecord::new(&found)))
-}
-
-fn no_manoeuvre(option: &str, why: &InvalidManoeuvre) -> Failure {
-    let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
-    Failure::refused("motion::bad_manoeuvre", format!("{option}: {why}")).with_help(help)
 }
 
 /// The motion through the poses of a table.

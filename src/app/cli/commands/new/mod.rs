@@ -6,13 +6,9 @@ mod prompts;
 use std::io::{stderr, stdin};
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::number;
-use crate::app::cli::output::Answer;
 use crate::app::cli::streams;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::design::{
     Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
     with_lengths,

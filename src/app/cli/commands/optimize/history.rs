@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
+use crate::app::cli::{Failure, files};
 use ::files::plot::{SearchStep, StepsFigure, steps_chart};
 use ask::{OptimizeEvidence, OptimizeReport};
 use optimize::dimensional::HistoryStep;

@@ -2,22 +2,17 @@
 
 mod history;
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::build::drives;
+use crate::app::cli::commands::fk::threads;
 use crate::app::cli::commands::verify::failure_of;
 use crate::app::cli::commands::{GENERAL, NEAREST};
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine, TimeLimit};
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::Design;
 use ask::optimizing::{EXTENSION, SearchKind, dimensional_problem, hopeless_home};
 use ask::{ConflictFreedom, Error, OptimizeEvidence, OptimizeOptions, OptimizeReport, OptimizeStatus};
-use fk::Threads;
 use optimize::dimensional::InvalidProblem;
 use records::{OptimizeAnswer, OptimizeFiles};
 use sheet::Sheet;
@@ -69,16 +64,15 @@ pub(crate) fn run(args: &OptimizeArgs, context: &mut Context) -> Result<Answer, 
     refuse_singular_home(&design, args.extension, "optimize::singular_home")?;
     refuse_options(args, &design, context)?;
     let table = drives::asked(args.drives.as_deref(), &args.design, &design, context)?;
-    let (mut progress, interrupt) =
-        (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
+    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let mut options = OptimizeOptions::new()
         .seed(context.seed())
-        .threads(workers(args.threads))
+        .threads(threads(args.threads))
         .extension(args.extension)
         .survey(args.survey)
         .gap(args.gap)
         .candidates(args.candidates.is_some())
-        .until(interrupt.until())
+        .time_limit(args.time_limit.map(|limit| limit.0))
         .on_progress(|p| {
             progress.note(&p.to_string());
             interrupt.flow()
@@ -153,11 +147,6 @@ fn refusal(why: &InvalidProblem) -> Failure {
         )),
         _ => failed("optimize::invalid_problem"),
     }
-}
-
-/// The number of worker threads.
-fn workers(asked: Option<u16>) -> Threads {
-    asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
 }
 
 /// Writes the requested files.

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::numbers;
+use crate::app::cli::{Context, Failure};
 use files::plot::{SliceAxis, SliceFigure, singular_slice};
 use platform::manipulator::Octahedral;
 use synthesis::offset_determinant;

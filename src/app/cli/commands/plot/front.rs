@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
+use crate::app::cli::{Failure, files};
 use ::files::plot::{FrontAxis, FrontFigure, pareto_front};
 use machine::requirements::Objective;
 

@@ -12,13 +12,9 @@ use std::path::{Path, PathBuf};
 
 use super::equivalents::{components, topologies};
 use super::singular::{motion, poses as singular_poses};
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::freedoms::Freedoms;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::plot::singular_slice;
 use platform::geom::PoseConvention;
 use records::{FigureWord, PictureRecord, PlotAnswer};

@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use crate::app::cli::commands::{explore, fk};
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
+use crate::app::cli::{Context, Failure};
 use ::fk::FkOptions;
 
 /// Arguments of `plot modes`.

@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::poses;
+use crate::app::cli::{Context, Exit, Failure};
 use files::plot::{PairFigure, platform_pair};
 use platform::geom::PoseConvention;
 use synthesis::Relation;

@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::freedoms::{Freedoms, PoseGrid};
 use crate::app::cli::numbers;
 use crate::app::cli::poses;
+use crate::app::cli::{Context, Failure};
 use ask::Design;
 use files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
 use machine::requirements::{Limit, Limits, Region};

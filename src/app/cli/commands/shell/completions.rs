@@ -2,9 +2,8 @@
 
 use clap_complete::Shell;
 
-use crate::app::cli::exit::Exit;
 use crate::app::cli::guide;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit};
 use records::CompletionsAnswer;
 
 /// Arguments of `shell completions`.

@@ -4,11 +4,8 @@ use std::fmt::Write as _;
 
 use clap_mangen::Man;
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::guide;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure, OutputPath, files};
 use records::ManAnswer;
 
 /// Arguments of `shell man`.

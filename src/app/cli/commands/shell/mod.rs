@@ -5,8 +5,7 @@ mod man;
 
 use clap::Subcommand;
 
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Failure};
 
 /// Commands about the shell.
 #[derive(Debug, Subcommand)]

@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
 use crate::app::cli::exact_pose;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
 use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::numbers;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use num::surd::Surd;
 use records::SingularLocusAnswer;
 use synthesis::singularity::{PoseFamily, locus_polynomial};

@@ -4,13 +4,9 @@ use std::cmp::Ordering;
 use std::path::PathBuf;
 
 use crate::app::cli::commands::report;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
 use crate::app::cli::swept_table::{Better, SweptTable};
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use num::shown::rounded;
 use records::{SweepBestAnswer, SweepBestRecord};
 use sweep::SweepCell;

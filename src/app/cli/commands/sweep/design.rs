@@ -2,11 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
+use crate::app::cli::{Answer, Exit, Failure, OutputPath, files};
 use records::{SweepDesignAnswer, SweepDesignFile};
 
 /// Arguments of `sweep design`.

@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::{
     PartLook, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
 };
+use crate::app::cli::{Answer, Exit, Failure, OutputPath, files};
 use records::SweepMergeAnswer;
 use sweep::Digested;
 use sweep::part::{PartError, PartWriter};

@@ -10,9 +10,7 @@ mod verify;
 
 use clap::Subcommand;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Failure};
 
 /// Commands about sweeps.
 #[derive(Debug, Subcommand)]

@@ -8,16 +8,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::app::cli::context::Context;
 use crate::app::cli::diagnostic;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::OutputPath;
-use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine};
 use crate::app::cli::sweep_folder::{
     MOST_SHARDS, PartLook, ShardState, SweepFolder, SweepTexts, default_shards,
 };
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath};
 use fk::Threads;
 use num::{Cancel, Purpose};
 use records::{SweepColumnRecord, SweepEstimateAnswer, SweepRunAnswer};
@@ -239,16 +235,7 @@ fn estimate(sweep: &Sweep, threads: usize, shards: Option<u64>) -> Answer {
         seconds_each: each.into(),
         threads,
         seconds: seconds.into(),
-        columns: sweep
-            .columns
-            .iter()
-            .map(|c| SweepColumnRecord {
-                name: c.name.clone(),
-                kind: c.kind.name().into(),
-                unit: c.unit.clone(),
-                meaning: c.meaning.clone(),
-            })
-            .collect(),
+        columns: sweep.columns.iter().map(SweepColumnRecord::from).collect(),
     };
     let mut text = format!(
         "{}: {} candidates in {} shards, {:.3} ms each, about {} on {threads} thread{}\n{} of {} candidates of the sample are kept, {} have an error\n\n",

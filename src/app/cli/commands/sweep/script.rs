@@ -5,12 +5,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::{MOST_SHARDS, SweepTexts};
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use records::{SweepDesignFile, SweepScriptAnswer};
 
 use super::run::CandidateSample;

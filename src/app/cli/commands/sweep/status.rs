@@ -3,10 +3,8 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
+use crate::app::cli::{Answer, Exit, Failure};
 use records::SweepStatusAnswer;
 
 /// Arguments of `sweep status`.

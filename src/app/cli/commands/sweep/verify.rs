@@ -6,11 +6,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::SweepFolder;
+use crate::app::cli::{Answer, Context, Exit, Failure};
 use num::Purpose;
 use records::SweepVerifyAnswer;
 use sweep::{Sweep, SweepCell, SweepRow, shard_range};

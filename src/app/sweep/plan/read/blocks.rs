@@ -26,13 +26,12 @@ impl PlanReader<'_, '_> {
             _ => self.list(&entry.node, "`vary`", FORM)?,
         };
         if nodes.len() > 255 {
-            self.refuse(
+            return self.report.refused(
                 Code::TooComplex,
                 &entry.node.span,
                 "`vary` has more than 255 blocks",
                 "put quantities into one block",
             );
-            return None;
         }
         let blocks: Vec<_> = nodes.iter().map(|node| self.block(node)).collect();
         blocks.into_iter().collect()
@@ -44,19 +43,18 @@ impl PlanReader<'_, '_> {
         let by = match find(entries, "by") {
             None => {
                 let at = node.span.start..node.span.start;
-                self.refuse(
+                self.report.refused(
                     Code::MissingKey,
                     &at,
                     "`by` is missing",
                     "add `by = \"grid\"`, or list, uniform, latin_hypercube, sobol",
-                );
-                None
+                )
             }
             Some(entry) => text(self.report, entry).and_then(|word| {
                 let found = SPREADINGS.iter().find(|(name, _)| *name == word);
                 if found.is_none() {
                     let help = nearest_help("ways to vary", &word, &SPREADINGS.map(|s| s.0));
-                    self.refuse(
+                    self.report.refuse(
                         Code::UnknownName,
                         &entry.node.span,
                         format!("`{}` is not a way to vary", shown(&word)),
@@ -68,25 +66,23 @@ impl PlanReader<'_, '_> {
         };
         let Some(values) = find(entries, "values") else {
             let at = node.span.start..node.span.start;
-            self.refuse(
+            return self.report.refused(
                 Code::MissingKey,
                 &at,
                 "`values` is missing",
                 "add [vary.values] with a line for each free quantity",
             );
-            return None;
         };
         let listed = table(self.report, &values.node, "`values`")?;
         let mut leaves = Vec::new();
         flatten(listed, "", &mut leaves);
         if leaves.is_empty() {
-            self.refuse(
+            return self.report.refused(
                 Code::MissingKey,
                 &values.key_span,
                 "`values` is empty",
                 "add a line such as `offsets = { from = 0.1, to = 0.4 }`",
             );
-            return None;
         }
         // without a known kind of spreading, ranges are taken as written
         let counted =
@@ -106,13 +102,12 @@ impl PlanReader<'_, '_> {
         let count = self.block_count(node, entries, by, &axes)?;
         if by == Spreading::Points(PointSpread::Sobol) && axes.len() > DIMENSIONS {
             let message = format!("{} quantities of one Sobol sequence", axes.len());
-            self.refuse(
+            return self.report.refused(
                 Code::TooComplex,
                 &node.span,
                 message,
                 format!("a block by sobol has at most {DIMENSIONS}: take latin_hypercube"),
             );
-            return None;
         }
         Some(PlanBlock { spreading: by, count, axes })
     }
@@ -129,52 +124,48 @@ impl PlanReader<'_, '_> {
         match by {
             Spreading::Points(spread) => {
                 let Some(entry) = given else {
-                    self.refuse(
+                    return self.report.refused(
                         Code::MissingKey,
                         &at,
                         "`count` is missing",
                         "add `count = N`, the number of points of this block",
                     );
-                    return None;
                 };
                 let most = if spread == PointSpread::Sobol { 1 << 32 } else { MOST };
                 self.whole(entry, most)
             }
             Spreading::Grid | Spreading::List => {
                 if let Some(entry) = given {
-                    self.refuse(
+                    return self.report.refused(
                         Code::ConflictingKeys,
                         &entry.key_span,
                         "`count` is for uniform, latin_hypercube and sobol",
                         "leave it out: the values say how many there are",
                     );
-                    return None;
                 }
                 let lens: Vec<u64> = axes.iter().map(|a| a.values.len()).collect();
                 if by == Spreading::Grid {
                     return self.product(&lens, &at);
                 }
                 if axes.iter().any(|a| matches!(a.values, AxisValues::Range { .. })) {
-                    self.refuse(
+                    return self.report.refused(
                         Code::WrongType,
                         &at,
                         "a block by list has a range",
                         "write the values one by one, or take `by = \"grid\"`",
                     );
-                    return None;
                 }
                 if lens.iter().any(|n| *n != lens[0]) {
                     let message = format!(
                         "the lists have {} elements",
                         lens.iter().map(u64::to_string).collect::<Vec<_>>().join(", ")
                     );
-                    self.refuse(
+                    return self.report.refused(
                         Code::ConflictingKeys,
                         &at,
                         message,
                         "candidate j has element j of each list: give them the same length",
                     );
-                    return None;
                 }
                 Some(lens[0])
             }
@@ -185,7 +176,7 @@ impl PlanReader<'_, '_> {
         let product =
             numbers.iter().try_fold(1u64, |p, n| p.checked_mul(*n).filter(|p| *p <= MOST_CANDIDATES));
         if product.is_none() {
-            self.refuse(
+            self.report.refuse(
                 Code::TooComplex,
                 at,
                 format!("more than {MOST_CANDIDATES} candidates"),

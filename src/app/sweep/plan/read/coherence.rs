@@ -19,7 +19,7 @@ impl PlanReader<'_, '_> {
         let offsets = has(&|q| matches!(q, FreeQuantity::Offset(_)));
         let pattern = has(&|q| *q == FreeQuantity::Pattern) > 0;
         if (offsets > 0 || pattern) && plan.text_is_fixed() && Original::of(&self.base.design).is_none() {
-            self.refuse(
+            self.report.refuse(
                 Code::ConflictingKeys,
                 place,
                 "offsets and patterns are those of octahedral platforms, and the base design is none",
@@ -27,7 +27,7 @@ impl PlanReader<'_, '_> {
             );
         }
         if offsets > 0 && !pattern && offsets != 6 {
-            self.refuse(
+            self.report.refuse(
                 Code::MissingKey,
                 place,
                 format!("{offsets} of the six offsets vary"),
@@ -45,7 +45,7 @@ impl PlanReader<'_, '_> {
                 .max()
                 .unwrap_or(0);
             if needed > offsets {
-                self.refuse(
+                self.report.refuse(
                     Code::MissingKey,
                     place,
                     format!("{offsets} offsets vary, and the patterns take up to {needed}"),
@@ -56,7 +56,7 @@ impl PlanReader<'_, '_> {
         // the table in the base design is for its searches
         let named_by_plan = self.base.drives.is_some() && self.base.design.drive_table.is_none();
         if named_by_plan && has(&|q| *q == FreeQuantity::Drive) == 0 {
-            self.refuse(
+            self.report.refuse(
                 Code::ConflictingKeys,
                 place,
                 "the plan names a table of drives, and the drive does not vary",
@@ -66,7 +66,7 @@ impl PlanReader<'_, '_> {
         let lengths = has(&|q| matches!(q, FreeQuantity::Length(_)));
         let pose = has(&|q| matches!(q, FreeQuantity::Pose(_)));
         if lengths > 0 && pose > 0 {
-            self.refuse(
+            self.report.refuse(
                 Code::ConflictingKeys,
                 place,
                 "lengths vary, and the pose from which lengths are taken does too",
@@ -74,7 +74,7 @@ impl PlanReader<'_, '_> {
             );
         }
         if (1..6).contains(&lengths) && self.base.design.lengths.is_none() {
-            self.refuse(
+            self.report.refuse(
                 Code::MissingKey,
                 place,
                 format!("{lengths} of the six lengths vary, and the base design has none"),
@@ -82,7 +82,7 @@ impl PlanReader<'_, '_> {
             );
         }
         if (lengths > 0 || pose > 0) && !plan.tasks.iter().any(SweepTask::needs_lengths) {
-            self.refuse(
+            self.report.refuse(
                 Code::ConflictingKeys,
                 place,
                 "lengths or the pose vary, and nothing that is computed depends on them",
@@ -98,7 +98,7 @@ impl PlanReader<'_, '_> {
         for task in &plan.tasks {
             match task {
                 SweepTask::DetA if !equivalent => {
-                    self.refuse(
+                    self.report.refuse(
                         Code::ConflictingKeys,
                         place,
                         "`det_a` is that of an equivalent platform",
@@ -106,7 +106,7 @@ impl PlanReader<'_, '_> {
                     );
                 }
                 SweepTask::Tolerance if plan.accuracy.is_none() => {
-                    self.refuse(
+                    self.report.refuse(
                         Code::ConflictingKeys,
                         place,
                         "`tolerance` is that for an accuracy, and the plan has none",
@@ -114,7 +114,7 @@ impl PlanReader<'_, '_> {
                     );
                 }
                 SweepTask::Drive if self.base.drives.is_none() => {
-                    self.refuse(
+                    self.report.refuse(
                         Code::ConflictingKeys,
                         place,
                         "`drive` is what a table says of the drive of a candidate, and the plan names none",
@@ -122,7 +122,7 @@ impl PlanReader<'_, '_> {
                     );
                 }
                 SweepTask::Margins if self.base.required_kinds().is_empty() => {
-                    self.refuse(
+                    self.report.refuse(
                         Code::ConflictingKeys,
                         place,
                         "`margins` are those of requirements, and the base design has none",
@@ -132,7 +132,7 @@ impl PlanReader<'_, '_> {
                 SweepTask::Field(AnswerField { answer: AnswerName::Assess, .. })
                     if self.base.required_kinds().is_empty() =>
                 {
-                    self.refuse(
+                    self.report.refuse(
                         Code::ConflictingKeys,
                         place,
                         "the base design requires nothing that `assess` could answer",
@@ -150,7 +150,7 @@ impl PlanReader<'_, '_> {
         for (k, column) in columns.iter().enumerate() {
             if columns[..k].iter().any(|c| c.name == column.name) {
                 let message = format!("two columns have the name `{}`", shown(&column.name));
-                self.refuse(
+                self.report.refuse(
                     Code::ConflictingKeys,
                     place,
                     message,

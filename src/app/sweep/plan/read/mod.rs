@@ -9,8 +9,7 @@ mod tasks;
 use super::{BaseName, BasePlan, PlanFiles, PlanText, PoseChoice, SweepPlan};
 use ask::presets::Preset;
 use files::design::spanned::{
-    Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
-    text,
+    Entry, Findings, Node, Value, check_keys, find, nearest_help, number, read as read_tree, shown, text,
 };
 use files::design::{Code, Violation};
 use platform::geom::Pose;
@@ -41,13 +40,12 @@ fn entries<'a>(root: &'a Node, report: &mut Findings<'_>) -> Option<&'a [Entry]>
         Value::Table(entries) => Some(entries),
         other => {
             let message = format!("a plan is a table, not {}", other.kind());
-            report.refuse(
+            report.refused(
                 Code::WrongType,
                 &root.span,
                 message,
                 "write { \"name\": ..., \"design\": ..., \"vary\": [ ... ], \"compute\": [ ... ] }",
-            );
-            None
+            )
         }
     }
 }
@@ -56,8 +54,7 @@ fn tree(plan: PlanText<'_>, report: &mut Findings<'_>) -> Option<Node> {
     let bare = plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text);
     if bare.trim().is_empty() {
         let help = "a plan needs name, design, compute and [[vary]]; docs/sweep.md has examples";
-        report.refuse(Code::Empty, &(0..0), "the file is empty", help);
-        return None;
+        return report.refused(Code::Empty, &(0..0), "the file is empty", help);
     }
     read_tree(bare, plan.format, report)
 }
@@ -101,15 +98,12 @@ fn base(root: &Node, entries: &[Entry], presets: &[Preset], report: &mut Finding
             }
             found.map(|p| BaseName::Preset(p.name, p.text))
         }
-        (Some(_), Some(preset)) => {
-            report.refuse(
-                Code::ConflictingKeys,
-                &preset.key_span,
-                "`design` and `preset` both name the base design",
-                "keep one of them",
-            );
-            None
-        }
+        (Some(_), Some(preset)) => report.refused(
+            Code::ConflictingKeys,
+            &preset.key_span,
+            "`design` and `preset` both name the base design",
+            "keep one of them",
+        ),
         (None, None) => {
             missing(
                 report,
@@ -200,27 +194,22 @@ impl PlanReader<'_, '_> {
         Some(plan)
     }
 
-    fn refuse(&mut self, code: Code, span: &Span, message: impl Into<String>, help: impl Into<String>) {
-        self.report.refuse(code, span, message, help);
-    }
-
     fn list<'a>(&mut self, node: &'a Node, what: &str, form: &str) -> Option<&'a [Node]> {
         match &node.value {
             Value::Array(list) if list.is_empty() => {
-                self.refuse(Code::MissingKey, &node.span, format!("{what} is empty"), form);
-                None
+                self.report.refused(Code::MissingKey, &node.span, format!("{what} is empty"), form)
             }
             Value::Array(list) if list.len() > MOST_LISTED => {
                 let message = format!("{what} has {} elements", list.len());
-                self.refuse(Code::TooComplex, &node.span, message, format!("list at most {MOST_LISTED}"));
-                None
+                self.report.refused(
+                    Code::TooComplex,
+                    &node.span,
+                    message,
+                    format!("list at most {MOST_LISTED}"),
+                )
             }
             Value::Array(list) => Some(list),
-            other => {
-                let message = format!("{what} is {}, not an array", other.kind());
-                self.refuse(Code::WrongType, &node.span, message, form);
-                None
-            }
+            _ => self.report.not_a(node, what, "an array", form),
         }
     }
 
@@ -237,8 +226,7 @@ impl PlanReader<'_, '_> {
         }
         let message = format!("`{}` is {x}", entry.key);
         let help = format!("write a whole number from {least} to {most}");
-        self.refuse(Code::NotPositive, &entry.node.span, message, help);
-        None
+        self.report.refused(Code::NotPositive, &entry.node.span, message, help)
     }
 }
 

@@ -22,13 +22,12 @@ impl PlanReader<'_, '_> {
             ("lengths", "") => each("lengths", FreeQuantity::Length),
             ("offsets" | "lengths", number) => {
                 let Some(i) = numbered(number) else {
-                    self.refuse(
+                    return self.report.refused(
                         Code::UnknownName,
                         &entry.key_span,
                         format!("there is no `{}`", shown(path)),
                         format!("write {name}.1 to {name}.6, or `{name}` for all six"),
                     );
-                    return None;
                 };
                 let quantity =
                     if name == "offsets" { FreeQuantity::Offset(i) } else { FreeQuantity::Length(i) };
@@ -39,30 +38,27 @@ impl PlanReader<'_, '_> {
             ("pose", coordinate) => {
                 let Some(i) = POSE_COORDINATES.iter().position(|c| *c == coordinate) else {
                     let help = nearest_help("coordinates of a pose", coordinate, &POSE_COORDINATES);
-                    self.refuse(
+                    return self.report.refused(
                         Code::UnknownName,
                         &entry.key_span,
                         format!("`{}` is no coordinate of a pose", shown(path)),
                         help,
                     );
-                    return None;
                 };
                 vec![(path.to_owned(), FreeQuantity::Pose(i))]
             }
             _ if path == TRAJECTORY => {
-                self.refuse(
+                return self.report.refused(
                     Code::ConflictingKeys,
                     &entry.key_span,
                     format!("`{TRAJECTORY}` is read once for all candidates"),
                     "vary numbers; a plan for each table compares them",
                 );
-                return None;
             }
             _ => match self.base.place(path) {
                 Ok(span) => vec![(path.to_owned(), FreeQuantity::Number(span))],
                 Err((message, help)) => {
-                    self.refuse(Code::UnknownName, &entry.key_span, message, help);
-                    return None;
+                    return self.report.refused(Code::UnknownName, &entry.key_span, message, help);
                 }
             },
         };
@@ -120,8 +116,7 @@ impl PlanReader<'_, '_> {
                         return number(self.report, &e.node, &format!("`{key}` of {what}"));
                     }
                     let message = format!("`{key}` of {what} is missing");
-                    self.report.refuse(Code::MissingKey, &entry.key_span, message, form);
-                    None
+                    self.report.refused(Code::MissingKey, &entry.key_span, message, form)
                 };
                 let (from, to) = (end("from"), end("to"));
                 let logarithmic = match find(inner, "scale") {
@@ -130,47 +125,43 @@ impl PlanReader<'_, '_> {
                         "linear" => false,
                         "log" => true,
                         other => {
-                            self.refuse(
+                            return self.report.refused(
                                 Code::UnknownName,
                                 &e.node.span,
                                 format!("`{}` is not a scale", shown(other)),
                                 "write \"linear\" or \"log\"",
                             );
-                            return None;
                         }
                     },
                 };
                 let count = match find(inner, "count") {
                     Some(e) if grid => self.whole(e, MOST)?,
                     Some(e) => {
-                        self.refuse(
+                        return self.report.refused(
                             Code::ConflictingKeys,
                             &e.key_span,
                             format!("`count` of {what} is for grids"),
                             "the block has one `count` for all of its quantities",
                         );
-                        return None;
                     }
                     None if grid => {
-                        self.refuse(
+                        return self.report.refused(
                             Code::MissingKey,
                             &entry.key_span,
                             format!("`count` of {what} is missing"),
                             form,
                         );
-                        return None;
                     }
                     None => 1,
                 };
                 let (from, to) = (from?, to?);
                 if logarithmic && !(from * to > 0.0) {
-                    self.refuse(
+                    return self.report.refused(
                         Code::NotPositive,
                         &entry.node.span,
                         format!("{what} has a logarithmic scale from {from} to {to}"),
                         "both ends have one sign, and neither is zero",
                     );
-                    return None;
                 }
                 Some(AxisValues::Range { from, to, logarithmic, count })
             }
@@ -227,19 +218,17 @@ impl PlanReader<'_, '_> {
         let mut words = Vec::new();
         for node in list {
             let Value::Text(word) = &node.value else {
-                self.refuse(
-                    Code::WrongType,
-                    &node.span,
-                    format!("a pattern is {}, not a string", node.value.kind()),
-                    FORM,
-                );
-                return None;
+                return self.report.not_a(node, "a pattern", "a string", FORM);
             };
             match word.parse::<Pattern>() {
                 Ok(pattern) => words.push(named(&pattern)),
                 Err(why) => {
-                    self.refuse(Code::UnknownName, &node.span, format!("`{}`: {why}", shown(word)), FORM);
-                    return None;
+                    return self.report.refused(
+                        Code::UnknownName,
+                        &node.span,
+                        format!("`{}`: {why}", shown(word)),
+                        FORM,
+                    );
                 }
             }
         }
@@ -250,13 +239,12 @@ impl PlanReader<'_, '_> {
     fn drives(&mut self, entry: &Entry) -> Option<AxisValues> {
         const FORM: &str = "write \"all\", or a list of names of the table";
         let Some(table) = &self.base.drives else {
-            self.refuse(
+            return self.report.refused(
                 Code::MissingKey,
                 &entry.key_span,
                 "the drive varies, and the plan names no table of drives",
                 "add `drives = \"FILE.csv\"`, relative to the plan; docs/guides/choosing-drives.md has its columns",
             );
-            return None;
         };
         let known: Vec<&str> = table.drives.iter().map(|d| d.name.as_str()).collect();
         let list = match &entry.node.value {
@@ -272,14 +260,14 @@ impl PlanReader<'_, '_> {
                 Value::Text(word) if known.contains(&word.as_str()) => words.push(word.clone()),
                 Value::Text(word) => {
                     let message = format!("the table has no drive `{}`", shown(word));
-                    self.refuse(Code::UnknownName, &node.span, message, nearest_help("it has", word, &known));
-                    return None;
+                    return self.report.refused(
+                        Code::UnknownName,
+                        &node.span,
+                        message,
+                        nearest_help("it has", word, &known),
+                    );
                 }
-                other => {
-                    let message = format!("a drive is {}, not a string", other.kind());
-                    self.refuse(Code::WrongType, &node.span, message, FORM);
-                    return None;
-                }
+                _ => return self.report.not_a(node, "a drive", "a string", FORM),
             }
         }
         Some(AxisValues::Words(words))

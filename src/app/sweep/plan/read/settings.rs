@@ -16,15 +16,18 @@ impl PlanReader<'_, '_> {
                 "home" => Some(PoseChoice::Home),
                 other => {
                     let message = format!("`{}` is not a set of poses", shown(other));
-                    self.refuse(Code::UnknownName, &entry.node.span, message, FORM);
-                    None
+                    self.report.refused(Code::UnknownName, &entry.node.span, message, FORM)
                 }
             },
             Value::Table(inner) => {
                 check_keys(self.report, inner, &["region"], "`poses`");
                 let Some(region) = find(inner, "region") else {
-                    self.refuse(Code::MissingKey, &entry.node.span, "`poses` says nothing", FORM);
-                    return None;
+                    return self.report.refused(
+                        Code::MissingKey,
+                        &entry.node.span,
+                        "`poses` says nothing",
+                        FORM,
+                    );
                 };
                 self.whole(region, 1_000_000).map(|n| PoseChoice::Region(n as usize))
             }
@@ -47,13 +50,12 @@ impl PlanReader<'_, '_> {
             list.iter().map(|n| number(self.report, n, "a coordinate of a pose")).collect();
         let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
         let Ok(six) = <[f64; 6]>::try_from(values) else {
-            self.refuse(
+            return self.report.refused(
                 Code::CoordinateCount,
                 &node.span,
                 format!("a pose has {} numbers", list.len()),
                 FORM,
             );
-            return None;
         };
         Some(pose_of(six))
     }
@@ -83,15 +85,12 @@ impl PlanReader<'_, '_> {
             [position, rotation_deg] if position > 0.0 && rotation_deg > 0.0 => {
                 Some(ErrorBound { position, rotation_deg })
             }
-            _ => {
-                self.refuse(
-                    Code::NotPositive,
-                    &entry.node.span,
-                    "`accuracy` is not two positive numbers",
-                    FORM,
-                );
-                None
-            }
+            _ => self.report.refused(
+                Code::NotPositive,
+                &entry.node.span,
+                "`accuracy` is not two positive numbers",
+                FORM,
+            ),
         }
     }
 }

@@ -24,7 +24,7 @@ impl PlanReader<'_, '_> {
                 let found = TASK_WORDS.iter().find(|t| t.0 == word);
                 if found.is_none() {
                     let help = nearest_help("what can be computed", word, &words);
-                    self.refuse(
+                    self.report.refuse(
                         Code::UnknownName,
                         &node.span,
                         format!("`{}` cannot be computed", shown(word)),
@@ -34,10 +34,8 @@ impl PlanReader<'_, '_> {
                 found.map(|t| t.1.clone())
             }
             Value::Table(inner) => self.field(node, inner).map(SweepTask::Field),
-            other => {
-                let message = format!("what is computed is {}, not a word", other.kind());
-                self.refuse(Code::WrongType, &node.span, message, format!("one of {}", words.join(", ")));
-                None
+            _ => {
+                self.report.not_a(node, "what is computed", "a word", format!("one of {}", words.join(", ")))
             }
         }
     }
@@ -48,10 +46,7 @@ impl PlanReader<'_, '_> {
         let mut word = |key: &str, optional: bool| match find(inner, key) {
             Some(e) => text(self.report, e),
             None if optional => None,
-            None => {
-                self.report.refuse(Code::MissingKey, &node.span, format!("`{key}` is missing"), FORM);
-                None
-            }
+            None => self.report.refused(Code::MissingKey, &node.span, format!("`{key}` is missing"), FORM),
         };
         let (column, field) = (word("column", false), word("field", false));
         let (kind, unit) = (word("as", true), word("unit", true));
@@ -61,13 +56,12 @@ impl PlanReader<'_, '_> {
                 let found = ColumnKind::ALL.into_iter().find(|k| k.name() == word);
                 let Some(kind) = found else {
                     let help = nearest_help("kinds", &word, &ColumnKind::ALL.map(ColumnKind::name));
-                    self.refuse(
+                    return self.report.refused(
                         Code::UnknownName,
                         &node.span,
                         format!("`{}` is not a kind of column", shown(&word)),
                         help,
                     );
-                    return None;
                 };
                 kind
             }
@@ -77,13 +71,12 @@ impl PlanReader<'_, '_> {
         let first = path.next().unwrap_or_default();
         let Some(answer) = AnswerName::ALL.into_iter().find(|a| a.name() == first) else {
             let help = nearest_help("answers", &first, &AnswerName::ALL.map(AnswerName::name));
-            self.refuse(
+            return self.report.refused(
                 Code::UnknownName,
                 &node.span,
                 format!("`{}` is not an answer with fields", shown(&first)),
                 help,
             );
-            return None;
         };
         Some(AnswerField { column, answer, path: path.collect(), kind, unit })
     }
@@ -99,7 +92,7 @@ impl PlanReader<'_, '_> {
         let mut keep = Vec::new();
         for node in list {
             let Value::Text(condition) = &node.value else {
-                self.refuse(
+                self.report.refuse(
                     Code::WrongType,
                     &node.span,
                     format!("a condition is {}, not a string", node.value.kind()),
@@ -113,7 +106,7 @@ impl PlanReader<'_, '_> {
             };
             match read {
                 Ok(condition) => keep.extend(condition),
-                Err((message, help)) => self.refuse(Code::Expression, &node.span, message, help),
+                Err((message, help)) => self.report.refuse(Code::Expression, &node.span, message, help),
             }
         }
         Some(keep)

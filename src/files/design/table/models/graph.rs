@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use crate::design::table::placed::identity;
 use platform::geom::Pose;
 
 /// The group of the world.
@@ -79,8 +78,8 @@ impl Mechanism {
     /// The world alone.
     pub(super) fn new() -> Self {
         let mut mechanism = Self { groups: 1, joined: vec![WORLD], ..Self::default() };
-        mechanism.first.insert(WORLD, ("world".into(), identity()));
-        mechanism.bodies.insert("world".into(), PlacedBody { group: WORLD, at: identity() });
+        mechanism.first.insert(WORLD, ("world".into(), Pose::identity()));
+        mechanism.bodies.insert("world".into(), PlacedBody { group: WORLD, at: Pose::identity() });
         mechanism
     }
 

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::graph::{JointKind, Mechanism, ModelJoint, WORLD};
-use crate::design::table::placed::{inverse, within};
 use platform::geom::Pose;
 
 /// The kind of a joint in the file.
@@ -87,11 +86,11 @@ impl LinkedModel {
     pub(super) fn mechanism(mut self) -> Result<Mechanism, String> {
         let base = self.base()?;
         self.guesses.push(format!("The base is the link `{}`.", self.links[base].name));
-        let back = inverse(&self.links[base].at);
+        let back = self.links[base].at.inverse();
         let mut mechanism = Mechanism::new();
         let groups: Vec<usize> = self.links.iter().map(|_| mechanism.new_group()).collect();
         for (link, group) in self.links.iter().zip(&groups) {
-            mechanism.first.insert(*group, (link.name.clone(), within(&back, &link.at)));
+            mechanism.first.insert(*group, (link.name.clone(), back.compose(&link.at)));
         }
         mechanism.join(groups[base], WORLD);
         for LinkJoint { kind, name, links, at } in self.joints {

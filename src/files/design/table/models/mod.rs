@@ -15,7 +15,7 @@ use roxmltree::{Document, Node};
 
 use self::graph::Mechanism;
 use self::legs::{ModelLegs, SAME_POINT};
-use super::placed::{FileUnit, PlacedLegs, identity, number_between};
+use super::placed::{FileUnit, PlacedLegs, number_between};
 use super::points::PointTable;
 use crate::design::unit_of_millimetres;
 use platform::geom::Pose;
@@ -30,12 +30,14 @@ pub(super) fn is_xml(text: &str) -> bool {
     text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
 }
 
-/// A format of models.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum ModelFormat {
-    Mujoco,
-    Sdf,
-    Urdf,
+num::words! {
+    /// A format of models.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    enum ModelFormat: name {
+        Mujoco = "MuJoCo",
+        Sdf = "SDF",
+        Urdf = "URDF",
+    }
 }
 
 impl ModelFormat {
@@ -46,14 +48,6 @@ impl ModelFormat {
             "sdf" => Some(Self::Sdf),
             "robot" => Some(Self::Urdf),
             _ => None,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Mujoco => "MuJoCo",
-            Self::Sdf => "SDF",
-            Self::Urdf => "URDF",
         }
     }
 
@@ -96,7 +90,8 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     let home = home(&model, format, found.platform, &mut guesses)?;
     let unit = unit(&document, format, &mut guesses)?;
     guesses.extend(model.guesses);
-    let placed = PlacedLegs { ends: found.ends, home: home.unwrap_or_else(identity), tolerance: SAME_POINT };
+    let placed =
+        PlacedLegs { ends: found.ends, home: home.unwrap_or_else(Pose::identity), tolerance: SAME_POINT };
     let table = placed.table(&unit, guesses);
     let mut table = table.ok_or("the coordinates of the joints overflow")?;
     if home.is_none() {

@@ -7,7 +7,6 @@ use roxmltree::Node;
 
 use super::attributes::{Settings, at, elements};
 use super::graph::{JointKind, Mechanism, ModelJoint, PlacedBody, Tendon, WORLD};
-use crate::design::table::placed::{identity, within};
 use platform::geom::Pose;
 
 /// A joint of a body in its frame.
@@ -42,7 +41,7 @@ impl Mechanism {
         let of = |tag: &'static str| elements(root).filter(move |n| n.tag_name().name() == tag);
         for world in of("worldbody") {
             let around = world.attribute("childclass");
-            model.contents(&settings, world, &identity(), WORLD, around)?;
+            model.contents(&settings, world, &Pose::identity(), WORLD, around)?;
         }
         for constraint in of("equality").flat_map(elements) {
             model.constraint(&settings, constraint)?;
@@ -96,7 +95,7 @@ impl Mechanism {
                     out.push(OwnJoint { kind, name, point, axis });
                 }
                 "frame" => {
-                    let inner = within(frame, &settings.pose(element, None)?);
+                    let inner = frame.compose(&settings.pose(element, None)?);
                     let around = element.attribute("childclass").or(around);
                     Self::joints_of(settings, element, &inner, around, out)?;
                 }
@@ -115,9 +114,9 @@ impl Mechanism {
         around: Option<&str>,
     ) -> Result<(), String> {
         let around = node.attribute("childclass").or(around);
-        let pose = within(outer, &settings.pose(node, None)?);
+        let pose = outer.compose(&settings.pose(node, None)?);
         let mut joints = Vec::new();
-        Self::joints_of(settings, node, &identity(), around, &mut joints)?;
+        Self::joints_of(settings, node, &Pose::identity(), around, &mut joints)?;
         let mut group = parent;
         for OwnJoint { kind, name, point, axis } in joints {
             let next = self.new_group();
@@ -154,12 +153,12 @@ impl Mechanism {
             match element.tag_name().name() {
                 "body" => self.body(settings, element, outer, group, around)?,
                 "frame" => {
-                    let inner = within(outer, &settings.pose(element, None)?);
+                    let inner = outer.compose(&settings.pose(element, None)?);
                     let around = element.attribute("childclass").or(around);
                     self.contents(settings, element, &inner, group, around)?;
                 }
                 "site" => {
-                    let placed = PlacedBody { group, at: within(outer, &settings.pose(element, around)?) };
+                    let placed = PlacedBody { group, at: outer.compose(&settings.pose(element, around)?) };
                     if let Some(name) = element.attribute("name") {
                         self.sites.insert(name.into(), placed);
                     }
@@ -188,7 +187,7 @@ impl Mechanism {
             return Ok(());
         }
         let sites = node.attribute("site1").is_some() || node.attribute("site2").is_some();
-        let world = PlacedBody { group: WORLD, at: identity() };
+        let world = PlacedBody { group: WORLD, at: Pose::identity() };
         let (first, second) = if sites {
             let of = |attribute: &str| Self::named(&self.sites, node, attribute);
             (of("site1")?.clone(), of("site2")?.clone())

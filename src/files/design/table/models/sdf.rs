@@ -7,7 +7,6 @@ use roxmltree::Node;
 
 use super::attributes::{at, elements, numbers};
 use super::links::{LinkJoint, LinkJointKind, LinkedModel, ModelLink};
-use crate::design::table::placed::{identity, within};
 use platform::geom::{Angles, Pose};
 
 /// The frame of the model itself.
@@ -41,7 +40,7 @@ fn text_of<'a>(node: Node<'a, '_>, tag: &str) -> Option<&'a str> {
 fn pose(node: Node<'_, '_>) -> Result<Pose, String> {
     let text = node.text().unwrap_or_default();
     if text.trim().is_empty() {
-        return Ok(identity());
+        return Ok(Pose::identity());
     }
     let bad = || at(node, format!("`{}` is no pose", text.trim()));
     if node.attribute("rotation_format") == Some("quat_xyzw") {
@@ -70,7 +69,7 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
             let posed = PosedElement {
                 node,
                 relative_to: said.unwrap_or(default),
-                pose: own.map_or_else(|| Ok(identity()), pose)?,
+                pose: own.map_or_else(|| Ok(Pose::identity()), pose)?,
             };
             let name = node.attribute("name").unwrap_or_default();
             if all.insert(name, posed).is_some() {
@@ -82,7 +81,7 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
 
     /// The pose of an element in the frame of the model.
     fn pose(&self, name: &str) -> Result<Pose, String> {
-        let mut pose = identity();
+        let mut pose = Pose::identity();
         let mut name = name;
         for _ in 0..=self.elements.len() {
             if MODEL.contains(&name) {
@@ -90,7 +89,7 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
             }
             let element =
                 self.elements.get(name).ok_or_else(|| format!("`{name}` names nothing in the model"))?;
-            pose = within(&element.pose, &pose);
+            pose = element.pose.compose(&pose);
             name = element.relative_to;
         }
         Err(format!("the pose of `{name}` is given by itself"))
@@ -110,7 +109,7 @@ impl<'a, 'i> ModelFrames<'a, 'i> {
         let expressed = xyz.and_then(|n| n.attribute("expressed_in")).filter(|name| !name.is_empty());
         let frame = match expressed {
             Some(name) => self.pose(name)?,
-            None if of_model || version < AXES_IN_JOINTS => identity(),
+            None if of_model || version < AXES_IN_JOINTS => Pose::identity(),
             None => self.pose(joint.attribute("name").unwrap_or_default())?,
         };
         Unit::try_new(frame.rotation * Vector3::from(direction), 0.0)

@@ -7,7 +7,6 @@ use roxmltree::Node;
 
 use super::attributes::{at, elements, numbers};
 use super::links::{LinkJoint, LinkJointKind, LinkedModel, ModelLink};
-use crate::design::table::placed::{identity, within};
 use platform::geom::{Angles, Pose};
 
 /// A joint in the frame of its parent.
@@ -21,7 +20,7 @@ struct TreeJoint<'a, 'i> {
 /// `xyz` and `rpy` of an element `origin` below a node: rotations about the fixed axes x, y, z.
 fn origin(node: Node<'_, '_>) -> Result<Pose, String> {
     let Some(origin) = elements(node).find(|n| n.tag_name().name() == "origin") else {
-        return Ok(identity());
+        return Ok(Pose::identity());
     };
     let read = |name: &str| match origin.attribute(name) {
         None => Ok([0.0; 3]),
@@ -72,7 +71,7 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
             ));
         }
         if !joints.iter().any(|j| j.child == name) {
-            frames.insert(name, identity());
+            frames.insert(name, Pose::identity());
         }
     }
     let roots: Vec<&str> = frames.keys().copied().collect();
@@ -81,7 +80,7 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
         let before = frames.len();
         for joint in &joints {
             if let Some(parent) = frames.get(joint.parent).copied() {
-                frames.entry(joint.child).or_insert_with(|| within(&parent, &joint.origin));
+                frames.entry(joint.child).or_insert_with(|| parent.compose(&joint.origin));
             }
         }
         if frames.len() == before {
@@ -108,7 +107,7 @@ pub(super) fn read(root: Node<'_, '_>) -> Result<LinkedModel, String> {
             None => Err(at(*node, format!("`{name}` names no link"))),
         };
         let links = [find(parent)?, find(child)?];
-        let frame = within(frames.get(parent).unwrap_or(&identity()), origin);
+        let frame = frames.get(parent).unwrap_or(&Pose::identity()).compose(origin);
         let kind = match node.attribute("type").unwrap_or_default() {
             "fixed" => LinkJointKind::Fixed,
             "prismatic" => LinkJointKind::Slide,

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use nalgebra::{Point3, Vector3};
 
 use super::vectors::{list, moved, pose_numbers, row};
-use super::{ExportedFile, OwnLibrary, braces, heading, matrix, number, points, reals};
+use super::{ExportedFile, OwnLibrary, braces, heading, home, number, points, reals};
 use crate::export::{Export, ExportCranks};
 use fk::NearOutcome;
 use machine::rotary::{Elbow, RotaryTracker};
@@ -76,14 +76,8 @@ fn source(export: &Export, cranks: &ExportCranks) -> String {
         limit(&|(least, _)| least),
         limit(&|(_, most)| most),
     );
-    let r = export.home.rotation.matrix();
-    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
-    let _ = writeln!(
-        out,
-        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};\n",
-        matrix(&rows),
-        reals(export.home.position.iter().copied())
-    );
+    home(&mut out, &export.home);
+    out.push('\n');
     let _ = writeln!(out, "const real_t equipod_home_angles[6] = {};", reals(cranks.home_angles));
     out
 }

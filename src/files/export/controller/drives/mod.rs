@@ -10,7 +10,8 @@ use nalgebra::Vector3;
 
 use super::vectors::{list, moved, pose_numbers, row};
 use super::{
-    ConeAxes, ExportedFile, OwnLibrary, braces, heading, legs, limits, matrix, number, points, reals,
+    ConeAxes, ExportedFile, OwnLibrary, braces, heading, home, leg_offsets, legs, limits, number, points,
+    reals,
 };
 use crate::export::Export;
 use fk::NearOptions;
@@ -77,17 +78,8 @@ fn source(export: &Export, drives: &CoupledLegs) -> String {
         number(export.size),
     );
     limits(&mut out, &export.hardware, &ConeAxes::of(export));
-    let r = export.home.rotation.matrix();
-    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
-    let _ = writeln!(
-        out,
-        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};",
-        matrix(&rows),
-        reals(export.home.position.iter().copied())
-    );
-    if let Some(offsets) = export.leg_offsets {
-        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
-    }
+    home(&mut out, &export.home);
+    leg_offsets(&mut out, export);
     out
 }
 

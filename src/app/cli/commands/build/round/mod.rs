@@ -5,12 +5,8 @@ pub(in crate::app::cli::commands) mod render;
 use std::path::PathBuf;
 
 use super::tolerances::tool_point;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::{Length, length, lengths, number};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::Design;
 use ask::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use machine::manufacture::{NoRounding, Rounding};

@@ -6,13 +6,9 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::numbers::{lengths, one};
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::Design;
 use machine::manufacture::{
     Budget, ErrorAtPose, ErrorBound, JointErrors, MachineErrors, MachineUncertainty, PoseSearch,

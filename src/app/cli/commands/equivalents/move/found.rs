@@ -3,10 +3,7 @@
 use std::path::Path;
 
 use super::targets::TargetArgs;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Exit, Failure, files};
 use ask::{Design, SearchWord};
 use records::{MoveAnswer, MoveSearchAnswer};
 use synthesis::components::ComponentOptions;

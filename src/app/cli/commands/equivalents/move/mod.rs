@@ -5,11 +5,7 @@ mod targets;
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ask::{Design, InvalidMove, LegMoveRequest, MoveOptions, NoMoves, NoReplaceableLegs, ReplaceableOptions};
 use records::{MoveAnswer, MovesAnswer};
 use synthesis::components::{ComponentOptions, Components, ComponentsError};

@@ -7,19 +7,15 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
-use crate::app::cli::output::Answer;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::plot::{TopologyFigure, topology_diagram, topology_sheet};
 use ask::Design;
 use ask::bench::{Class, LengthsFrom, Planar, problem};
-use fk::distance::{ClosureDegrees, generic_degrees};
+use fk::distance::generic_degrees;
 use fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use num::Purpose;
 use platform::manipulator::{Manipulator, default_home};
-use platform::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
+use platform::topology::{NamedTopology, Recognised, catalogue, recognise};
 use records::{
     RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
     VirtualLegsRecord,
@@ -45,17 +41,6 @@ pub(crate) struct EquivalentsTopologiesArgs {
     rearrangements: bool,
 }
 
-/// A topology with its computed properties.
-struct TopologyEntry {
-    named: NamedTopology,
-    sequence: Sequence,
-    decoupled: bool,
-    poses: u32,
-    proved: bool,
-    /// The closure degrees of a random member, for at most one virtual leg.
-    closure: Option<ClosureDegrees>,
-}
-
 /// Lists the catalogue, or the topology of one design.
 pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let mut wanted = catalogue();
@@ -76,7 +61,7 @@ pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Re
     }
     let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
     let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
-    let entries = entries.collect::<Result<Vec<TopologyEntry>, Failure>>()?;
+    let entries = entries.collect::<Result<Vec<TopologyFindings>, Failure>>()?;
     write_files(args, &entries)?;
     if let Some(list) = &moved {
         args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
@@ -87,14 +72,14 @@ pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Re
         design: of_design,
         by_virtual_legs,
         members: args.members,
-        topologies: entries.iter().map(record).collect(),
+        topologies: entries.iter().map(TopologyRecord::from).collect(),
         rearrangements: moved.map(|list| list.iter().map(RearrangementRecord::from).collect()),
     };
     let sheet = sheet::answers::topologies(&answer);
     Ok(Answer::new(exit, answer, sheet))
 }
 
-fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry, Failure> {
+fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyFindings, Failure> {
     let t = named.topology();
     let mut votes: BTreeMap<u32, (u64, bool)> = BTreeMap::new();
     for k in 0..members {
@@ -114,22 +99,10 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry,
     let (poses, (_, proved)) = best.unwrap_or_default();
     let sequence = t.trilateration();
     let closure = generic_degrees(&t.legs(), &sequence, seed).ok();
-    Ok(TopologyEntry { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
+    Ok(TopologyFindings { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
 }
 
-fn record(e: &TopologyEntry) -> TopologyRecord {
-    (&TopologyFindings {
-        named: e.named,
-        sequence: &e.sequence,
-        decoupled: e.decoupled,
-        poses: e.poses,
-        proved: e.proved,
-        closure: e.closure.as_ref(),
-    })
-        .into()
-}
-
-fn figure(e: &TopologyEntry) -> TopologyFigure {
+fn figure(e: &TopologyFindings) -> TopologyFigure {
     let legs = match e.sequence.virtual_legs.len() {
         0 => "trilaterable".to_string(),
         1 if e.decoupled => "decoupled".to_string(),
@@ -139,7 +112,7 @@ fn figure(e: &TopologyEntry) -> TopologyFigure {
     TopologyFigure { topology: e.named, caption: format!("{} poses, {legs}", e.poses) }
 }
 
-fn sheet(entries: &[TopologyEntry]) -> String {
+fn sheet(entries: &[TopologyFindings]) -> String {
     let figures: Vec<TopologyFigure> = entries.iter().map(figure).collect();
     topology_sheet("Joint-sharing topologies of six-legged platforms", &figures)
 }
@@ -154,7 +127,7 @@ pub(in crate::app::cli::commands) fn drawing(
         Some(design) => vec![recognised(design)?.topology],
         None => catalogue(),
     };
-    let entries: Result<Vec<TopologyEntry>, Failure> =
+    let entries: Result<Vec<TopologyFindings>, Failure> =
         wanted.into_iter().map(|t| entry(t, members, seed)).collect();
     Ok(sheet(&entries?))
 }
@@ -166,7 +139,7 @@ fn recognised(design: &Design) -> Result<Recognised, Failure> {
     })
 }
 
-fn write_files(args: &EquivalentsTopologiesArgs, entries: &[TopologyEntry]) -> Result<(), Failure> {
+fn write_files(args: &EquivalentsTopologiesArgs, entries: &[TopologyFindings]) -> Result<(), Failure> {
     if let Some(path) = &args.svg {
         files::write_text(path, &sheet(entries))?;
     }
@@ -181,7 +154,7 @@ fn write_files(args: &EquivalentsTopologiesArgs, entries: &[TopologyEntry]) -> R
 }
 
 /// A member with its joints near two circles, at its default home pose; coordinates are thousandths of the base radius.
-fn representative(e: &TopologyEntry) -> Result<Design, Failure> {
+fn representative(e: &TopologyFindings) -> Result<Design, Failure> {
     let t = e.named.topology();
     let layout = t.layout();
     // independent of the seed, since the file belongs to the topology

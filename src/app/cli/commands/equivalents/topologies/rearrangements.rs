@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
+use crate::app::cli::{Failure, files};
 use ask::Design;
 use platform::manipulator::default_home;
 use platform::topology::NamedTopology;

@@ -5,11 +5,8 @@ mod render;
 use std::path::{Path, PathBuf};
 
 use crate::app::cli::commands::fk::{MethodArg, failure_of, lengths, pair};
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::{Answer, AnswerText};
+use crate::app::cli::{Context, Exit, Failure, OutputPath, files};
 use ask::{Design, LocusOptions, LocusReport, NoLocus};
 use platform::manipulator::LegIndex;
 use records::LocusAnswer;

@@ -5,13 +5,9 @@ mod render;
 use std::path::PathBuf;
 
 use crate::app::cli::commands::fk::lengths::six;
-use crate::app::cli::context::Context;
-use crate::app::cli::exit::Exit;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::FrameArgs;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::plot::{MotionFigure, motion};
 use ask::{Design, MotionStart, NoSelfMotion, SelfMotionOptions, SelfMotionReport};
 use synthesis::singularity::{CurveEnd, MotionOptions};

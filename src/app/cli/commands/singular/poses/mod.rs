@@ -6,14 +6,11 @@ pub(in crate::app::cli::commands) mod slice;
 
 use std::path::PathBuf;
 
-use crate::app::cli::context::Context;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::freedoms::Freedoms;
 use crate::app::cli::numbers;
-use crate::app::cli::output::Answer;
 use crate::app::cli::poses;
+use crate::app::cli::{Answer, Context, Failure, OutputPath, files};
 use ::files::plot::singular_slice;
 use ask::{BOX_CELLS, NoSingularPoses, SignPath, SignsBetween, SingularPosesOptions, SingularPosesReport};
 use platform::manipulator::LegLengths;

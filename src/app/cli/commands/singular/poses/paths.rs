@@ -3,9 +3,8 @@
 use std::fmt::Write as _;
 
 use super::SingularPosesArgs;
-use crate::app::cli::failure::Failure;
-use crate::app::cli::files;
 use crate::app::cli::poses;
+use crate::app::cli::{Failure, files};
 use ::files::plot::{AlongFigure, AlongPart, sign_along};
 use ask::{Design, PoseFrames, SignPath, SignsBetween, SingularPosesReport};
 use platform::geom::Pose;

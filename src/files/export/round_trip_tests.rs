@@ -24,7 +24,7 @@ fn exported(design: &DesignModel, format: &str) -> (String, &'static str) {
     let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
     let options = ExportOptions { unit: Some(unit), ..ExportOptions::default() };
     let export = Export::new(design, design.home_or_default(), (Vec::new(), Vec::new()), &options).unwrap();
-    let files = export.files(format.parse::<ExportFormat>().unwrap().writer());
+    let files = export.files(format.parse::<ExportFormat>().unwrap());
     let files = files.unwrap_or_else(|why| panic!("{}: {format}: {why}", design.name));
     let file = files.iter().find(|f| f.name == "legs.csv").unwrap_or(&files[0]);
     (file.text.clone(), unit.label)
