@@ -99,7 +99,7 @@ Proved about the exact joints: the joints lie on the sides of two triangles (Gri
     }
     let general = said(&["check", "designs/general-6-6.toml"]);
     let count =
-        "40 ways to assemble it for given leg lengths, real and complex, counted; 0 lost at infinity.";
+        "Generic leg lengths have 40 poses, real and complex, counted modulo random primes.";
     assert!(general.contains(count), "{general}");
     // three digits, or as many as are asked for
     let digits = |n: &str| said(&["check", "designs/general-6-6.toml", "--digits", n]);

@@ -96,9 +96,9 @@ fn legs_weigh_the_same_in_compare_assess_and_motion() {
     let list = |k: usize| -> Vec<&str> {
         doc["designs"][k]["assumptions"].as_array().unwrap().iter().map(|s| s.as_str().unwrap()).collect()
     };
-    let massless = "The legs have no masses in [hardware]: they are taken as massless.";
+    let massless = "The legs have no masses in [hardware]: they are assumed massless.";
     assert_eq!((list(0), list(1)), (vec![massless], vec![]));
-    assert!(list(2).iter().any(|s| s.contains("platform is taken as massless")), "{:?}", list(2));
+    assert!(list(2).iter().any(|s| s.contains("platform is assumed massless")), "{:?}", list(2));
     assert!(doc["designs"][0]["assessment"]["assumptions"].is_null(), "the list stands once");
     let compared = ["compare", &light, &whole, "--points", "20"];
     let text = String::from_utf8(equipod(&compared).stdout).unwrap();

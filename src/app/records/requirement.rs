@@ -106,6 +106,9 @@ impl MarginRecord {
 pub struct AssessAnswer {
     /// The name of the assessed design.
     pub name: String,
+    /// The unit of lengths, as in `pose`.
+    #[serde(default)]
+    pub length_unit: String,
     /// The role of the design in this answer.
     pub role: DesignRoleWord,
     /// The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved. False: one pose
@@ -165,6 +168,7 @@ impl AssessAnswer {
         let proof = &found.proof;
         Self {
             name: design.name.clone(),
+            length_unit: design.units.clone(),
             role: DesignRoleWord::Design,
             met: found.met(),
             explanation: found.to_string(),

@@ -915,7 +915,7 @@ fn assumptions_name_what_has_no_mass() {
     };
     assert_eq!(said(&plain, false, false), Vec::<String>::new());
     let of_legs = said(&plain, true, false);
-    assert!(of_legs[0].contains("platform is taken as massless"), "{of_legs:?}");
+    assert!(of_legs[0].contains("platform is assumed massless"), "{of_legs:?}");
     assert!(of_legs.len() == 3 && of_legs.iter().all(|s| !s.contains("legs have no masses")), "{of_legs:?}");
     // nothing has weight, so no unit of mass is needed
     let nothing = said(&without(&plain), true, false);

@@ -217,9 +217,9 @@ impl AssessReport {
         match self.regularity {
             Regularity::Regular => self.assessed_poses.regular_in_words(),
             Regularity::ChangesSign(_) => {
-                "The workspace holds a singular pose: det J changes its sign on the way to it".to_owned()
+                "The workspace contains a singular pose: det J changes its sign on the path to it".to_owned()
             }
-            Regularity::Undecided(_) => "Not proved to be free of singular poses".to_owned(),
+            Regularity::Undecided(_) => "Undecided whether a pose of the workspace is singular".to_owned(),
         }
     }
 }
