@@ -58,9 +58,9 @@ pub(crate) fn same_units(a: &Design, b: &Design, code: &str) -> Result<(), Failu
     if a.units == b.units {
         return Ok(());
     }
-    let message = format!("{} is in {}, {} is in {}", a.name, a.units, b.name, b.units);
+    let message = format!("{} has the unit `{}`, and {} has the unit `{}`", a.name, a.units, b.name, b.units);
     Err(Failure::refused(code, message)
-        .with_help("write both designs in the same unit: the c of their leg map has the unit squared"))
+        .with_help("convert one of them: `equipod design convert DESIGN --units UNIT -o FILE`"))
 }
 
 impl AlignmentArgs {

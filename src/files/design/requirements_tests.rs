@@ -115,7 +115,7 @@ fn what_contradicts_itself_is_refused() {
         r#"26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
 27:1 design::unknown_key: `strok` is not a key of [hardware] | did you mean `stroke`?
 28:1 design::conflicting_keys: leg lengths are limited twice | keep `leg_length`, or `dead_length` with `stroke`
-26:14 design::out_of_range: leg lengths from 9 to 4 | give [least, greatest], the least not negative
+26:14 design::out_of_range: `leg_length` is [9, 4] | give [least, greatest] with 0 <= least < greatest
 26:14 design::wrong_type: `leg_length` is a number, not an array | write an array of 2 lengths, least and greatest
 23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
 22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
@@ -136,10 +136,10 @@ fn what_contradicts_itself_is_refused() {
 56:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
 56:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
 51:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
-17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
+17:10 design::wrong_type: `region` is neither "box" nor "ellipsoid" | write "box" or "ellipsoid"
 18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
 19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
-18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
+18:1 design::missing_key: `relative_to` has no effect, because no poses are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
 41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
 70:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
 72:11 design::not_positive: `angular` is 0 | give a positive number

@@ -383,7 +383,7 @@ impl<'t> Findings<'t> {
                 column: 1,
                 width: 1,
                 message: format!("{} more violations are not listed", self.unlisted),
-                help: "mend the listed ones first".into(),
+                help: "correct the listed ones first".into(),
             });
         }
         self.violations

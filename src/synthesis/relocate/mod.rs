@@ -91,7 +91,7 @@ impl Relocation {
 #[non_exhaustive]
 pub enum RelocateError {
     /// The family does not exist.
-    #[error("there is no family {}, the platform has {count}", index + 1)]
+    #[error("there is no family {}; the platform has {count} families", index + 1)]
     NoSuchFamily {
         /// The requested index, from 0.
         index: usize,
@@ -99,7 +99,7 @@ pub enum RelocateError {
         count: usize,
     },
     /// A family has another number of parameters.
-    #[error("family {} has {expected} parameter(s), but {given} were given", family + 1)]
+    #[error("family {} needs {expected} parameters, but {given} were given", family + 1)]
     ParameterCount {
         /// The family, from 0.
         family: usize,

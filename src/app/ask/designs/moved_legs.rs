@@ -46,7 +46,7 @@ pub enum InvalidMove {
     #[error("`{0}` is not a move")]
     Form(String),
     /// It names no leg.
-    #[error("`{0}` is not a leg: they are numbered 1 to 6")]
+    #[error("`{0}` is not the number of a leg")]
     Leg(String),
     /// A parameter is no number.
     #[error(transparent)]
@@ -286,14 +286,14 @@ impl Design {
     /// A decomposition that does not converge.
     pub fn families_in_words(&self, found: &Components) -> Result<String, LinalgError> {
         if found.components.is_empty() {
-            return Ok("no leg of this platform can be moved".into());
+            return Ok("no leg of this platform is replaceable".into());
         }
         let mut entries = Vec::new();
         for (k, c) in found.components.iter().enumerate() {
             let legs: Vec<String> = c.support.iter().map(|leg| (leg.get() + 1).to_string()).collect();
             let name = self.family_name(found, k)?.map_or(String::new(), |name| format!(" {name}"));
-            let (kind, dimension, legs) = (c.type_name(), c.dimension, legs.join(" "));
-            entries.push(format!("{}{name} ({kind}, {dimension} parameter(s), legs {legs})", k + 1));
+            let parameters = if c.dimension == 1 { "1 parameter".into() } else { format!("{} parameters", c.dimension) };
+            entries.push(format!("{}{name} ({}, {parameters}, legs {})", k + 1, c.type_name(), legs.join(" ")));
         }
         Ok(format!("families, with the legs they can replace: {}", entries.join("; ")))
     }

@@ -106,7 +106,7 @@ fn design_of(file: &ReportFile) -> Option<Design> {
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::refused("report::not_readable", format!("{} cannot be read: {error}", path.display()))
+    Failure::refused("report::not_readable", format!("{} cannot be read: {}", path.display(), files::in_words(error)))
         .with_help("name a folder with results, for instance that of `explore`")
 }
 

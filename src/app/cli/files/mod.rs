@@ -73,7 +73,7 @@ pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Failure> {
 fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> {
     let shown = shown(path);
     let unreadable = |error: &std::io::Error| {
-        Failure::refused("file::not_readable", format!("{shown} cannot be read: {error}"))
+        Failure::refused("file::not_readable", format!("{shown} cannot be read: {}", in_words(error)))
             .with_help("check the path and its permissions")
     };
     let too_large = || {
@@ -277,8 +277,11 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
         return Err(Failure::refused("file::standard_output", message).with_help("name a folder"));
     }
     std::fs::create_dir_all(path).map_err(|error| {
-        Failure::refused("file::not_writable", format!("{} cannot be made: {error}", path.display()))
-            .with_help("check the folder and its permissions")
+        Failure::refused(
+            "file::not_writable",
+            format!("{} cannot be made: {}", path.display(), in_words(&error)),
+        )
+        .with_help("check the folder and its permissions")
     })
 }
 
@@ -324,7 +327,10 @@ pub(crate) fn record_text(record: &impl Serialize) -> Result<String, Failure> {
 /// Exit 2: `file::not_readable`, `file::too_large`.
 pub(crate) fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     let unreadable = |error: std::io::Error| {
-        Failure::refused("file::not_readable", format!("{} cannot be read: {error}", path.display()))
+        Failure::refused(
+            "file::not_readable",
+            format!("{} cannot be read: {}", path.display(), in_words(&error)),
+        )
             .with_help("check the path and its permissions")
     };
     let mut bytes = Vec::new();
@@ -378,9 +384,15 @@ fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
+/// An error of the system without its number, and without the name of the file beside which a new one is written.
+pub(crate) fn in_words(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_owned()
+}
+
 /// The failure of a write; a full disk is not the fault of the arguments.
 pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
-    let message = format!("{shown} cannot be written: {error}");
+    let message = format!("{shown} cannot be written: {}", in_words(error));
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             Failure::new(Exit::Internal, "file::disk_full", message)

@@ -224,7 +224,7 @@ fn over_poses(m: &MarginRecord) -> [Cell; 6] {
     };
     let tone_after = if m.safety_margin_kept == Some(false) { Tone::No } else { Tone::Plain };
     [
-        Cell::toned(m.status.name().replace('_', " "), tone),
+        Cell::toned(m.status.label(), tone),
         Cell::from(figure(margin)).at(m.pose.as_ref()),
         Cell::toned(figure(m.net_margin.0), tone_after),
         proved.into(),

@@ -179,7 +179,7 @@ pub(super) fn cranks(
     }
     if let (Some(e), false) = (drive, takes_cranks) {
         let message = "the design has rods on cranks, but this question needs legs that change their lengths";
-        let help = "`equipod ik`, `fk`, `assess`, `limits`, `motion`, `compare`, `view`, `export` and `design convert` take cranks; `assess` proves that no pose of the workspace is singular; leg maps hold between squared lengths of rods, and nothing follows from them for the angles of cranks";
+        let help = "`equipod assess` finds singular poses of designs with cranks; `ik`, `fk`, `limits`, `motion`, `compare`, `view`, `export` and `design convert` take cranks too; leg maps do not apply to crank angles";
         report.refuse(Code::Rotary, &e.node.span, message, help);
         return None;
     }

@@ -9,7 +9,7 @@ use platform::geom::{AngleUnit, InvalidPose, ListedFrom, Pose, PoseConvention, R
 /// Least count of numbers in a row.
 const LEAST_NUMBERS: usize = 2;
 /// Greatest number of quoted bad lines.
-const QUOTED: usize = 20;
+const QUOTED: usize = 3;
 
 /// Number of lengths in a row.
 const LEGS: usize = 6;

@@ -78,16 +78,16 @@ pub enum NoRounding {
     NotPlanar(Body),
     /// A pitch, radius or number of holes is not positive, or another value of a grid is not finite.
     #[error(
-        "the grid of the {0} has no positive finite pitch, radius or number of holes, or an origin or angle that is not finite"
+        "the grid of the {0} is invalid: pitch, radii and numbers of holes have to be positive, all numbers finite"
     )]
     BadGrid(Body),
     /// An exact rounding needs lines through many holes.
     #[error(
-        "the {0} has no square or triangular grid: lines through holes on circles pass no further holes, and joints that stay where they are lie on no holes"
+        "the {0} has no square or triangular grid, and only such grids have lines with many holes"
     )]
     NoLines(Body),
     /// Origins and angles can be chosen only for square grids.
-    #[error("the origin and the angle of the grid of the {0} cannot be chosen: its holes lie on no squares")]
+    #[error("the origin and the angle of the grid of the {0} cannot be chosen: it is not a square grid")]
     FreePattern(Body),
     /// The design is not octahedral and lacks one joint on each side of two triangles.
     #[error(
@@ -96,7 +96,7 @@ pub enum NoRounding {
     NoTriangles,
     /// No triangle on the grid is near enough.
     #[error(
-        "the grid is too coarse or too fine for the {0}: no triangle near the wanted one has grid points where joints are wanted"
+        "the grid is too coarse or too fine for the {0}: no triangle near the given one has holes at the joints"
     )]
     NoTriangleNear(Body),
     /// No combination of triangles makes a regular platform.

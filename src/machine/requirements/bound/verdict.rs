@@ -33,6 +33,17 @@ impl MarginVerdict {
         }
     }
 
+    /// The verdict in words for people.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::AtLimit => "at limit",
+            Self::Violated => "violated",
+            Self::Searched => "not proved",
+        }
+    }
+
     /// `Some` if it is proved.
     #[must_use]
     pub fn is_met(self) -> Option<bool> {

@@ -68,7 +68,7 @@ pub enum SearchError {
     )]
     NearlyDependent(usize),
     /// There is no pose.
-    #[error("no pose is given at which the legs are looked at")]
+    #[error("no pose is given at which the legs are checked")]
     NoPoses,
     /// A limit is negative or not finite.
     #[error("{what} is {value}, not a number of 0 or more")]

@@ -155,7 +155,7 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
         );
     }
     if design.requirements().loads.is_empty() {
-        out.push("The design has neither loads nor masses: no force is asked of the drives at rest.".into());
+        out.push("The design has neither loads nor masses: the drives carry no force at rest.".into());
     }
     let at_rest = h.drive_limit(TermKind::LegForce).is_some() || drives.iter().any(|d| d.force.is_some());
     let at_rest = at_rest && !design.requirements().loads.is_empty();

@@ -145,7 +145,7 @@ pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Fa
     let motions = chosen.motions(&design, context)?;
     if chosen.is_empty() && !args.stiffness {
         let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
-        return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
+        return Err(Failure::refused("motion::no_motion", "no motion is given").with_help(help));
     }
     note_frames(&args.frames.of(&design), context);
     let masses = masses(args, &design)?;
@@ -188,7 +188,7 @@ fn refuse_without_effect(args: &MotionArgs, design: &Design, context: &Context) 
     if args.sine.is_empty() && args.accelerate.is_empty() && !args.stiffness {
         context.no_effect(
             "about",
-            "there is neither a sine nor an acceleration, and no stiffness is asked for",
+            "there is neither a sine nor an acceleration, and --stiffness is not given",
         )?;
     }
     if design.moving_payload().is_none() {

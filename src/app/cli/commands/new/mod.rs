@@ -151,7 +151,8 @@ fn sizes(args: &NewArgs) -> Result<HexapodSizes, Failure> {
 }
 
 fn bad(why: impl Into<String>) -> Failure {
-    Failure::refused("new::bad_sizes", why).with_help("choose other sizes")
+    Failure::refused("new::bad_sizes", why)
+        .with_help("give positive radii and a positive height, and spreads from 0 to less than 120 degrees whose sum is not 120")
 }
 
 fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str, context: &Context) -> Result<Made, Failure> {

@@ -58,8 +58,8 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
         args.columns.len(),
     );
     if !(least..=most).contains(&given) {
-        let message = format!("{given} columns were given for {kind}");
-        let help = if least == most { format!("give {least}") } else { format!("give {least} to {most}") };
+        let message = format!("--columns has {given} names, which is no number for the kind {kind}");
+        let help = if least == most { format!("give {least} names") } else { format!("give {least} to {most} names") };
         return Err(Failure::refused("plot::columns", message).with_help(help));
     }
     let table = SweptTable::open(&args.table, &args.keep)?;
