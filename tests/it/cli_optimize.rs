@@ -858,7 +858,7 @@ fn holes_keep_their_distance_from_the_outline_where_the_best_platform_would_not(
     assert!(held < free, "{held} {free}");
 }
 
-/// A platform at the ends of its ranges and at its limits says so, and one with room does not.
+/// The answer names active ranges and limits; a platform without active ones has none named.
 #[test]
 fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
     let active_bounds = |tables: &str, more: &[&str]| {

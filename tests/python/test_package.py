@@ -443,8 +443,8 @@ def test_margins_at_a_pose_are_signed_distances_to_limits():
     lengths = design.ik(design.home)
     short = [k for k, name in enumerate(margins.names) if name == "min_leg_length"]
     long = [k for k, name in enumerate(margins.names) if name == "max_leg_length"]
-    room = margins.values[short] + margins.values[long]
-    assert np.allclose(room, room[0]) and len(lengths) == len(short)
+    total = margins.values[short] + margins.values[long]
+    assert np.allclose(total, total[0]) and len(lengths) == len(short)
     batch = design.margins(np.stack([design.home] * 3))
     assert batch.values.shape == (3, len(margins.names))
 

@@ -101,7 +101,7 @@ pub enum Unsupported {
     },
     /// A leg has no space for a body between its joints.
     #[error(
-        "leg {leg} is {length} long at home and its joints take {taken} (design units), which leaves no room for a cylinder and a rod"
+        "leg {leg} is {length} long at home and its joints take {taken} (design units), so a cylinder and a rod do not fit"
     )]
     LegTooShort {
         /// 1-based number.

@@ -160,7 +160,7 @@ pub enum NoExport {
 const PLATES: &str = "[plates]";
 
 const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
-const RULE_STROKE: &str = "rule: what holds a rod over the stroke, but no more than leaves room for the platform joint at the least length";
+const RULE_STROKE: &str = "rule: long enough to hold the rod over the stroke, short enough to clear the platform joint at the least length";
 
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 

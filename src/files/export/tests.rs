@@ -460,7 +460,7 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
                 // the visible part of the rod, and the whole leg
                 assert!((tail + t.rod + t.tip - length).abs() < near);
             }
-            assert!(t.room() >= -near, "{file}: {t:?}");
+            assert!(t.clearance() >= -near, "{file}: {t:?}");
         }
     }
     // retracted at home, hardly longer than that at the least, and with joints nearly as long as the least length

@@ -295,9 +295,9 @@ impl NearSolver {
         }
         let radius = local::distance(from, &place, start.epsilon);
         // rounding of the distance is some twenty units in the last place of its terms, over epsilon at most
-        let room =
+        let rounding =
             1e-14 * (1.0 + from.position.iter().chain(&place.position).fold(0.0, |m: f64, x| m.max(x.abs())));
-        (2.0 * beta * (radius + room / start.epsilon) <= PROVED).then_some(place)
+        (2.0 * beta * (radius + rounding / start.epsilon) <= PROVED).then_some(place)
     }
 
     /// Residual, condition and distance at the end.

@@ -20,7 +20,7 @@
 use nalgebra::Vector3;
 
 use super::{Reach, StraightPath};
-use crate::requirements::{CrankRoom, HingeAngle, Limit, Term, TermKind};
+use crate::requirements::{CrankClearances, HingeAngle, Limit, Term, TermKind};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Leg};
 
@@ -125,15 +125,15 @@ fn lasts(margin: f64, rate: f64) -> f64 {
 /// While the rod closes, `|d| <= r + l`, `||d|^2 - r^2 - l^2| <= 2 r l` and `|d.n| <= l`, hence
 /// `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. When the rod ceases to close, its own margins end the
 /// way.
-fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 {
-    let rate = 2.0 * room.rod * speed * (2.0 + room.rod / room.length);
+fn crank_step(crank: &CrankClearances, kind: TermKind, margin: f64, speed: f64) -> f64 {
+    let rate = 2.0 * crank.rod * speed * (2.0 + crank.rod / crank.length);
     match kind {
-        TermKind::CrankTransmission => lasts(room.above_least, rate),
-        TermKind::TipAngle => lasts(room.lean, speed),
+        TermKind::CrankTransmission => lasts(crank.above_least, rate),
+        TermKind::TipAngle => lasts(crank.lean, speed),
         // s keeps half of its value
         _ => {
-            let turning = 2.0 * speed * room.rod / (room.length * room.square.max(0.0).sqrt());
-            lasts(margin.to_radians(), turning).min(lasts(0.75 * room.square, rate))
+            let turning = 2.0 * speed * crank.rod / (crank.length * crank.square.max(0.0).sqrt());
+            lasts(margin.to_radians(), turning).min(lasts(0.75 * crank.square, rate))
         }
     }
 }
@@ -223,8 +223,8 @@ impl Reach<'_> {
             TermKind::MinRodLength | TermKind::MaxRodLength => lasts(margin, base.speed),
             TermKind::CrankTransmission | TermKind::CrankAngle | TermKind::TipAngle => self
                 .terms
-                .crank_room(term.first, pose)
-                .map_or(f64::INFINITY, |room| crank_step(&room, term.kind, margin, base.speed)),
+                .crank_clearances(term.first, pose)
+                .map_or(f64::INFINITY, |crank| crank_step(&crank, term.kind, margin, base.speed)),
             // forces and stiffness have no bound near singular poses; the others do not depend on the pose
             _ => f64::INFINITY,
         }

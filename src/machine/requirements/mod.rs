@@ -37,10 +37,10 @@ pub use bodies::MovingBodies;
 pub use bound::prove_telling;
 pub use bound::{AssessStage, MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
 pub use conditioning::{LeastConditioning, least_conditioning};
-pub(crate) use cranks::CrankRoom;
+pub(crate) use cranks::CrankClearances;
 pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
 pub use envelope::{Envelope, Envelopes};
-pub use envelope::{ball, room};
+pub use envelope::{ball, extent};
 pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
 pub use hardware::{

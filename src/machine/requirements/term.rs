@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Point3, Unit, Vector3};
 
 use super::Requirements;
 use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
-use super::envelope::{ball, room};
+use super::envelope::{ball, extent};
 use super::hardware::{Housing, JointAxes, LegBody, LegSegment};
 use super::keep_out::KeepOutShape;
 use super::load::HeldLines;
@@ -467,7 +467,7 @@ impl<'a> Terms<'a> {
             {
                 let housings = self.required.hardware.housings_at(body, &used, i);
                 let inside = housings.into_iter().map(|housing| {
-                    let (half, radius) = room(housing);
+                    let (half, radius) = extent(housing);
                     envelope.margin(joint.coords.into(), &half, radius)
                 });
                 let margin = inside.fold(f64::INFINITY, f64::min);

@@ -117,7 +117,7 @@ impl FoundPlatformRecord {
             joint_axes: Some(JointAxesRecord { base: axes(&s.axes[0]), platform: axes(&s.axes[1]) }),
             search_margins: Some(SearchMarginsRecord {
                 abs_det: det.map(|det| Number(det.abs() - min_abs_det)),
-                bounds: Number(s.variables.iter().map(room).fold(f64::INFINITY, f64::min)),
+                bounds: Number(s.variables.iter().map(to_bounds).fold(f64::INFINITY, f64::min)),
             }),
             local_optimality: Some(LocalOptimalityRecord {
                 converged: s.converged,
@@ -202,7 +202,7 @@ fn judged_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
 }
 
 /// Distance of a variable from its nearer bound.
-fn room(v: &ChosenVariable) -> f64 {
+fn to_bounds(v: &ChosenVariable) -> f64 {
     (v.value - v.bounds[0]).min(v.bounds[1] - v.value)
 }
 

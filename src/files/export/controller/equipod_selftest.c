@@ -270,7 +270,7 @@ static void check_tracked(void)
             }
         } else if (v->status == EQUIPOD_TRACKED) {
             refused += 1;
-            check(v->frobenius_ratio < 1e-2 || v->segments > v->segments_allowed / 2, "tracked where the library does with room to spare", n);
+            check(v->frobenius_ratio < 1e-2 || v->segments > v->segments_allowed / 2, "tracked where the library tracks with a large margin", n);
         }
 #else
         check((int)r.status == v->status && (int)r.reason == v->reason, "status", n);

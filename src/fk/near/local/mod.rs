@@ -311,11 +311,11 @@ impl SegmentStart {
         }
         // in the norm max(|h|, |w|) a row acts by at most sqrt 2 times its Euclidean norm
         let kappa = std::f64::consts::SQRT_2 * Newton { step: defects }.size() * UP;
-        let room = (1.0 - kappa) * (1.0 - kappa) * (2.0 - UP);
-        let slack = Newton { step: steps }.size() * UP / room;
-        let eta = Newton { step }.size() * UP / room + slack;
+        let denominator = (1.0 - kappa) * (1.0 - kappa) * (2.0 - UP);
+        let slack = Newton { step: steps }.size() * UP / denominator;
+        let eta = Newton { step }.size() * UP / denominator + slack;
         let (beta, epsilon) = second_order(here, &y, blur);
-        let beta = beta * UP / room;
+        let beta = beta * UP / denominator;
         let sound = eta.is_finite() && beta.is_finite() && frobenius_ratio.is_finite() && kappa < 0.5;
         sound.then_some(Self { step, eta, slack, beta, epsilon, frobenius_ratio })
     }

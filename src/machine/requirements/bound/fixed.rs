@@ -39,7 +39,7 @@ impl CellJudge<'_> {
         for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
             let at = enclosed(&joints[term.first]);
             for housing in self.required.hardware.housings_at(body, &ends, term.first) {
-                let (half, radius) = envelope::room(housing);
+                let (half, radius) = envelope::extent(housing);
                 let margin = envelope.map_or(Interval::WHOLE, |e| e.margin(at, &half, radius));
                 (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
             }
