@@ -163,8 +163,8 @@ fn is_zero(x: f64) -> bool {
 /// made when it is asked for.
 fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPose> + use<'_> {
     let pair = root.certificate.reality() == ProvedReality::NonReal;
-    let wanted = move |(conjugate, mirrored): &(bool, bool)| (!conjugate || pair) && (!mirrored || flat);
-    [(true, false), (false, true), (true, true)].into_iter().filter(wanted).map(|image| match image {
+    let applies = move |(conjugate, mirrored): &(bool, bool)| (!conjugate || pair) && (!mirrored || flat);
+    [(true, false), (false, true), (true, true)].into_iter().filter(applies).map(|image| match image {
         (true, false) => root.conjugate(),
         (false, _) => root.mirrored(),
         (true, true) => root.mirrored().conjugate(),

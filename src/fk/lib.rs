@@ -28,7 +28,7 @@ mod evidence;
 mod harvest;
 mod hidden;
 mod homotopy;
-mod judge;
+mod counted;
 mod near;
 mod newton;
 mod octic;

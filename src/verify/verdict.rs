@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use thiserror::Error;
 
 use super::determined::is_beyond_precision;
-use super::judgement::judge;
+use super::decision::decide_map;
 use super::matching::{PoseMatching, match_poses};
 use super::sample::Sample;
 use fk::solve::certify::RootCertificate;
@@ -395,7 +395,7 @@ pub fn verify_each(
     run: &VerifyRun,
     look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
-    verified(a, b, judge(a, b)?, plan, options, run, look)
+    verified(a, b, decide_map(a, b)?, plan, options, run, look)
 }
 
 /// [`verify()`] for a known map.
@@ -535,8 +535,8 @@ fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -
         for root in solutions.roots.iter().filter(|r| !is_beyond_precision(r, other.size())) {
             let misses =
                 other.legs().map(|leg| root.pose.squared_length(&leg)).into_iter().zip(squares.get());
-            for (leg, (found, wanted)) in LegIndex::all().zip(misses) {
-                let miss = (found - wanted).norm() / scale;
+            for (leg, (found, expected)) in LegIndex::all().zip(misses) {
+                let miss = (found - expected).norm() / scale;
                 let rounding =
                     root.residual.max(1e-15 * (1.0 + found.norm() / scale)) * root.condition.max(1.0);
                 let clearer = best.as_ref().is_none_or(|b| miss / rounding > b.miss / b.rounding);

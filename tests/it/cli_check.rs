@@ -83,10 +83,10 @@ fn the_finite_poses_for_generic_lengths_are_counted() {
 fn people_are_told_the_verdict_and_the_algebra_where_they_ask_for_it() {
     let said = |args: &[&str]| String::from_utf8(equipod(args).stdout).unwrap();
     let short = said(&["check", "designs/rbt-midline.toml"]);
-    let wanted = "\
+    let expected = "\
 midline Griffis-Duffy 12-6 (singular): architecturally singular, no pose holds the platform
 Proved about the exact joints: the joints lie on the sides of two triangles (Griffis-Duffy type) with prod t_i = prod (1 - t_i) (legs 1, 2, 3, 4, 5, 6).";
-    assert!(short.starts_with(wanted) && !short.contains("rank of the leg vectors"), "{short}");
+    assert!(short.starts_with(expected) && !short.contains("rank of the leg vectors"), "{short}");
     let long = said(&["check", "designs/rbt-midline.toml", "--details"]);
     for part in [
         "joints: exact numbers of Q(sqrt(3))",

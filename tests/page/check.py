@@ -159,7 +159,7 @@ def required(chromium, program, folder, pictures):
     """A worked design: requirements with margins, a workspace of its own."""
     path = program.page(DESIGNS / "worked" / "positioner-joint-free.toml", folder / "worked.html")
     with Opened(chromium, path) as shown:
-        shown.judged()
+        shown.assessed()
         assert shown.page.locator("#margins tbody tr").count() > 0
         picture(shown, pictures, "worked")
         shown.quiet()

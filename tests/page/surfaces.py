@@ -11,7 +11,7 @@ def put(shown, offsets):
     for k, value in enumerate(offsets, 1):
         shown.page.fill(f"input[aria-label='t{k} as a number']", repr(value))
         shown.page.keyboard.press("Enter")
-    shown.judged()
+    shown.assessed()
 
 
 def shaded_as_assess(shown, program, folder):

@@ -14,7 +14,7 @@ use platform::manipulator::Manipulator;
 use records::{AlignmentRecord, FramesRecord};
 use synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
 use synthesis::{LegMapOutcome, Relation};
-use verify::judge;
+use verify::decide_map;
 
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
@@ -113,8 +113,8 @@ impl AlignmentArgs {
 impl Second {
     /// The relation of the first design and this one. A motion is known only to rounding, so after it nothing is proved
     /// except that a platform is singular.
-    pub(crate) fn judged(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
-        let given = judge(a, &self.given)?;
+    pub(crate) fn compared(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
+        let given = decide_map(a, &self.given)?;
         match self.aligned.as_ref().map(|found| &found.given) {
             Some(Alignment::Found { motions, .. }) if given.relation != Relation::Singular => {
                 Ok(motions[0].map.clone())

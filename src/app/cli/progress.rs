@@ -169,7 +169,7 @@ impl Interrupt {
 
     /// The time at which the assessment of a result ends.
     pub(crate) fn until(&self) -> Option<Instant> {
-        self.ends.map(|[_, judging]| judging)
+        self.ends.map(|[_, assessing]| assessing)
     }
 
     /// Whether the search shall continue.

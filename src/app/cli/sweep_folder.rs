@@ -134,13 +134,13 @@ impl SweepFolder {
     }
 
     /// Refuses to continue another sweep.
-    fn goes_on(self, wanted: &SweepFolderRecord) -> Result<Self, Failure> {
+    fn goes_on(self, requested: &SweepFolderRecord) -> Result<Self, Failure> {
         let own = &self.record;
         let differs = [
-            ("the plan or its base design", own.plan_sha256 == wanted.plan_sha256),
-            ("the seed", own.seed == wanted.seed),
-            ("the number of shards", own.shards == wanted.shards),
-            ("the version of the program", own.version == wanted.version),
+            ("the plan or its base design", own.plan_sha256 == requested.plan_sha256),
+            ("the seed", own.seed == requested.seed),
+            ("the number of shards", own.shards == requested.shards),
+            ("the version of the program", own.version == requested.version),
         ];
         let Some((what, _)) = differs.iter().find(|(_, same)| !same) else { return Ok(self) };
         let message = format!("{} holds another sweep: {what} is another one", self.path.display());

@@ -273,13 +273,13 @@ pub struct AssessedPosesRecord {
 }
 
 impl From<AssessedPoses> for AssessedPosesRecord {
-    fn from(judged: AssessedPoses) -> Self {
+    fn from(poses: AssessedPoses) -> Self {
         Self {
-            stated: judged.are_stated(),
-            region: judged.region,
-            listed: judged.listed,
-            trajectory: judged.trajectory,
-            met_in_words: judged.met_in_words(),
+            stated: poses.are_stated(),
+            region: poses.region,
+            listed: poses.listed,
+            trajectory: poses.trajectory,
+            met_in_words: poses.met_in_words(),
         }
     }
 }

@@ -367,11 +367,11 @@ impl PartReader {
     ///
     /// # Errors
     /// A truncated or altered file.
-    pub fn group(&self, group: usize, wanted: &[usize]) -> Result<Vec<SweepRow>, PartError> {
+    pub fn group(&self, group: usize, chosen: &[usize]) -> Result<Vec<SweepRow>, PartError> {
         let group = self.reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-        let mut out = vec![Vec::with_capacity(wanted.len()); rows];
-        for k in wanted {
+        let mut out = vec![Vec::with_capacity(chosen.len()); rows];
+        for k in chosen {
             let cells = match group.get_column_reader(*k)? {
                 ColumnReader::DoubleColumnReader(from) => cells_of(from, rows, |x| SweepCell::Number(*x))?,
                 ColumnReader::Int64ColumnReader(from) => cells_of(from, rows, |n| SweepCell::Integer(*n))?,

@@ -46,8 +46,8 @@ fn every_key_is_read_and_written_back_to_the_bit() {
         (3, 3, 20.0)
     );
     assert_eq!(required.loads[0].name, "legs", "the file has masses of legs and no payload");
-    let wanted = required.platform_stiffness.unwrap();
-    assert_eq!((wanted.linear, wanted.angular, wanted.natural_frequency), (Some(2e4), Some(3e5), None));
+    let expected = required.platform_stiffness.unwrap();
+    assert_eq!((expected.linear, expected.angular, expected.natural_frequency), (Some(2e4), Some(3e5), None));
     assert_eq!(design.unit_of(Quantity::AngularStiffness), "N mm/rad");
     for format in [Format::Toml, Format::Json] {
         let text = match format {
@@ -337,7 +337,7 @@ fn holes_on_circles_and_of_one_plate_are_read_and_written_back() {
         Some(Grid::bolt_circles(HoleCircles::new(&list).unwrap()))
     };
     let common = "pattern = \"polar\"\nfirst_radius = 100\npitch = 25\nstep_deg = 15\n";
-    for (holes, wanted) in [
+    for (holes, expected) in [
         (common.into(), [Some(polar); 2]),
         (
             format!("{common}platform = {{ count = 36 }}"),
@@ -356,7 +356,7 @@ fn holes_on_circles_and_of_one_plate_are_read_and_written_back() {
         ("[holes.platform]\npitch = 10\n".into(), [None, Some(Grid::square(10.0))]),
     ] {
         let design = read(&holes);
-        assert_eq!(design.holes, Some(wanted), "{holes}");
+        assert_eq!(design.holes, Some(expected), "{holes}");
         for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
             assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
         }

@@ -18,8 +18,8 @@ use super::Export;
 use super::text::real;
 use machine::requirements::{LegMasses, LegPart};
 
-/// Wanted share of the platform mass that moves along each rod, if the platform can spare it.
-const WANTED: f64 = 0.05;
+/// Share of the platform mass that moves along each rod, if the platform has enough mass.
+const ROD_SHARE: f64 = 0.05;
 /// Least share with the time step of the size; below it the step shrinks in proportion. `MuJoCo` simulated a bench with
 /// this share, and failed with a quarter of it.
 const ENOUGH: f64 = 0.02;
@@ -99,8 +99,8 @@ impl ModelMasses {
         let joints = &export.bodies[1].joints;
         let points = export.legs.map(|l| joints[l.platform].at.coords * metres);
         let own = leg.lengthwise();
-        let wanted = (WANTED * platform.mass - own).max(0.0);
-        let shares = std::iter::successors(Some(wanted), |share| Some(0.8 * share));
+        let missing = (ROD_SHARE * platform.mass - own).max(0.0);
+        let shares = std::iter::successors(Some(missing), |share| Some(0.8 * share));
         let spared = shares
             .take_while(|share| *share >= LEAST * platform.mass)
             .find_map(|share| platform.without(share, &points).map(|rest| (share, rest)));

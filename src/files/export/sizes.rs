@@ -92,8 +92,8 @@ impl ExportOptions {
 
     /// Whether simulators compensate the weight of all bodies.
     #[must_use]
-    pub fn gravity_compensation(mut self, wanted: bool) -> Self {
-        self.gravity_compensation = wanted;
+    pub fn gravity_compensation(mut self, on: bool) -> Self {
+        self.gravity_compensation = on;
         self
     }
 }

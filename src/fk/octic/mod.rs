@@ -22,7 +22,7 @@ use num_complex::Complex64;
 
 use super::collect::{PoseCandidate, collect, pose_scale};
 use super::evidence::{KnownCertificates, attach};
-use super::judge::compared_with_count;
+use super::counted::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     SolutionSet, Theorem,

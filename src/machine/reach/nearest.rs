@@ -119,10 +119,10 @@ impl Reach<'_> {
         if starts.is_empty() {
             far = far.max(self.size);
         }
-        let wanted = starts.len() + o.starts;
+        let needed = starts.len() + o.starts;
         let mut led_back = 0;
         for _ in 0..TRIES * o.starts.max(1) {
-            if starts.len() >= wanted.max(1) {
+            if starts.len() >= needed.max(1) {
                 break;
             }
             let pose = self.drawn(&way.at(rng.unit()), 0.5 * far, &mut rng);

@@ -90,13 +90,13 @@ fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usi
     assert!(reach.allows(home), "{:?}", reach.violated(home));
     let mut rng = Rng::new(4);
     let mut kinds = BTreeSet::new();
-    let mut judged = 0;
-    while judged < ways {
+    let mut checked = 0;
+    while checked < ways {
         let way = drawn(home, &mut rng);
         if !reach.allows(&way.start) {
             continue;
         }
-        judged += 1;
+        checked += 1;
         let found = reach.along(&way, 3.0);
         let step = 1e-3;
         let first = (1..=3000).find(|k| !reach.allows(&way.at(f64::from(*k) * step)));

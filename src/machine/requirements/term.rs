@@ -517,8 +517,8 @@ impl<'a> Terms<'a> {
         self.some_at(pose, |kinds| kinds.contains(&kind)).into_iter().filter(move |(t, _)| t.kind == kind)
     }
 
-    /// The margins at a pose of the groups of kinds that `wanted` accepts.
-    fn some_at(&self, pose: &Pose, wanted: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
+    /// The margins at a pose of the groups of kinds that `accepts` allows.
+    fn some_at(&self, pose: &Pose, accepts: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
         let mut out = Vec::new();
         if let Some(cranks) = &self.required.cranks {
             self.cranks(cranks, pose, &mut out);
@@ -527,10 +527,10 @@ impl<'a> Terms<'a> {
         let joints: [(Point3<f64>, Point3<f64>); 6] =
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
         let legs = self.legs_at(&joints, pose);
-        if wanted(&TermKind::OF_LEG_LINES) || wanted(&TermKind::HINGES) {
+        if accepts(&TermKind::OF_LEG_LINES) || accepts(&TermKind::HINGES) {
             self.lengths_and_cone_angles(&legs, pose, &mut out);
         }
-        if wanted(&TermKind::CLEARANCES) {
+        if accepts(&TermKind::CLEARANCES) {
             self.clearances(&legs.ends, pose, &mut out);
         }
         for (term, margin) in &mut out {
@@ -539,13 +539,13 @@ impl<'a> Terms<'a> {
                 *margin = f64::NEG_INFINITY;
             }
         }
-        if wanted(&[TermKind::LegForce, TermKind::LegSpeed]) {
+        if accepts(&[TermKind::LegForce, TermKind::LegSpeed]) {
             self.drives(&legs, pose, &mut out);
         }
-        if wanted(&[TermKind::MachineEnvelope]) {
+        if accepts(&[TermKind::MachineEnvelope]) {
             self.machine(&joints, &mut out);
         }
-        if wanted(&TermKind::OF_PLATFORM) {
+        if accepts(&TermKind::OF_PLATFORM) {
             self.stiffness(pose, &mut out);
         }
         out
@@ -592,19 +592,19 @@ impl<'a> Terms<'a> {
 
     /// Stiffness of the platform on its legs, and its natural frequency.
     fn stiffness(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
-        let Some(wanted) = self.required.platform_stiffness else { return };
+        let Some(required) = self.required.platform_stiffness else { return };
         let rows = self.drive_rows(pose, self.manipulator.size());
         let mut keep = |kind, value: f64, least: f64| {
             out.push((Term { kind, first: 0, second: 0 }, value - least));
         };
-        if wanted.linear.is_some() || wanted.angular.is_some() {
+        if required.linear.is_some() || required.angular.is_some() {
             let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
             let found = softest_of(rows.as_ref(), self.manipulator.size(), leg);
-            let _ = wanted.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
-            let _ = wanted.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
+            let _ = required.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
+            let _ = required.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
         }
         if let (Some(least), Some(masses), false) =
-            (wanted.natural_frequency, &self.required.vibrating, self.required.leaves_out_moving_legs())
+            (required.natural_frequency, &self.required.vibrating, self.required.leaves_out_moving_legs())
         {
             let mass = mass_matrix(self.manipulator, &masses.bodies, pose);
             let lowest = lowest_of(rows.as_ref(), self.manipulator.size(), &mass, masses.leg);

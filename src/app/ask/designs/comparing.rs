@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::judging::{AssessReport, deciding};
+use super::assessing::{AssessReport, deciding};
 use super::moving::{MotionMasses, MotionReport, PlatformMotion};
 use crate::Design;
 use machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};

@@ -8,7 +8,7 @@ use fk::{FkOptions, Threads};
 use num::Cancel;
 use platform::geom::SamplePlan;
 use synthesis::LegMapOutcome;
-use verify::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
+use verify::{Sample, Verification, VerifyError, VerifyRun, decide_map, verify_each};
 
 /// The default number of sample poses.
 pub const SAMPLES: usize = 10;
@@ -158,7 +158,7 @@ impl ComparedDesigns {
 /// Designs in different units; a decomposition that does not converge.
 pub fn leg_map(from: &Design, to: &Design) -> Result<LegMapOutcome, Error> {
     same_units(from, to)?;
-    Ok(judge(from.manipulator(), to.manipulator())?)
+    Ok(decide_map(from.manipulator(), to.manipulator())?)
 }
 
 fn same_units(a: &Design, b: &Design) -> Result<(), Error> {

@@ -13,7 +13,7 @@ pub mod exporting;
 mod file_io;
 mod frames;
 mod holding;
-mod judging;
+mod assessing;
 mod locus;
 mod moved_legs;
 mod moving;
@@ -41,12 +41,12 @@ pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
 #[cfg(feature = "optimize")]
 pub use exploring::{
-    ExploreJudgement, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
+    ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
     ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
 };
 pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;
-pub use judging::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
+pub use assessing::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
 pub use moved_legs::{
     InvalidMove, LegMoveRequest, MoveOptions, MovedAtOnce, MovesReport, NamedFamily, NoMoves,

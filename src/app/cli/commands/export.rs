@@ -98,7 +98,7 @@ pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
 }
 
 /// The requested formats, each once, in the order of the list.
-fn wanted(args: &ExportArgs) -> Vec<&'static dyn Writer> {
+fn requested(args: &ExportArgs) -> Vec<&'static dyn Writer> {
     let all = args.to.iter().any(|t| t == "all");
     let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
     ExportFormat::ALL.into_iter().filter(asked).map(ExportFormat::writer).collect()
@@ -114,7 +114,7 @@ fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<
         context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
         return Ok(None);
     };
-    if !wanted(args).iter().any(|f| ["dxf", "csv"].contains(&f.name())) {
+    if !requested(args).iter().any(|f| ["dxf", "csv"].contains(&f.name())) {
         context.no_effect("bound", "only hole plans, dxf, and tables, csv, say how far joints may be off")?;
     }
     let radius = tolerances::joint_radius(design, (bound, &args.tool), context.seed())?;
@@ -125,7 +125,7 @@ fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<
 pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
-    if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.takes_coupled())) {
+    if args.bound.is_some() || (coupled && !requested(args).iter().any(|f| f.takes_coupled())) {
         // refuses cranks and joints that are not ideal at their place in the file: either no requested format holds
         // them, or their tolerances are unknown
         context.load(&args.design)?;
@@ -141,13 +141,13 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         context.no_effect("gravity_compensation", "only the formats mjcf and sdf can switch gravity off")?;
     }
     let mut export = model(args, &design, hole_places(args, &design, context)?)?;
-    let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());
+    let controller = requested(args).iter().any(|f| f.name() == ExportFormat::C.name());
     if controller && export.cranks.is_none() && !coupled {
         export = export.with_octahedral(octahedral_of_controllers(&design));
     }
     files::make_folder(&args.output)?;
     let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), Sheet::new());
-    for format in wanted(args) {
+    for format in requested(args) {
         let (files, outcome) = match export.files(format) {
             Ok(made) => {
                 let paths = made.iter().map(|f| write(&args.output, f));

@@ -127,7 +127,7 @@ Object.assign(App.prototype, {
     $("motion-words").textContent = "";
   },
 
-  /** The steps to the leg map with the offsets shown, where they are wanted. */
+  /** The steps to the leg map with the offsets shown, if they are open. */
   derive() {
     if (!this.pattern || !$("derivation-details").open) return;
     const key = JSON.stringify(this.chosen);
@@ -185,7 +185,7 @@ Object.assign(App.prototype, {
     });
   },
 
-  /** The singular positions with the orientation shown, where they are wanted. */
+  /** The singular positions with the orientation shown, if they are open. */
   findLocus() {
     this.located = null;
     this.locus = null;

@@ -20,8 +20,8 @@ class App {
       confirm: new Task(say("modes-words", "Solving for both platforms …")),
       motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
       worst: new Task(() => { this.worst = null; this.soon(); }),
-      limits: new Task(() => this.soon(), "judging"),
-      feasible: new Task(() => this.soon(), "judging"),
+      limits: new Task(() => this.soon(), "assessing"),
+      feasible: new Task(() => this.soon(), "assessing"),
       locus: new Task(say("locus-words", "Looking for the singular positions …")),
       derivation: new Task(say("derivation-words", "Solving for both platforms …")),
     };

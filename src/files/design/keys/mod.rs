@@ -141,7 +141,7 @@ impl<M> KeyTable<M> {
         Some(entries)
     }
 
-    /// Reads the keys that are wanted.
+    /// Reads the requested keys.
     fn fill(
         &self,
         report: &mut Findings<'_>,

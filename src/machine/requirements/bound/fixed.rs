@@ -1,6 +1,6 @@
 //! Margins independent of the pose: distances of joints, joints in the envelopes of their bodies, holes of plates.
 
-use super::CellJudge;
+use super::CellEvaluator;
 use super::frame::enclosed;
 use super::verdict::{MarginBound, MarginVerdict, verdict};
 use crate::requirements::assess::Margin;
@@ -13,7 +13,7 @@ use num::ordered::OrderedNumber;
 use platform::geom::enclosed::IntervalVector;
 use platform::manipulator::Body;
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     /// Holes of a plate, whose margins are exact up to rounding.
     fn holes(&self, found: Margin) -> MarginBound {
         let rounding = self.terms.rounding(found.term.kind, None);

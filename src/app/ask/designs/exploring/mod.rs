@@ -9,7 +9,7 @@ use std::time::Instant;
 use thiserror::Error as ThisError;
 
 pub use self::general::{ExploredDesign, NEAREST_EXTENSION, nearest_options};
-pub use self::octahedral::{ExploreJudgement, ExploredClass};
+pub use self::octahedral::{ExploreFinding, ExploredClass};
 use crate::optimizing::EXTENSION;
 use crate::{Design, Error, NoReplaceableLegs, OptimizeOptions, OptimizeProgress, SAMPLES};
 use files::design::DriveTable;

@@ -2,7 +2,7 @@
 
 pub mod drives;
 pub mod freedoms;
-mod judged;
+mod assessed;
 mod platform_search;
 mod problem;
 
@@ -13,10 +13,10 @@ use self::drives::search_drives;
 pub use self::drives::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
 use self::freedoms::FreedomSearch;
 pub use self::freedoms::{ConflictFreedom, FreedomOutcome, FreedomWord, OpenedFreedom, RelaxedRequirement};
-pub use self::judged::Checked;
-pub(crate) use self::judged::checked;
-pub use self::judged::{Judging, met_or_nothing_required};
-use self::judged::{checked_offsets, offset_status};
+pub use self::assessed::Checked;
+pub(crate) use self::assessed::checked;
+pub use self::assessed::{Assessing, met_or_nothing_required};
+use self::assessed::{checked_offsets, offset_status};
 pub use self::platform_search::{FoundFront, FoundPlatform};
 use self::platform_search::{find_front, find_platform};
 pub use self::problem::{
@@ -54,7 +54,7 @@ pub enum OptimizeProgress {
     /// The progress of this search with one more freedom.
     Freedom(ConflictFreedom, dimensional::Progress),
     /// The other local optima are being assessed.
-    Judging,
+    Assessing,
 }
 
 impl std::fmt::Display for OptimizeProgress {
@@ -64,7 +64,7 @@ impl std::fmt::Display for OptimizeProgress {
             Self::Dimensions(p) => p.fmt(f),
             Self::Drive(name, p) => write!(f, "{name}: {p}"),
             Self::Freedom(freedom, p) => write!(f, "with {} open: {p}", freedom.name()),
-            Self::Judging => f.write_str("other local optima are assessed"),
+            Self::Assessing => f.write_str("other local optima are assessed"),
         }
     }
 }
@@ -205,7 +205,7 @@ impl<'a> OptimizeOptions<'a> {
     #[must_use]
     pub fn time_limit(mut self, limit: Duration) -> Self {
         let ends = ends_of(limit);
-        (self.ends, self.until) = (ends.map(|[search, _]| search), ends.map(|[_, judging]| judging));
+        (self.ends, self.until) = (ends.map(|[search, _]| search), ends.map(|[_, assessing]| assessing));
         self
     }
 
@@ -435,13 +435,13 @@ impl OptimizeReport {
     }
 
     /// Assesses the other local optima like the answer.
-    fn judge_candidates(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), VerifyError> {
+    fn assess_candidates(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), VerifyError> {
         let OptimizeEvidence::Dimensions(found) = &self.evidence else { return Ok(()) };
         // an interruption now concerns the assessment, which ends by itself
-        let _ = options.flow(OptimizeProgress::Judging);
-        let judging = Judging::from(&options.search());
+        let _ = options.flow(OptimizeProgress::Assessing);
+        let assessing = Assessing::from(&options.search());
         let of = |(k, s): (usize, &DimensionalSolution)| {
-            let mut other = checked(&self.asked, &found.problem, s, judging)?;
+            let mut other = checked(&self.asked, &found.problem, s, assessing)?;
             other.design.name = format!("{}, candidate {}", other.design.name, k + 2);
             Ok(other)
         };
@@ -489,7 +489,7 @@ impl Design {
             report.open_freedoms(&mut options)?;
         }
         if options.candidates {
-            report.judge_candidates(&mut options)?;
+            report.assess_candidates(&mut options)?;
         }
         Ok(report)
     }
@@ -507,8 +507,8 @@ impl Design {
         let problem = offset_problem(&self, octahedral, poses, options.extension);
         let report =
             offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
-        let judging = Judging::from(&options.search());
-        let of = |s: &OffsetSolution| checked_offsets(&self, &problem, s, judging);
+        let assessing = Assessing::from(&options.search());
+        let of = |s: &OffsetSolution| checked_offsets(&self, &problem, s, assessing);
         let checked = report.solution().map(of).transpose()?;
         let status = offset_status(&report, checked.as_ref());
         let found = FoundOffsets { problem, report, checked };

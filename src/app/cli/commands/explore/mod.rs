@@ -30,7 +30,7 @@ use ask::exporting::octahedral_of_controllers;
 use ask::optimizing::{EXTENSION, SAFETY_MARGIN_PERCENT};
 use ask::rounding::DesignOnHoles;
 use ask::{
-    ComparedDesigns, Design, ExploreJudgement, ExploreOptions, ExploreReport, ExploreVerdict, ExploredClass,
+    ComparedDesigns, Design, ExploreFinding, ExploreOptions, ExploreReport, ExploreVerdict, ExploredClass,
     FreedomWord, NoExploration, NoOwnPoses, OptimizeEvidence, SAMPLES,
 };
 use fk::FkOptions;
@@ -114,44 +114,44 @@ impl Results {
 
     /// The explanation: one sentence with the deciding facts.
     fn explanation(&self) -> String {
-        let judged = |design: &Design| {
+        let assessed = |design: &Design| {
             self.assessment.as_ref().map_or_else(
                 || format!("{} does not have the space that separate joints need", design.name),
                 sheet::answers::sentence,
             )
         };
         let of_offsets = matches!(self.found.search.evidence, OptimizeEvidence::Offsets(_));
-        match (self.found.judgement(), of_offsets) {
-            (ExploreJudgement::Infeasible, true) => {
+        match (self.found.finding(), of_offsets) {
+            (ExploreFinding::Infeasible, true) => {
                 "every branch of offsets is proved to violate the limits".into()
             }
-            (ExploreJudgement::Infeasible, false) => {
+            (ExploreFinding::Infeasible, false) => {
                 format!(
                     "no start met the requirements together; the conflict stands in optimize.json{}",
                     self.what_resolves_it()
                 )
             }
-            (ExploreJudgement::NotFound, true) => {
+            (ExploreFinding::NotFound, true) => {
                 "no offsets were found that keep the limits, but some branches are not proved empty".into()
             }
-            (ExploreJudgement::NotFound, false) => {
+            (ExploreFinding::NotFound, false) => {
                 format!(
                     "no platform that meets the requirements was found, and no conflict{}",
                     self.what_resolves_it()
                 )
             }
-            (ExploreJudgement::Violated(design) | ExploreJudgement::Unproved(design), _) => judged(design),
-            (ExploreJudgement::OnHoles, _) => match (self.found.built(), &self.assessment) {
+            (ExploreFinding::Violated(design) | ExploreFinding::Unproved(design), _) => assessed(design),
+            (ExploreFinding::OnHoles, _) => match (self.found.built(), &self.assessment) {
                 (Some(_), Some(a)) => {
                     format!("{}; its joints are on the holes", sheet::answers::sentence(a))
                 }
                 _ => "all joints are on the holes; nothing is required besides".into(),
             },
-            (ExploreJudgement::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
-            (ExploreJudgement::Compared(_), _) => {
+            (ExploreFinding::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
+            (ExploreFinding::Compared(_), _) => {
                 self.verified.as_ref().map_or_else(String::new, |v| v.explanation.clone())
             },
-            (ExploreJudgement::New, _) => {
+            (ExploreFinding::New, _) => {
                 "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
             }
         }
@@ -182,7 +182,7 @@ fn machine(design: &Design, folder: &mut Folder) -> Result<MachineFiles, Failure
 /// The answer of `build round` about the platform on its holes.
 fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAnswer {
     let report = RoundReport {
-        design: &on.wanted,
+        design: &on.given,
         choices: &on.choices,
         found: &on.rounding,
         rounded: on.found.as_ref().map(|(way, design)| (*way, design)),

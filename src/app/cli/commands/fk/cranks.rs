@@ -63,7 +63,7 @@ pub(super) fn run(
     let series = given(args.angles.as_deref(), context)?;
     let frames = args.frames.of(design);
     let table = PoseTable {
-        wanted: args.csv,
+        requested: args.csv,
         all: args.all,
         time_name: series.time_name.clone(),
         frames,

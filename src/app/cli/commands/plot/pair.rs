@@ -9,7 +9,7 @@ use crate::app::cli::poses;
 use files::plot::{PairFigure, platform_pair};
 use platform::geom::PoseConvention;
 use synthesis::Relation;
-use verify::judge;
+use verify::decide_map;
 
 /// Arguments of `plot pair`.
 #[derive(Debug, clap::Args)]
@@ -29,7 +29,7 @@ pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String,
     let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
     let pose =
         poses::parse(&args.pose, &a.pose_frames(PoseConvention::default()), "--pose", "plot::bad_pose")?;
-    let found = judge(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
+    let found = decide_map(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
     let between = match found.relation {
         Relation::Equivalent => {
             vec!["s\u{2032} = A s + c".into(), format!("det A = {:.3}", found.determinant)]

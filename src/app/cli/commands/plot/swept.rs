@@ -63,12 +63,12 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
         return Err(Failure::refused("plot::columns", message).with_help(help));
     }
     let table = SweptTable::open(&args.table, &args.keep)?;
-    let wanted = args.columns.iter().map(|name| table.column(name)).collect::<Result<Vec<usize>, _>>()?;
+    let chosen = args.columns.iter().map(|name| table.column(name)).collect::<Result<Vec<usize>, _>>()?;
     let mut candidates = Vec::new();
-    let mut values = vec![Vec::new(); wanted.len()];
+    let mut values = vec![Vec::new(); chosen.len()];
     table.each_row(|row| {
         candidates.push(row[0].as_number().unwrap_or(-1.0) as i64);
-        for (list, k) in values.iter_mut().zip(&wanted) {
+        for (list, k) in values.iter_mut().zip(&chosen) {
             list.push(row[*k].as_number().unwrap_or(f64::NAN));
         }
     })?;
@@ -78,7 +78,7 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
         None => all[*k].name.clone(),
     };
     let columns =
-        wanted.iter().zip(values).map(|(k, values)| SweptColumn { label: label(k), values }).collect();
+        chosen.iter().zip(values).map(|(k, values)| SweptColumn { label: label(k), values }).collect();
     let digest = table.note("equipod.plan_sha256");
     let filter = if args.keep.is_empty() { String::new() } else { format!(" with {}", args.keep.join(", ")) };
     let note = format!(

@@ -40,8 +40,8 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     let states: Vec<ShardState> =
         (0..folder.record.shards).map(|s| folder.state(s, PartLook::Whole)).collect();
     let is_done = |s: &ShardState| matches!(s, ShardState::Done(_));
-    let numbers = |wanted: bool| {
-        (0..).zip(&states).filter(|(_, s)| is_done(s) == wanted).map(|(k, _)| k).collect::<Vec<u64>>()
+    let numbers = |requested: bool| {
+        (0..).zip(&states).filter(|(_, s)| is_done(s) == requested).map(|(k, _)| k).collect::<Vec<u64>>()
     };
     let (done, missing) = (numbers(true), numbers(false));
     if done.is_empty() || !(missing.is_empty() || args.partial) {
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     }
     let first = folder.reader(done[0])?;
     let (description, columns) = (first.note("equipod.description"), first.columns);
-    let wanted: Vec<usize> = (0..columns.len()).collect();
+    let requested: Vec<usize> = (0..columns.len()).collect();
     let path = &args.output;
     let failed = |e: PartError| part_failed(path, &e);
     let written = write_whole(path, |to| {
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
         for shard in &done {
             let reader = folder.reader(*shard)?;
             for group in 0..reader.groups() {
-                for mut row in reader.group(group, &wanted).map_err(failed)? {
+                for mut row in reader.group(group, &requested).map_err(failed)? {
                     rows += 1;
                     writer.push(&mut row).map_err(failed)?;
                 }

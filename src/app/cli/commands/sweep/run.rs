@@ -89,7 +89,7 @@ pub(crate) fn run(args: &SweepRunArgs, context: &mut Context) -> Result<Answer, 
     }
     // clap ensures this
     let Some(output) = &args.output else { return Err(Failure::internal("there is no folder")) };
-    let wanted = match args.shard {
+    let shard = match args.shard {
         None => None,
         Some(ShardNumber { shard, shards }) => {
             let number = shard.saturating_add(args.shard_offset);
@@ -102,18 +102,18 @@ pub(crate) fn run(args: &SweepRunArgs, context: &mut Context) -> Result<Answer, 
         }
     };
     let folder = SweepFolder::begin(output, &texts, &sweep, args.shard.map(|s| s.shards).or(args.shards))?;
-    compute(&folder, &sweep, wanted, threads, context)
+    compute(&folder, &sweep, shard, threads, context)
 }
 
 fn compute(
     folder: &SweepFolder,
     sweep: &Arc<Sweep>,
-    wanted: Option<u64>,
+    shard: Option<u64>,
     threads: usize,
     context: &Context,
 ) -> Result<Answer, Failure> {
     let shards = folder.record.shards;
-    let all = wanted.map_or(0..shards, |s| s..s + 1);
+    let all = shard.map_or(0..shards, |s| s..s + 1);
     let mut known: BTreeMap<u64, ShardState> =
         all.clone().map(|shard| (shard, folder.state(shard, PartLook::Whole))).collect();
     let is_open =

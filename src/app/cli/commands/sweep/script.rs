@@ -51,8 +51,8 @@ pub(crate) fn run(args: &SweepScriptArgs, context: &mut Context) -> Result<Answe
     let each = CandidateSample::of(&sweep).seconds_each();
     let seconds = each * sweep.count() as f64 / args.threads as f64;
     let shards = args.shards.unwrap_or_else(|| {
-        let wanted = (seconds / (60.0 * args.minutes as f64)).ceil().clamp(1.0, MOST_SHARDS as f64);
-        (wanted as u64).min(sweep.count().max(1))
+        let needed = (seconds / (60.0 * args.minutes as f64)).ceil().clamp(1.0, MOST_SHARDS as f64);
+        (needed as u64).min(sweep.count().max(1))
     });
     let script =
         Script { args, seed, shards, minutes: seconds / 60.0 / shards as f64, name: &sweep.plan.name }

@@ -74,7 +74,7 @@ fn sample(sweep: &Sweep, n: u64, seed: u64) -> Vec<u64> {
 }
 
 /// The rows of these candidates in the part of a shard.
-fn rows(folder: &SweepFolder, shard: u64, wanted: &[u64]) -> Result<BTreeMap<u64, SweepRow>, Failure> {
+fn rows(folder: &SweepFolder, shard: u64, candidates: &[u64]) -> Result<BTreeMap<u64, SweepRow>, Failure> {
     let reader = folder.reader(shard)?;
     let damaged = |e: sweep::part::PartError| {
         Failure::refused("sweep::damaged", format!("{}: {e}", folder.part(shard).display()))
@@ -84,7 +84,7 @@ fn rows(folder: &SweepFolder, shard: u64, wanted: &[u64]) -> Result<BTreeMap<u64
     for group in 0..reader.groups() {
         for row in reader.group(group, &columns).map_err(damaged)? {
             if let SweepCell::Integer(k) = row[0]
-                && let Some(k) = u64::try_from(k).ok().filter(|k| wanted.binary_search(k).is_ok())
+                && let Some(k) = u64::try_from(k).ok().filter(|k| candidates.binary_search(k).is_ok())
             {
                 found.insert(k, row);
             }

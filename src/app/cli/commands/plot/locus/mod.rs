@@ -78,7 +78,7 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
     let lengths::GivenLengths::One(given) = lengths::given(args.lengths.as_deref(), design, context)? else {
         return Err(Failure::refused(
             "locus::one_row",
-            "--lengths names a table, but one set of lengths is wanted",
+            "--lengths names a table, but the picture needs one set of lengths",
         )
         .with_help("give six lengths separated by commas"));
     };

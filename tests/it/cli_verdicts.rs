@@ -1,4 +1,4 @@
-//! Judgements that a script can ask for. Is the workspace safe? How well is a pose conditioned? Is a platform singular?
+//! Verdicts that a script can ask for. Is the workspace safe? How well is a pose conditioned? Is a platform singular?
 //! Are all poses of a path found?
 
 use std::fmt::Write as _;
@@ -171,9 +171,9 @@ fn no_command_calls_a_design_good_that_assess_refuses() {
                 _ => vec![&answer["assessment"]],
             };
             // a search lists platforms that miss something after the others
-            let judged = if refused { &assessments[..] } else { &assessments[..1] };
-            assert!(!judged.is_empty(), "{line}: {answer}");
-            for found in judged {
+            let assessed = if refused { &assessments[..] } else { &assessments[..1] };
+            assert!(!assessed.is_empty(), "{line}: {answer}");
+            for found in assessed {
                 assert_eq!(found["met"], !refused, "{line}: {found}");
                 let rows = found["requirements"].as_array().unwrap();
                 let row = rows.iter().find(|r| r["name"] == "min_leg_length").unwrap();
