@@ -130,7 +130,7 @@ pub(super) fn set_counted(count: &PoseCount, established: bool) -> Completeness 
     Completeness::unproved(reason)
 }
 
-/// The answer of a method that does not look for more when poses are missing.
+/// The answer of a method that does not search for more when poses are missing.
 pub(super) fn compared_with_count(
     mut found: FkSolutions,
     m: &Manipulator,

@@ -15,7 +15,7 @@ use num::Purpose;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Leg equations count as dependent below this sine when curves are looked for.
+/// Leg equations count as dependent below this sine when curves are searched for.
 const RANK: f64 = 1e-9;
 /// Points of a section with imaginary parts this many times the tolerance are not real.
 const NON_REAL: f64 = 1e4;

@@ -17,7 +17,7 @@ use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
 
-/// Ends this near to images of others are looked at with these, relative to 1 and to themselves.
+/// Ends this near to images of others are examined with these, relative to 1 and to themselves.
 const ALIKE: f64 = 1e-7;
 
 /// A root is sought within this distance from the mean of an endgame loop, in parts of the size of the point.

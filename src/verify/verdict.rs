@@ -386,16 +386,16 @@ pub struct VerifyRun {
 /// [`verify()`], with each sample passed on as soon as it and the earlier ones are solved.
 ///
 /// # Errors
-/// The errors of [`verify()`]; [`VerifyError::Cancelled`] if `look` breaks or the run is cancelled.
+/// The errors of [`verify()`]; [`VerifyError::Cancelled`] if `observe` breaks or the run is cancelled.
 pub fn verify_each(
     a: &Manipulator,
     b: &Manipulator,
     plan: &SamplePlan,
     options: &FkOptions,
     run: &VerifyRun,
-    look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
+    observe: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
-    verified(a, b, decide_map(a, b)?, plan, options, run, look)
+    verified(a, b, decide_map(a, b)?, plan, options, run, observe)
 }
 
 /// [`verify()`] for a known map.
@@ -420,7 +420,7 @@ fn verified(
     plan: &SamplePlan,
     options: &FkOptions,
     run: &VerifyRun,
-    look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
+    observe: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
     let undecided = map.relation == Relation::Undecided;
     let at_once = match map.relation {
@@ -451,7 +451,7 @@ fn verified(
             Err(VerifyError::Lengths { .. } | VerifyError::ForwardKinematics { .. }) if proved => continue,
             other => other?,
         };
-        if look(&sample).is_break() {
+        if observe(&sample).is_break() {
             return Err(VerifyError::Cancelled);
         }
         samples.push(sample);

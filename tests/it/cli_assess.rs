@@ -367,7 +367,7 @@ fn what_is_made_from_a_design_keeps_its_characteristic_length() {
     assert_eq!(found["characteristic_length"].as_f64(), Some(length(start)));
     let value = |v: &Value| v.as_f64().unwrap();
     assert_eq!(compared["conditioning"], compared["assessment"]["conditioning"]["inverse_condition"]);
-    // `assess` looked at fewer poses here
+    // `assess` examined fewer poses here
     assert!(value(&compared["conditioning"]) <= value(&assessed["conditioning"]["inverse_condition"]) + 1e-12);
 }
 

@@ -36,7 +36,7 @@ fn the_published_pair_is_equivalent_at_ten_samples() {
 
 #[test]
 fn poses_that_rounding_of_the_joints_makes_do_not_spoil_the_verdict() {
-    // Rounded joints make the 6-6 a platform with 24 more poses, at |R| of about 1e13. `verify` does not look for them,
+    // Rounded joints make the 6-6 a platform with 24 more poses, at |R| of about 1e13. `verify` does not search for them,
     // and those that it meets do not speak against the pair.
     let (a, b) = (design("worked/isolator-octahedral.toml"), design("worked/isolator-1.toml"));
     let out = verify(&a, &b, &["--json"]);

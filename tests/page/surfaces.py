@@ -15,7 +15,7 @@ def put(shown, offsets):
 
 
 def shaded_as_assess(shown, program, folder):
-    """Next to the mark the page says what `assess` finds at the same poses; the marks lie on points that were looked at."""
+    """Next to the mark the page says what `assess` finds at the same poses; the marks lie on points that were examined."""
     seen = set()
     for t1 in (0.2, 0.3, 0.5, 0.0, 1.2):
         put(shown, [t1, 0.3, 0.2, 0.3, 0.2, 0.3])

@@ -53,7 +53,7 @@ pub(crate) enum ShardState {
 
 /// The depth of the check of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PartLook {
+pub(crate) enum PartCheck {
     /// The whole part: its digest is compared with the manifest.
     Whole,
     /// The size only, which detects truncation. For parts of other jobs: with as many jobs as shards, complete checks
@@ -242,7 +242,7 @@ impl SweepFolder {
     }
 
     /// The state of a shard.
-    pub(crate) fn state(&self, shard: u64, look: PartLook) -> ShardState {
+    pub(crate) fn state(&self, shard: u64, check: PartCheck) -> ShardState {
         let (part, manifest) = (self.part(shard), self.manifest(shard));
         if !manifest.exists() {
             return ShardState::Missing;
@@ -256,11 +256,11 @@ impl SweepFolder {
         {
             return ShardState::Damaged("the manifest is of another sweep".into());
         }
-        let seen = match look {
-            PartLook::Whole => {
+        let seen = match check {
+            PartCheck::Whole => {
                 files::open_regular(&part).and_then(digest_of).map(|(bytes, sha256)| (bytes, Some(sha256)))
             }
-            PartLook::Size => fs::metadata(&part).map(|m| (m.len(), None)),
+            PartCheck::Size => fs::metadata(&part).map(|m| (m.len(), None)),
         };
         match seen {
             Err(error) if error.kind() == ErrorKind::NotFound => ShardState::Missing,
@@ -359,7 +359,7 @@ impl SweepFolder {
 
     /// The finished and missing shards, after reading every part.
     pub(crate) fn status(&self) -> SweepStatusAnswer {
-        self.status_after(Vec::new(), |shard| self.state(shard, PartLook::Whole))
+        self.status_after(Vec::new(), |shard| self.state(shard, PartCheck::Whole))
     }
 
     /// The finished and missing shards by `state`, after the shards `computed` were computed.

@@ -7,7 +7,7 @@
 //! A regular move does not change the span of the six leg vectors. So **the families never change** under moves, and
 //! single moves in a suitable order reach every platform equivalent to a given one (`docs/theory/moves.md`).
 //!
-//! [`relocate`] moves legs, [`Chain`] composes successive moves, and [`search`](mod@search) looks for equivalent
+//! [`relocate`] moves legs, [`Chain`] composes successive moves, and [`search`](mod@search) searches for equivalent
 //! platforms that meet requirements.
 
 mod names;

@@ -13,7 +13,7 @@
 //! EQUIPOD_FUZZ_CASES=50 cargo test --profile evidence --test it mutated_inputs
 //! ```
 //!
-//! The targets of `tests/fuzz` look for inputs by coverage in the same readers.
+//! The targets of `tests/fuzz` search for inputs by coverage in the same readers.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

@@ -84,7 +84,7 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         let refined = equations.refine_from(&start, claim.dual_quaternion.as_ref());
         verdict.worst_residual = verdict.worst_residual.max(refined.residual);
         let multiple = claim.multiplicity > 1 && is_multiple(&equations, claim, &start);
-        // from close to a double root even halving steps look like convergence
+        // from close to a double root even halving steps consider like convergence
         let regular = !multiple
             && (is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit()));
         let as_claimed =
@@ -206,7 +206,7 @@ fn missed(
     others: &[ComplexPose],
 ) -> usize {
     let mut absent: Vec<Root> = Vec::new();
-    let mut look = |refined: NewtonEnd, near: bool| {
+    let mut consider = |refined: NewtonEnd, near: bool| {
         let known = holds(roots, &refined.point) || holds(&absent, &refined.point);
         if near && refined.converged && refined.proper && !known {
             let (point, radius) = (refined.point, radius(&refined));
@@ -220,7 +220,7 @@ fn missed(
     for root in roots {
         let conjugate = root.point.conjugate();
         if !holds(roots, &conjugate) {
-            look(equations.refine(&conjugate), true);
+            consider(equations.refine(&conjugate), true);
         }
     }
     let mirror = PlanarReflections::of(&problem.manipulator);
@@ -229,7 +229,7 @@ fn missed(
         let start = equations.point(&pose);
         if equations.residual(&start) <= RESIDUAL && !holds_nearly(roots, &start) {
             let refined = equations.refine(&start);
-            look(refined, is_regular(&start, &refined));
+            consider(refined, is_regular(&start, &refined));
         }
     }
     absent.len()

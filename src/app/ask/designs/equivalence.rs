@@ -86,8 +86,8 @@ impl<'a> VerifyOptions<'a> {
 
     /// Sets a function that sees each sample in order as soon as it is solved, and may end the comparison.
     #[must_use]
-    pub fn on_sample(mut self, look: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
-        self.on_sample = Some(Box::new(look));
+    pub fn on_sample(mut self, observe: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
+        self.on_sample = Some(Box::new(observe));
         self
     }
 }
@@ -121,8 +121,8 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
     let VerifyOptions { samples, seed, run, on_sample } = options;
     let plan = sample_plan(a, samples, seed);
     let fk = FkOptions::new().seed(seed);
-    let mut look = on_sample.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
-    let found = verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut look);
+    let mut observe = on_sample.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
+    let found = verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut observe);
     let found = found.map_err(|e| match e {
         VerifyError::Cancelled => Error::Cancelled,
         other => other.into(),

@@ -1,6 +1,6 @@
 // What the page does when asked: paths, modes, self-motions, files.
 
-/** Milliseconds without a movement after which the modes are looked for. */
+/** Milliseconds without a movement after which the modes are searched for. */
 const RESTED = 300;
 
 Object.assign(App.prototype, {
@@ -58,7 +58,7 @@ Object.assign(App.prototype, {
     this.rested();
   },
 
-  /** When the platform has come to rest, its modes are looked for. */
+  /** When the platform has come to rest, its modes are searched for. */
   rested() {
     if (this.listed === "stale" && !this.player.running && this.core.live) this.findModes(RESTED);
   },
@@ -163,7 +163,7 @@ Object.assign(App.prototype, {
     this.soon();
   },
 
-  /** Where over the plane of offsets a requirement is violated in the workspace: a quick look, then a finer one. It stays the same while the mark alone moves. */
+  /** Where over the plane of offsets a requirement is violated in the workspace: a quick check, then a finer one. It stays the same while the mark alone moves. */
   shade() {
     const { axes } = this.plane;
     const others = this.offsets.map((t, k) => (axes.includes(k) ? null : t));
@@ -220,7 +220,7 @@ Object.assign(App.prototype, {
       : "With this orientation no position about home is singular.";
   },
 
-  /** The requirements over the workspace: a quick look, then what `equipod assess` does. */
+  /** The requirements over the workspace: a quick check, then what `equipod assess` does. */
   assess() {
     this.limits = null;
     if (!this.core.live) return;
@@ -293,7 +293,7 @@ Object.assign(App.prototype, {
     const { modes } = this;
     if (!modes || modes.error || !modes.modes.length) $("modes").replaceChildren();
     else Tables.modes(this.open, modes, this.here(), this.compared, (name, k) => this.chooseMode(name, k));
-    // while others are looked for, that is said
+    // while others are searched for, that is said
     this.captionGhost();
     if (!this.tasks.modes.job) $("modes-words").textContent = this.modesInWords();
   },

@@ -1,6 +1,6 @@
 // det A over two offsets: signs as tints, the line on which it vanishes, where the workspace is not feasible, the current point.
 
-/** Where requirements are violated: points a side and points of the workspace, a quick look first. */
+/** Where requirements are violated: points a side and points of the workspace, a quick check first. */
 const SHADE = { rough: { points: 21, samples: 30 }, fine: { points: 61, samples: 250 } };
 /** Pixels between two lines of the hatching. */
 const HATCH = 7;
@@ -146,12 +146,12 @@ class Plane {
     if (!feasible) return "Checking requirements ..";
     if (feasible.error) return feasible.error.code === "nothing_required" ? "" : feasible.error.message;
     const { points: n, low, high, poses, violated } = feasible;
-    const looked = `at one of ${poses} poses of the workspace`;
+    const where = `at one of ${poses} poses of the workspace`;
     const free = violated.some((kind) => kind === null);
     const kinds = [...new Set(violated)].filter(Boolean).join("; ");
-    const all = !kinds ? `No requirement is violated ${looked}.` : free
-      ? `Hatched: a requirement (${kinds}) is violated ${looked}; inside the green line none is.`
-      : `Hatched: everywhere in this square a requirement (${kinds}) is violated ${looked}.`;
+    const all = !kinds ? `No requirement is violated ${where}.` : free
+      ? `Hatched: a requirement (${kinds}) is violated ${where}; inside the green line none is.`
+      : `Hatched: everywhere in this square a requirement (${kinds}) is violated ${where}.`;
     const [column, row] = at.map((t) => Math.round(((t - low) / (high - low)) * (n - 1)));
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];

@@ -1,6 +1,6 @@
 // Surfaces of triangles in a picture, far ones first, and det A = 0 over three offsets.
 
-/** Points a side at which the core looks for a surface. */
+/** Points a side at which the core searches for a surface. */
 const SURFACE = { points: 25 };
 
 /** A colour of the style sheet in red, green and blue. */

@@ -847,7 +847,7 @@ class Design:
         seed, method, pose_count
             As for `fk`.
         real_only : bool
-            Keep the real poses alone, as float64: a fraction of the memory. All poses are looked for all the same, so that
+            Keep the real poses alone, as float64: a fraction of the memory. All poses are searched for all the same, so that
             `completeness` says what it says of the whole; ``undecided`` counts the poses that may be real or not.
 
         Returns
@@ -1237,7 +1237,7 @@ class Design:
         Returns
         -------
         MotionAnswer
-            ``met`` is False where a requirement is violated at an instant looked at.
+            ``met`` is False where a requirement is violated at an instant examined.
         """
         from .records import MotionAnswer
 

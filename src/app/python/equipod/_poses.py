@@ -37,7 +37,7 @@ def given(found: Found | None) -> Found:
 
 def as_matrices(poses: PoseLike) -> Floats:
     """Poses as an array of float64 with shape (..., 4, 4); no copy where it is one already."""
-    # what a loop hands over again and again: the look for `as_matrix` costs more than the mathematics
+    # what a loop hands over again and again: the lookup of `as_matrix` costs more than the mathematics
     if type(poses) is np.ndarray and poses.dtype == _FLOAT64 and poses.shape[-2:] == (4, 4) and poses.flags.c_contiguous:
         return poses
     given = poses.as_matrix() if isinstance(poses, HasMatrix) else poses

@@ -112,7 +112,7 @@ typedef struct {
     int binds;           /* 1: a limit is violated just beyond; 0: the way or the number of poses ended before */
     equipod_limit limit; /* which, and of which leg */
     int leg;
-    unsigned poses;      /* poses looked at */
+    unsigned poses;      /* poses examined */
 } equipod_travel;
 
 /* Makes six base and six platform joints ready: those measured on the machine, for instance. 0 where the joints have no size, or where a
@@ -165,7 +165,7 @@ void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *leg
 
 /* How far the way p(t) = p + t velocity, R(t) = exp(t [turn]) R is free of violated limits, t from 0 to `most`: unit vectors as velocity or turn move one
  * axis. Steps are such that neither lengths nor cone angles can be violated between two poses, but for steps of a hundred-thousandth (float: a
- * thousandth) of the unit where one of them is nearly zero. `poses` bounds the poses looked at: what is free of the way up to there is the
+ * thousandth) of the unit where one of them is nearly zero. `poses` bounds the poses examined: what is free of the way up to there is the
  * answer then. 0 where a limit is violated at the start. */
 int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
                      real_t most, unsigned poses, equipod_travel *travel);

@@ -67,7 +67,7 @@ pub fn prove(
 /// The next stage of an assessment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AssessStage {
-    /// Looks for the worst pose of each requirement.
+    /// Searches for the worst pose of each requirement.
     Searches,
     /// Bounds the margins of a requirement over the whole workspace.
     Bounds {
@@ -80,14 +80,14 @@ pub enum AssessStage {
     },
     /// Bounds `det J`, or the corresponding determinant of the rods.
     SingularPoses,
-    /// Looks for the worst conditioning.
+    /// Searches for the worst conditioning.
     Conditioning,
 }
 
 impl std::fmt::Display for AssessStage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Searches => f.write_str("looking for the worst poses"),
+            Self::Searches => f.write_str("searching for the worst poses"),
             Self::Bounds { kind, number, of } => {
                 write!(
                     f,
@@ -95,8 +95,8 @@ impl std::fmt::Display for AssessStage {
                     kind.label()
                 )
             }
-            Self::SingularPoses => f.write_str("looking for singular poses in the workspace"),
-            Self::Conditioning => f.write_str("looking for the worst conditioning"),
+            Self::SingularPoses => f.write_str("searching for singular poses in the workspace"),
+            Self::Conditioning => f.write_str("searching for the worst conditioning"),
         }
     }
 }

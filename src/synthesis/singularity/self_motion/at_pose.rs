@@ -442,10 +442,10 @@ impl SecondOrderForms {
             .map(|face| (0..k).map(|j| if j == face { [1.0, 1.0] } else { [-1.0, 1.0] }).collect())
             .collect();
         let mut least = f64::INFINITY;
-        let mut looked = 0;
+        let mut examined = 0;
         while let Some(cell) = boxes.pop() {
-            looked += 1;
-            if looked > BOXES {
+            examined += 1;
+            if examined > BOXES {
                 return None;
             }
             let middle: Vec<f64> = cell.iter().map(|x| 0.5 * (x[0] + x[1])).collect();

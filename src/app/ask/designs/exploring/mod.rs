@@ -122,8 +122,8 @@ impl<'a> ExploreOptions<'a> {
 
     /// Sets a function that sees the progress, and may end the search for the best platform.
     #[must_use]
-    pub fn on_progress(mut self, look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) -> Self {
-        self.on_progress = Some(Box::new(look));
+    pub fn on_progress(mut self, observe: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) -> Self {
+        self.on_progress = Some(Box::new(observe));
         self
     }
 
@@ -131,7 +131,7 @@ impl<'a> ExploreOptions<'a> {
         if self.cancel.is_cancelled() {
             return ControlFlow::Break(());
         }
-        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
     }
 
     /// Every stage is run: only searches can be ended.
@@ -154,7 +154,7 @@ impl<'a> ExploreOptions<'a> {
             .until(*until)
             .cancel(cancel)
             .on_progress(|p| match on_progress {
-                Some(look) => look(ExploreProgress::Search(p)),
+                Some(observe) => observe(ExploreProgress::Search(p)),
                 None => ControlFlow::Continue(()),
             });
         match drives {

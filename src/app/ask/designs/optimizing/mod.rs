@@ -230,8 +230,8 @@ impl<'a> OptimizeOptions<'a> {
 
     /// Sets a function that sees the progress, and may end the search.
     #[must_use]
-    pub fn on_progress(mut self, look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) -> Self {
-        self.on_progress = Some(Box::new(look));
+    pub fn on_progress(mut self, observe: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) -> Self {
+        self.on_progress = Some(Box::new(observe));
         self
     }
 
@@ -240,7 +240,7 @@ impl<'a> OptimizeOptions<'a> {
         if late || self.cancel.is_cancelled() {
             return ControlFlow::Break(());
         }
-        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
     }
 
     /// The options of a search under requirements.

@@ -101,7 +101,7 @@ fn refuse_options(args: &OptimizeArgs, design: &Design, context: &Context) -> Re
     if kind == SearchKind::Offsets {
         context.no_effect(
             "candidates",
-            "the search for offsets alone looks for the best of all; --survey gives the best of every branch",
+            "the search for offsets alone finds only the best of all branches; --survey gives the best of each",
         )?;
         if !(args.gap > 0.0 && args.gap.is_finite()) {
             let message = format!("--gap is {}, not a positive number", args.gap);

@@ -44,7 +44,7 @@ pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String,
                 found.explanation()
             );
             return Err(Failure::new(Exit::No, "plot::no_leg_map", message).with_help(
-                "`equipod equivalents map A B --align` looks for other frames of the second design",
+                "`equipod equivalents map A B --align` searches for other frames of the second design",
             ));
         }
     };

@@ -7,7 +7,7 @@ use crate::app::cli::failure::Failure;
 use crate::app::cli::files::{self, OutputPath};
 use crate::app::cli::output::Answer;
 use crate::app::cli::sweep_folder::{
-    PartLook, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
+    PartCheck, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
 };
 use records::SweepMergeAnswer;
 use sweep::Digested;
@@ -38,7 +38,7 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
         .with_help("name a file"));
     }
     let states: Vec<ShardState> =
-        (0..folder.record.shards).map(|s| folder.state(s, PartLook::Whole)).collect();
+        (0..folder.record.shards).map(|s| folder.state(s, PartCheck::Whole)).collect();
     let is_done = |s: &ShardState| matches!(s, ShardState::Done(_));
     let numbers = |requested: bool| {
         (0..).zip(&states).filter(|(_, s)| is_done(s) == requested).map(|(k, _)| k).collect::<Vec<u64>>()

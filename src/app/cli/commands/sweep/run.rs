@@ -16,7 +16,7 @@ use crate::app::cli::files::OutputPath;
 use crate::app::cli::output::Answer;
 use crate::app::cli::progress::{Interrupt, ProgressLine};
 use crate::app::cli::sweep_folder::{
-    MOST_SHARDS, PartLook, ShardState, SweepFolder, SweepTexts, default_shards,
+    MOST_SHARDS, PartCheck, ShardState, SweepFolder, SweepTexts, default_shards,
 };
 use fk::Threads;
 use num::{Cancel, Purpose};
@@ -115,7 +115,7 @@ fn compute(
     let shards = folder.record.shards;
     let all = shard.map_or(0..shards, |s| s..s + 1);
     let mut known: BTreeMap<u64, ShardState> =
-        all.clone().map(|shard| (shard, folder.state(shard, PartLook::Whole))).collect();
+        all.clone().map(|shard| (shard, folder.state(shard, PartCheck::Whole))).collect();
     let is_open =
         |(shard, state): (&u64, &ShardState)| (!matches!(state, ShardState::Done(_))).then_some(*shard);
     let open: Vec<u64> = known.iter().filter_map(is_open).collect();
@@ -153,7 +153,7 @@ fn compute(
                 break;
             }
             // another process may have finished and removed the same shard meanwhile
-            Err(error) => match folder.state(shard, PartLook::Whole) {
+            Err(error) => match folder.state(shard, PartCheck::Whole) {
                 ShardState::Done(manifest) => {
                     known.insert(shard, ShardState::Done(manifest));
                     continue;
@@ -165,7 +165,7 @@ fn compute(
         computed.push(shard);
     }
     let mut status = folder.status_after(computed, |shard| {
-        known.remove(&shard).unwrap_or_else(|| folder.state(shard, PartLook::Size))
+        known.remove(&shard).unwrap_or_else(|| folder.state(shard, PartCheck::Size))
     });
     if status.missing.is_empty() {
         folder.tidy();
