@@ -76,7 +76,7 @@ pub(super) struct ModelMasses {
     leg: LegMasses,
     /// The share of the platform mass that each rod carries in its joint.
     share: f64,
-    /// Whether the platform cannot spare it, so that it is added.
+    /// Whether the platform is too light to give it, so that it is added.
     added: bool,
     /// The time step over that of the size.
     pub(super) step: f64,
@@ -176,7 +176,7 @@ impl ModelMasses {
 }
 
 impl Export {
-    /// Mass that each rod has only in the simulator's model, kilograms; `None` if the platform can spare it.
+    /// Mass that each rod has only in the simulator's model, kilograms; `None` if the platform is heavy enough.
     #[must_use]
     pub fn added_rod_mass(&self) -> Option<f64> {
         let masses = ModelMasses::of(self);

@@ -277,7 +277,7 @@ fn rods_carry_a_part_of_the_platform_and_nothing_moves_otherwise() {
     let stated = Matrix3::from_diagonal(&Vector3::new(0.9, 0.8, 0.7));
     assert!((all - 40.0).abs() < 1e-12 && (first - centre * 40.0).norm() < 1e-12);
     assert!((second - moments(40.0, centre, stated)).norm() < 1e-12);
-    // a lamina above the joints has no mass to spare
+    // a lamina above the joints has too little mass
     let export = carrying(&payload.replace("[9.0e5, 8.0e5, 7.0e5]", "[4.0e5, 3.0e5, 7.0e5]"));
     let text = text_of(&export, "mjcf", "platform.xml");
     assert_eq!(export.added_rod_mass(), Some(inertial(&text, "rod1", "mass")[0]));

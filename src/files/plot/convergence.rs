@@ -66,8 +66,8 @@ pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
         let x = PixelAxis { low: times.0 - 0.2, high: times.1 + 0.2, from: left, to: left + PANEL.0 };
         let height = |value: f64| if panel == 0 { value } else { shortfall(value, best).log10() };
         let ends = range(all().map(|p| height(p.1)));
-        let spare = 0.05 * (ends.1 - ends.0).max(if panel == 0 { 1e-3 * ends.1.abs() } else { 1.0 });
-        let y = PixelAxis { low: ends.0 - spare, high: ends.1 + spare, from: TOP + PANEL.1, to: TOP };
+        let padding = 0.05 * (ends.1 - ends.0).max(if panel == 0 { 1e-3 * ends.1.abs() } else { 1.0 });
+        let y = PixelAxis { low: ends.0 - padding, high: ends.1 + padding, from: TOP + PANEL.1, to: TOP };
         for (kind, curve) in curves.iter().enumerate() {
             let heights: Vec<(f64, f64)> = curve.iter().map(|p| (p.0.log10(), height(p.1))).collect();
             draw(&mut svg, kind, &steps(&heights, &x, &y));

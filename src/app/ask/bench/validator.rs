@@ -84,7 +84,7 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         let refined = equations.refine_from(&start, claim.dual_quaternion.as_ref());
         verdict.worst_residual = verdict.worst_residual.max(refined.residual);
         let multiple = claim.multiplicity > 1 && is_multiple(&equations, claim, &start);
-        // from close to a double root even halving steps consider like convergence
+        // from close to a double root even halving steps look like convergence
         let regular = !multiple
             && (is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit()));
         let as_claimed =

@@ -106,7 +106,7 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
 /// Tracks all paths from the start system of a kind to `target`, which must be of that kind. For [`StartKind::Planar`]
 /// the mirror images of the ends are the ends of the other paths. The seed sets gamma.
 ///
-/// Ends that moduli alike although regular, and paths without an end, are tracked again with smaller steps. Paths that
+/// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps. Paths that
 /// fail again are left as [`EndKind::Failed`].
 ///
 /// # Errors

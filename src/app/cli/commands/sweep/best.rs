@@ -20,7 +20,7 @@ const PAGE: &str = "report.html";
 /// Greatest number of designs written: the page compares all of them.
 const MOST: u64 = 50;
 /// Number of candidates tried for each requested design: several may be one design.
-const SPARE: usize = 20;
+const RANKED: usize = 20;
 
 /// Arguments of `sweep best`.
 #[derive(Debug, clap::Args)]
@@ -68,13 +68,13 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
         }
         ranked.push((value, k.cast_unsigned()));
         // the memory does not grow with the table
-        if ranked.len() >= 2 * SPARE * count {
+        if ranked.len() >= 2 * RANKED * count {
             ranked.sort_by(better);
-            ranked.truncate(SPARE * count);
+            ranked.truncate(RANKED * count);
         }
     })?;
     ranked.sort_by(better);
-    ranked.truncate(SPARE * count);
+    ranked.truncate(RANKED * count);
     let (mut candidates, mut paths, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     if !ranked.is_empty() {
         files::make_folder(&args.output)?;
