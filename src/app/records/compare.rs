@@ -270,8 +270,8 @@ impl CompareAnswer {
     pub fn verdicts(&self) -> Vec<String> {
         let sentence = |d: &FiguresRecord| match &d.assessment {
             Some(a) => format!("{} {}", d.name, a.explanation),
-            None if d.assessed_poses.stated => format!("{} requires nothing", d.name),
-            None => format!("{} requires nothing; no workspace stated, figures are those at home", d.name),
+            None if d.assessed_poses.stated => format!("{} has no requirements", d.name),
+            None => format!("{} has no requirements and no workspace: its figures are at home", d.name),
         };
         self.designs.iter().map(sentence).collect()
     }

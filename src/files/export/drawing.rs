@@ -27,7 +27,7 @@ impl Writer for Drawing {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "what hides what: the silhouettes of all parts are seen"
+        "hidden lines: the silhouettes of all parts are drawn"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {

@@ -163,10 +163,10 @@ impl ModelMasses {
         };
         let share = real(self.share);
         let carried = if self.added {
-            format!(". Each rod has {share} kg more, which the design doesn't have: a simulator needs it")
+            format!(". Each rod has {share} kg that the design does not have, because a simulator needs it")
         } else if self.share > 0.0 {
             format!(
-                ".\n  Each rod carries {share} kg of the platform in their joint, which moves nothing differently and keeps the simulation stable"
+                ".\n  Each rod carries {share} kg of the platform in their joint; this keeps the simulation stable and changes no motion"
             )
         } else {
             String::new()

@@ -138,7 +138,7 @@ fn frame(svg: &mut Svg, (x, y): (&PixelAxis, &PixelAxis), panel: usize, figure: 
         svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
     }
     let below_best = format!(
-        "share by which it falls short of the best, {} or less at the bottom",
+        "relative shortfall from the best, {} or less at the bottom",
         "10\u{207b}\u{b9}\u{2070}"
     );
     svg.text("", (x.from, TOP - 10.0), if panel == 0 { &figure.quantity } else { &below_best });

@@ -41,7 +41,7 @@ pub fn pareto_front(figure: &FrontFigure) -> String {
     let height = TOP + SIDE + BELOW;
     let names: Vec<&str> = figure.axes.iter().map(|a| a.label.as_str()).collect();
     let description = format!(
-        "{} platforms of which none is better in every objective: {}. {}",
+        "{} platforms, none better than another in every objective: {}. {}",
         figure.members.len(),
         names.join(", "),
         figure.note

@@ -72,7 +72,7 @@ class Plane {
     const [i, j] = this.axes.map((k) => pattern.offsets[k].name);
     const [x, y] = this.axes.map((k) => show(offsets[k]));
     this.words.textContent = `The mark is at ${i} = ${x}, ${j} = ${y}, where det A = ${show(det)}. On the heavy line det A = 0; plus and minus show its sign. `
-      + (plane.zero.length ? "" : "It does not vanish in this square.");
+      + (plane.zero.length ? "" : "There is no such line in this square.");
   }
 
   tint(c) {
@@ -141,7 +141,7 @@ class Plane {
     c.stroke();
   }
 
-  /** What is known of the platforms of the plane, and of the one next to the mark, in words. */
+  /** The requirements on the platforms of the plane, and on the platform next to the mark, in words. */
   static words(feasible, at) {
     if (!feasible) return "Checking requirements ..";
     if (feasible.error) return feasible.error.code === "nothing_required" ? "" : feasible.error.message;
@@ -155,7 +155,7 @@ class Plane {
     const [column, row] = at.map((t) => Math.round(((t - low) / (high - low)) * (n - 1)));
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];
-    const next = here ? `violates: ${here}` : "violates none at these poses; the assessment at the top of the page has the proof for the mark";
+    const next = here ? `violates: ${here}` : "violates none at these poses; the assessment at the top of the page proves it for the mark";
     return `${all} The platform next to the mark ${next}.`;
   }
 

@@ -391,7 +391,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
         let _ = writeln!(
             text,
-            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
+            "  Leg lengths from {least} to {greatest}: the range of each slide and of its control."
         );
     }
     if export.hardware.base_cone_angle.is_some() {

@@ -135,7 +135,7 @@ impl PlanReader<'_, '_> {
                     self.refuse(
                         Code::ConflictingKeys,
                         place,
-                        "the base design requires nothing that `assess` could answer",
+                        "the base design has no requirements that `assess` could check",
                         "add [hardware] to the design, or leave the field out",
                     );
                 }
