@@ -160,7 +160,7 @@ pub enum Error {
     DimensionalProblem(#[from] optimize::dimensional::InvalidProblem),
     /// A Pareto front requested together with a table of drives.
     #[cfg(feature = "optimize")]
-    #[error("a front is many platforms, and a drive is chosen for one")]
+    #[error("a front has many platforms, but a drive is chosen for one")]
     FrontWithDrives,
     /// A table of drives that is empty.
     #[cfg(feature = "optimize")]

@@ -71,7 +71,7 @@ impl AlignmentArgs {
         }
         let broken = |e: &dyn std::fmt::Display| {
             Failure::new(Exit::Inconclusive, "align::breakdown", format!("no motion could be computed: {e}"))
-                .with_help("coordinates of this magnitude are beyond what the search computes with; use a larger unit")
+                .with_help("the coordinates are too large for the search; use a larger unit")
         };
         let upside_down = exchanged(b.manipulator());
         let (given, other) = if self.exchange {

@@ -143,7 +143,7 @@ impl SweepFolder {
             ("the version of the program", own.version == requested.version),
         ];
         let Some((what, _)) = differs.iter().find(|(_, same)| !same) else { return Ok(self) };
-        let message = format!("{} holds another sweep: {what} is another one", self.path.display());
+        let message = format!("{} contains another sweep: {what} differs", self.path.display());
         let help = format!(
             "name another folder; this one is of \"{}\", seed {}, {} shards, equipod {}",
             own.name, own.seed, own.shards, own.version
@@ -160,7 +160,7 @@ impl SweepFolder {
                 path.display()
             );
             return Err(Failure::refused("sweep::no_sweep", message)
-                .with_help("name the folder that `equipod sweep run PLAN -o DIR` was given"));
+                .with_help("give the folder DIR of `equipod sweep run PLAN -o DIR`"));
         };
         Ok(Self { path: path.to_path_buf(), record })
     }
@@ -181,7 +181,7 @@ impl SweepFolder {
         let texts = self.texts();
         if texts.sha256() != self.record.plan_sha256 {
             let message = format!(
-                "{}: plan and design do not have the digest that belongs to them",
+                "{}: the digest of plan and design is wrong",
                 self.path.join(SWEEP).display()
             );
             return Err(Failure::refused("sweep::no_sweep", message)
@@ -235,7 +235,7 @@ impl SweepFolder {
             _ if path.exists() => {
                 let message = format!("{} is not the table of poses of the sweep", path.display());
                 Err(Failure::refused("sweep::other_poses", message)
-                    .with_help("candidates name it: write them into another folder"))
+                    .with_help("the name is taken by --candidates: write them into another folder"))
             }
             _ => files::write_text(&path, text),
         }

@@ -60,7 +60,7 @@ impl NativeDesign {
             .map_err(|why| refused(py, "design::invalid", &why.to_string()))
     }
 
-    /// Refuses rods on cranks for questions about legs that change their lengths, and names the question to ask
+    /// Refuses rods on cranks for questions about legs of variable length, and names the question to ask
     /// instead.
     pub(super) fn only_of_legs(&self, py: Python<'_>, instead: &str) -> PyResult<()> {
         if self.design.has_cranks() { Err(refused_for_cranks(py, instead)) } else { Ok(()) }

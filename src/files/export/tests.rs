@@ -208,7 +208,7 @@ fn hole_plans_have_a_circle_at_every_joint() {
     }
     let block = ["base plate", "material not stated", "ISO 2768-m for sizes", "datum: the cross"];
     assert!(block.iter().all(|part| text.contains(part)), "{text}");
-    assert!(text.contains("no tolerance asked for"), "{text}");
+    assert!(text.contains("no tolerance given"), "{text}");
 }
 
 #[test]

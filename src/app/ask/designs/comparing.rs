@@ -85,7 +85,7 @@ impl std::fmt::Display for NoAllowance {
         match self {
             Self::Error(why) => why.fmt(f),
             Self::Cranks => f.write_str(
-                "the legs are rods on cranks, and joints are toleranced of legs that change their lengths",
+                "the legs are rods on cranks; joint tolerances exist for legs of variable length only",
             ),
         }
     }

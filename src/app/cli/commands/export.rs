@@ -111,11 +111,11 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 /// The diameter of the zone for the centre of each hole, if an accuracy is requested: joints are at their holes.
 fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
     let Some(bound) = &args.bound else {
-        context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
+        context.no_effect("tool", "it is the point that --bound is about")?;
         return Ok(None);
     };
     if !requested(args).iter().any(|f| ["dxf", "csv"].contains(&f.name())) {
-        context.no_effect("bound", "only hole plans, dxf, and tables, csv, say how far joints may be off")?;
+        context.no_effect("bound", "only the formats dxf and csv state joint tolerances")?;
     }
     let radius = tolerances::joint_radius(design, (bound, &args.tool), context.seed())?;
     Ok(Some(2.0 * radius))
@@ -169,7 +169,7 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         let (name, purpose) = (format.name().into(), format.purpose().into());
         formats.push(FormatRecord { format: name, purpose, files, outcome });
     }
-    // only legs that change their lengths are assessed
+    // only legs of variable length are assessed
     let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
     let assessment = assessment.map(|found| if simulated { found.without_assumptions() } else { found });
     let mut lead = if design.has_cranks() {

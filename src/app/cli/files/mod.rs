@@ -56,7 +56,7 @@ pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..valid].split(|b| *b == b'\n').count();
-        let message = format!("{} is not UTF-8 text: line {line} has other bytes", shown(path));
+        let message = format!("{} is not UTF-8 text: see line {line}", shown(path));
         Failure::refused("file::not_utf8", message).with_help("save the file as UTF-8")
     })
 }
@@ -240,7 +240,7 @@ pub(crate) fn check_arguments(matches: &ArgMatches, json: bool) -> Result<(), Fa
         return Err(written_twice(Path::new("standard output")));
     }
     if standard == 1 && json {
-        let message = "standard output cannot hold a file beside the document of --json";
+        let message = "standard output cannot take a file in addition to the document of --json";
         return Err(
             Failure::refused("file::standard_output", message).with_help("name a file, or leave out --json")
         );
@@ -273,7 +273,7 @@ fn is_device(path: &Path) -> bool {
 /// Exit 2: `file::not_writable`.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     if is_standard(path) {
-        let message = "this command writes several files, and standard output is one";
+        let message = "this command writes several files, but standard output takes one";
         return Err(Failure::refused("file::standard_output", message).with_help("name a folder"));
     }
     std::fs::create_dir_all(path).map_err(|error| {
@@ -378,7 +378,7 @@ fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
     let there = if metadata.len() > MAX_BYTES { None } else { std::fs::read_to_string(path).ok() };
     if there.is_some_and(|old| is_design(&old)) && !is_design(text) {
         let message =
-            format!("{} is a design and would be overwritten by something that is none", path.display());
+            format!("{} is a design and would be overwritten by another kind of file", path.display());
         return Err(Failure::refused("file::overwrites_design", message).with_help("name another file"));
     }
     Ok(())

@@ -124,7 +124,7 @@ fn original(design: &Design) -> Result<Original, Failure> {
     };
     if original.map.as_ref().is_some_and(|map| map.relation == Relation::Singular) {
         let message = format!(
-            "{} is made from an octahedral platform, but singular: it is equivalent to none",
+            "{} is made from an octahedral platform but singular, so it is equivalent to no octahedral platform",
             design.name
         );
         return Err(no("family::singular", message).with_help("`equipod check DESIGN` says why"));

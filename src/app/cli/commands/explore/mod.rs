@@ -235,7 +235,7 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
         optimize::refuse_drives(&design, why)?;
         if design.holes.is_some() {
             let message =
-                "the design states [holes], and joints are put on them for octahedral designs alone";
+                "the design states [holes], but only joints of octahedral designs are put on holes";
             return Err(Failure::refused("explore::holes", message).with_help(
                 "`equipod build round` puts the joints of this design on its holes; without [holes] it can be explored",
             ));

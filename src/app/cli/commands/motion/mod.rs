@@ -214,15 +214,15 @@ fn stiffness(
     }
     if design.has_cranks() {
         let message =
-            "the legs are rods on cranks, and stiffness is computed of legs that change their lengths";
+            "the legs are rods on cranks; stiffness is computed for legs of variable length only";
         return Err(Failure::refused("motion::no_stiffness", message).with_help(
             "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
         ));
     }
     let found =
         design.stiffness_at(&about(&args.about, &args.frames.of(design))?, masses).ok_or_else(|| {
-            Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
-                .with_help("add leg_stiffness to [hardware], force units per design unit")
+            Failure::refused("motion::no_stiffness", "the design has no stiffness of its legs")
+                .with_help("add `leg_stiffness` to [hardware], in force units per design unit")
         })?;
     Ok(Some(StiffnessRecord::new(&found)))
 }

@@ -203,7 +203,7 @@ pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer
     let grids = grids(args, &design)?;
     let tool = tool_point(&args.tool, &design.units, "round::bad_tool")?;
     if args.variant != Variant::Rule {
-        context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
+        context.no_effect("keep", "--variant chooses the rounding")?;
     }
     if !(args.keep >= 0.0 && args.keep.is_finite()) {
         return Err(Failure::refused(

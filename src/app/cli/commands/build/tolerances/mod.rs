@@ -173,7 +173,7 @@ pub(in crate::app::cli::commands) fn joint_radius(
         Failure::new(
             Exit::No,
             "tolerances::lost",
-            "no error of the joints was found that keeps the bound when it is solved",
+            "no joint error was found that keeps the bound without linearisation",
         )
         .with_help("give a smaller [workspace] or a wider bound")
     })
