@@ -68,8 +68,8 @@ fn a_distance_equal_to_the_least_one_is_at_its_limit() {
     let (code, doc) = assess(&with("6.0"));
     assert_eq!((code, platform(&doc)), (Some(0), (Some(true), Some(true))), "{doc}");
     let text = String::from_utf8(equipod(&["assess", &with("6.0")]).stdout).unwrap();
-    let row = text.lines().find(|l| l.starts_with("spacing of platform joints")).unwrap();
-    assert!(row.starts_with("spacing of platform joints =at limit") && !row.contains("-0.0"), "{text}");
+    let row = text.lines().find(|l| l.starts_with("distance of platform joints")).unwrap();
+    assert!(row.starts_with("distance of platform joints =at limit") && !row.contains("-0.0"), "{text}");
     let (code, doc) = assess(&with("6.000000001"));
     assert_eq!((code, platform(&doc)), (Some(1), (Some(false), Some(false))), "{doc}");
     let (code, doc) = assess(&with("5.999999999"));

@@ -84,7 +84,7 @@ fn people_are_told_the_verdict_and_the_algebra_where_they_ask_for_it() {
     let said = |args: &[&str]| String::from_utf8(equipod(args).stdout).unwrap();
     let short = said(&["check", "designs/rbt-midline.toml"]);
     let expected = "\
-midline Griffis-Duffy 12-6 (singular): architecturally singular, no pose holds the platform
+midline Griffis-Duffy 12-6 (singular): architecturally singular, the legs hold the platform at no pose
 Proved about the exact joints: the joints lie on the sides of two triangles (Griffis-Duffy type) with prod t_i = prod (1 - t_i) (legs 1, 2, 3, 4, 5, 6).";
     assert!(short.starts_with(expected) && !short.contains("rank of the leg vectors"), "{short}");
     let long = said(&["check", "designs/rbt-midline.toml", "--details"]);

@@ -875,7 +875,7 @@ fn what_a_platform_rides_on_is_named_with_what_would_keep_it_away() {
     let text = String::from_utf8(text.stdout).unwrap();
     let message = r["message"].as_str().unwrap();
     assert!(text.contains(message), "{text}");
-    for word in ["spacing of base joints", "no safety margin", "`safety_margin` in [limits]", "[envelope]"] {
+    for word in ["distance of base joints", "no safety margin", "`safety_margin` in [limits]", "[envelope]"] {
         assert!(message.contains(word), "{message}");
     }
     let limit = |r: &Value| {

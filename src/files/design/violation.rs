@@ -237,10 +237,10 @@ impl Warning {
         match self {
             Self::UnusedJoint { name, .. } => format!("attach a leg to {name} or remove it"),
             Self::CoincidentJoints { first, second, .. } => format!(
-                "if the legs share one joint there, name {first} in all of them; {first} and {second} count as two joints"
+                "if the legs share one joint, name {first} in all of them: {first} and {second} count as two joints"
             ),
             Self::CoincidentLegs { .. } => {
-                "give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid"
+                "give each leg its own pair of joints: two legs on one line hold the platform like one leg"
                     .into()
             }
             Self::LegsInsideTable { .. } => {
@@ -263,7 +263,7 @@ impl fmt::Display for Warning {
             Self::CoincidentLegs { legs: [a, b], .. } => {
                 write!(f, "legs {a} and {b} join the same two points")
             }
-            Self::LegsInsideTable { table, .. } => write!(f, "`legs` stands inside [{table}]"),
+            Self::LegsInsideTable { table, .. } => write!(f, "`legs` is a key of [{table}] here"),
             Self::RenamedKey { old, new, .. } => write!(f, "`{old}` is now `{new}`"),
         }
     }

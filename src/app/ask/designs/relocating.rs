@@ -153,6 +153,15 @@ impl MoveSearchReport {
     }
 }
 
+/// The subject and verb of a sentence about this number of platforms.
+fn platforms_meet(count: usize) -> String {
+    if count == 1 {
+        "1 equivalent platform meets".to_owned()
+    } else {
+        format!("{count} equivalent platforms meet")
+    }
+}
+
 /// The outcome in a sentence.
 impl std::fmt::Display for MoveSearchReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -164,16 +173,18 @@ impl std::fmt::Display for MoveSearchReport {
                 let assessed = self.platforms.iter().any(|f| f.assessed.is_some());
                 match self.word() {
                     SearchWord::Found if assessed => {
-                        write!(f, "{count} equivalent platform(s) meet every target and meet the requirements of the design")
+                        write!(f, "{} every target and the requirements of the design", platforms_meet(count))
                     }
-                    SearchWord::Found => write!(f, "{count} equivalent platform(s) meet every target"),
+                    SearchWord::Found => write!(f, "{} every target", platforms_meet(count)),
                     SearchWord::Violated => write!(
                         f,
-                        "{on_target} equivalent platform(s) meet every target, and each of them violates requirements of the design"
+                        "{} every target, but each violates requirements of the design",
+                        platforms_meet(on_target)
                     ),
                     _ => write!(
                         f,
-                        "{on_target} equivalent platform(s) meet every target, and none of them is proved to meet the requirements of the design"
+                        "{} every target, but none is proved to meet the requirements of the design",
+                        platforms_meet(on_target)
                     ),
                 }
             }
@@ -187,15 +198,16 @@ impl std::fmt::Display for MoveSearchReport {
                 write!(f, "impossible: the other end of every leg at hole {} is at infinity", h + 1)
             }
             SearchVerdict::Impossible(Impossibility::NotByThoseLegs(h)) => {
-                write!(f, "impossible: a leg at hole {} can replace none of the legs of that joint", h + 1)
+                write!(f, "impossible: no leg of the joint at hole {} can be replaced by a leg that ends there", h + 1)
             }
             SearchVerdict::Impossible(Impossibility::SharedJoints(least)) => write!(
                 f,
-                "impossible: every equivalent platform has at least {least} shared joint(s): all replaceable legs are known, and six independent \
-                 ones always share that many"
+                "impossible: every equivalent platform has at least {least} shared {}. All replaceable legs are known, and six independent \
+                 legs always share that many",
+                if *least == 1 { "joint" } else { "joints" }
             ),
             SearchVerdict::Impossible(Impossibility::HolesTogether) => f.write_str(
-                "impossible: all replaceable legs are known, and no six independent ones have ends at all the holes",
+                "impossible: all replaceable legs are known, and no six independent legs reach all the holes",
             ),
             SearchVerdict::Undecided => write!(
                 f,

@@ -387,7 +387,7 @@ mod tests {
             out,
             r"Within the bounds of the variables, no start met these requirements together:
   leg length, minimum: relax it by 1.56 in
-  spacing of base joints: relax it by 3.25e-8 in
+  distance of base joints: relax it by 3.25e-8 in
   leg force, maximum: relax it by less than the tolerance of the search
   leg speed, maximum: relaxing it alone does not resolve the conflict
 The least total relaxation changes these requirements and meets all others:

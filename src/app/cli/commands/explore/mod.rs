@@ -116,27 +116,27 @@ impl Results {
     fn explanation(&self) -> String {
         let assessed = |design: &Design| {
             self.assessment.as_ref().map_or_else(
-                || format!("{} does not have the space that separate joints need", design.name),
+                || format!("{} has too little space for separate joints", design.name),
                 sheet::answers::sentence,
             )
         };
         let of_offsets = matches!(self.found.search.evidence, OptimizeEvidence::Offsets(_));
         match (self.found.finding(), of_offsets) {
             (ExploreFinding::Infeasible, true) => {
-                "every branch of offsets is proved to violate the limits".into()
+                "every branch of offsets violates the limits: proved".into()
             }
             (ExploreFinding::Infeasible, false) => {
                 format!(
-                    "no start met the requirements together; the conflict stands in optimize.json{}",
+                    "no start met the requirements together; optimize.json has the conflict{}",
                     self.what_resolves_it()
                 )
             }
             (ExploreFinding::NotFound, true) => {
-                "no offsets were found that keep the limits, but some branches are not proved empty".into()
+                "no offsets were found within the limits, but some branches are not proved to be empty".into()
             }
             (ExploreFinding::NotFound, false) => {
                 format!(
-                    "no platform that meets the requirements was found, and no conflict{}",
+                    "no platform that meets the requirements was found, and no conflict either{}",
                     self.what_resolves_it()
                 )
             }
@@ -145,14 +145,14 @@ impl Results {
                 (Some(_), Some(a)) => {
                     format!("{}; its joints are on the holes", sheet::answers::sentence(a))
                 }
-                _ => "all joints are on the holes; nothing is required besides".into(),
+                _ => "all joints are on the holes; the design has no other requirements".into(),
             },
             (ExploreFinding::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
             (ExploreFinding::Compared(_), _) => {
                 self.verified.as_ref().map_or_else(String::new, |v| v.explanation.clone())
             },
             (ExploreFinding::New, _) => {
-                "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
+                "the platform meets its requirements. Its triangles were chosen too, so its kinematics are new".into()
             }
         }
     }
