@@ -216,5 +216,5 @@ class Pinocchio(Mechanism):
 
 
 def installed():
-    """Those whose program is there; the others are noted."""
+    """The targets whose program is installed; the others are noted."""
     return [kind for kind in (MuJoCo, Drake, Pinocchio) if module(kind.PACKAGE, kind.__name__)]

@@ -75,7 +75,7 @@ def shown_lengths(page, platform=1):
 
 
 def modes_are_all(shown, program, folder, which="original"):
-    """As many assembly modes as `fk` finds for the lengths in the table."""
+    """The number of assembly modes that `fk` finds for the lengths in the table."""
     page = shown.page
     page.click("#home")
     page.click("#find")

@@ -171,7 +171,7 @@ impl FarSearch {
         })
     }
 
-    /// Those found so far.
+    /// The points found so far.
     pub(crate) fn known(&self) -> &[FarPoint] {
         &self.found
     }

@@ -28,7 +28,7 @@ class Frames:
     pivot : tuple of float, shape (3,), optional
         Point of the platform whose position poses state, platform frame.
     relative_to : {"base", "home"}, optional
-        What poses are measured from.
+        The origin of poses.
     up : {"z", "y"}, optional
         The axis that points up.
 
@@ -84,7 +84,7 @@ class Frames:
         home : pose_like, shape (4, 4), optional
             Needed where poses count from home.
         form : {"angles", "quaternion"}
-            What stands behind the position.
+            The form of the rotation after the position.
 
         Returns
         -------

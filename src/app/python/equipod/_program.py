@@ -100,7 +100,7 @@ def ask(arguments: Sequence[str], progress: Progress | bool | None = None) -> di
 
 
 def text_of(arguments: Sequence[str]) -> str:
-    """What a command writes to standard output."""
+    """The standard output of a command."""
     code, text, said = _core.ask(["equipod", *arguments, "--quiet"], None)
     if code in (2, 4):
         raise (DesignError if code == 2 else CommandError)(said.strip(), code="command")

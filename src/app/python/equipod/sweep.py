@@ -29,7 +29,7 @@ Plan = str | os.PathLike[str] | Mapping[str, Any]
 
 
 def status(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """What is done of a sweep and what is missing, as ``equipod sweep status``: all parts are read and compared with their digests."""
+    """The finished and the missing parts of a sweep, as ``equipod sweep status``: all parts are read and compared with their digests."""
     return ask(["sweep", "status", os.fspath(folder)])
 
 

@@ -388,7 +388,7 @@ static real_t place_distance(const place_t *from, const place_t *to, real_t epsi
 }
 
 /* ---- bounds of the rounding ---------------------------------------------------------------------------------------------------------
- * How far the numbers of a local_t may be from those of the exact problem: the joints within their radii, the rotation nearest to the matrix,
+ * Error bounds of the numbers of a local_t against the exact problem: the joints within their radii, the rotation nearest to the matrix,
  * squares within target_error. First order in U, constants rounded up. */
 
 typedef struct {

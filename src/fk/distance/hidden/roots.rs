@@ -103,8 +103,7 @@ pub(super) struct FoundZeros {
     pub(super) excess: f64,
 }
 
-/// As many zeros as the degree says, start values from the interpolated polynomial; `None` when it cannot be
-/// interpolated.
+/// All zeros, with start values from the interpolated polynomial; `None` when it cannot be interpolated.
 pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<FoundZeros> {
     let half = closure.degree() / 2;
     let mut scratch = Scratch::default();

@@ -121,7 +121,7 @@ pub fn prove_telling(
     let axes = axes(m, required, cranks, joints, &home);
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    // additional cells serve undecided kinds only, and need not come close
+    // additional cells only decide open kinds; they do not tighten bounds
     let patient = CellEvaluator {
         m,
         required,
