@@ -160,7 +160,7 @@ fn a_way_through_a_singularity_ends_before_it() {
             }
         }
     }
-    assert!(stopped >= 8, "only {stopped} singular ways were met");
+    assert!(stopped >= 8, "only {stopped} singular paths were met");
 }
 
 /// Negative control: Newton's method from the same starts does change its sheet.

@@ -446,9 +446,9 @@ static void blur_second_order(const blur_t *blur, const local_t *here, int i, re
 /* ---- the Kantorovich test -----------------------------------------------------------------------------------------------------------*/
 
 typedef struct {
-    real_t step[6];         /* the Newton step to the end of the way */
+    real_t step[6];         /* the Newton step to the end of the path */
     real_t eta;             /* bound of its size */
-    real_t slack;           /* the part of eta that is there at the beginning of the way too */
+    real_t slack;           /* the part of eta that is there at the beginning of the path too */
     real_t beta;            /* bound of |Y Q| without the part of f; at least 1 */
     real_t epsilon;         /* weight of g0 in the norm */
     real_t frobenius_ratio;
@@ -1280,7 +1280,7 @@ static void name_binding(const equipod_legs *legs, const equipod_margins *margin
     }
 }
 
-int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
+int equipod_free_path(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
                      real_t most, unsigned poses, equipod_travel *travel)
 {
     const equipod_pose from = *start;

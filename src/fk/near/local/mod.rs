@@ -272,11 +272,11 @@ impl Blur {
 /// radius `r`, `2 (beta + eta) r <= 1 - kappa`. Both numbers are given divided by `(1 - kappa)^2`, so that the
 /// conditions with `kappa = 0` imply them.
 pub(super) struct SegmentStart {
-    /// The Newton step to the end of the way.
+    /// The Newton step to the end of the path.
     pub(super) step: [f64; 6],
     /// Bound of its size.
     pub(super) eta: f64,
-    /// The part of `eta` that is there at the beginning of the way too.
+    /// The part of `eta` that is there at the beginning of the path too.
     pub(super) slack: f64,
     /// Bound of `|Y Q|` without the part of `f`, which is at most `eta`. At least 1.
     pub(super) beta: f64,
