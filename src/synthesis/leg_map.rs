@@ -314,7 +314,7 @@ impl LegMapOutcome {
         let level = o.level.words();
         if let (Relation::Undecided, Some(distance)) = (o.relation, o.near_singular) {
             return format!(
-                "within rounding, not proved: one of the two is regular as written, but only {distance:.1e} of its size from a singular platform"
+                "within rounding, not proved: one of the two is regular as written, but a singular platform is only {distance:.1e} units of length away"
             );
         }
         match o.relation {

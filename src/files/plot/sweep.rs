@@ -1,6 +1,6 @@
 //! Pictures of tables of many designs: fields over two columns, distributions, clouds with their fronts, parallel axes.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use super::contour::ValueGrid;
 use super::style::{PixelAxis, Svg, escape, frame, px};

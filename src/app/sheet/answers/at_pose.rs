@@ -1,11 +1,10 @@
 //! Forces, small motions and stiffness at one pose.
 
-use super::limits::named;
 use super::poses::{units, without_rounding, words, written};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use records::{
-    AtPoseAnswer, HeldWrenchRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
+    AtPoseAnswer, HeldWrenchRecord, LimitRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
     SmallMotionRecord, StuckLegRecord,
 };
 
@@ -91,7 +90,7 @@ pub(super) fn violations(out: &mut Sheet, violated: &[LimitRecord]) {
 
 fn pose(answer: &AtPoseAnswer, found: &PoseInFrames) -> String {
     let many = if found.angles_unique { "" } else { ", angles not unique" };
-    written(found).map(figure).join(",") + &units(&answer.length_unit, answer.frames.angles) + many
+    written(found).map(figure).join(",") + &units(&answer.length_unit, &answer.frames.angles) + many
 }
 
 fn row(name: &str, numbers: &[Number], unit: &str) -> Vec<String> {
@@ -151,14 +150,16 @@ fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
 fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
     say!(
         out,
-        "\nIf leg {} is stuck, five motions remain. Change of its length for one unit of each coordinate alone:",
+        "\nIf leg {} is stuck, five motions remain. Travel of its drive for one unit of each coordinate alone:",
         found.leg
     );
-    let words = if answer.frames.is_usual() { ["x", "y", "z", "roll", "pitch", "yaw"] } else { ["x", "y", "z", "a", "b", "c"] };
-    let (length, angle) = (&answer.length_unit, answer.frames.angles);
-    let rates = words.iter().zip(&found.rates).enumerate().map(|(k, (word, rate))| {
-        let per = if k < 3 { length.as_str() } else { angle };
-        format!("{word} {} {length}/{per}", figure(rate.0))
+    let angles = if answer.frames.is_usual() { ["roll", "pitch", "yaw"] } else { ["a", "b", "c"] };
+    let words = ["x", "y", "z"].into_iter().chain(angles);
+    let (length, angle) = (&answer.length_unit, &answer.frames.angles);
+    let travel = if answer.angles_deg.is_some() { "deg" } else { length };
+    let rates = words.zip(&found.rates).enumerate().map(|(k, (word, rate))| {
+        let per = if k < 3 { length } else { angle };
+        format!("{word} {} {travel}/{per}", figure(rate.0))
     });
     out.line(rates.collect::<Vec<_>>().join(", "));
     if let Some(screw) = &found.screw {
@@ -179,7 +180,7 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
     }
     for path in [&found.shorter, &found.longer] {
         if let Some(last) = path.last() {
-            say!(out, "  At leg length {} {length} the pose is {}", figure(last.length), pose(answer, &last.in_frames));
+            say!(out, "  With the drive at {} {travel} the pose is {}", figure(last.length), pose(answer, &last.in_frames));
         }
     }
 }

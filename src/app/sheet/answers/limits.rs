@@ -80,7 +80,7 @@ fn axis(row: &FreeRangeRecord) -> [String; 7] {
 fn shown(answer: &LimitsAnswer, record: &PoseQuaternionRecord, in_frames: &PoseInFrames) -> String {
     let numbers =
         if answer.frames.is_usual() { pose(record) } else { written(in_frames).map(figure).join(",") };
-    numbers + &units(&answer.length_unit, answer.frames.angles)
+    numbers + &units(&answer.length_unit, &answer.frames.angles)
 }
 
 fn straight(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightPathRecord) {

@@ -86,7 +86,7 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
             break;
         }
         let text = sweep.design_text(k).map_err(|why| {
-            Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
+            Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} gives no design: {why}"))
         })?;
         // candidates may differ only in lengths and poses, which are not part of the design
         if texts.contains(&text) {
@@ -104,7 +104,7 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
     }
     if candidates.is_empty() {
         let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: None };
-        return Ok(Answer::new(Exit::No, answer, "no row has a value and is kept\n"));
+        return Ok(Answer::new(Exit::No, answer, "No row passes the filters and has a value.\n"));
     }
     let page = args.output.join(PAGE);
     files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name)))?;

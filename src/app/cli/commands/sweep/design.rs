@@ -32,7 +32,7 @@ pub(crate) fn run(args: &SweepDesignArgs) -> Result<Answer, Failure> {
         return Err(Failure::refused("sweep::no_candidate", message));
     }
     let text = sweep.design_text(k).map_err(|why| {
-        Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
+        Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} gives no design: {why}"))
     })?;
     let (file, said) = match &args.output {
         Some(path) => {

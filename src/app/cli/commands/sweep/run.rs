@@ -1,6 +1,6 @@
 //! `equipod sweep run`: the candidates of a plan, or one shard of them.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -63,7 +63,7 @@ impl std::str::FromStr for ShardNumber {
         let (shard, shards) = text.split_once('/').ok_or_else(form)?;
         let (shard, shards) = (shard.parse().map_err(|_| form())?, shards.parse().map_err(|_| form())?);
         if !(1..=MOST_SHARDS).contains(&shards) {
-            return Err(format!("{shards} shards: from 1 to {MOST_SHARDS} are possible"));
+            return Err(format!("{shards} shards, but 1 to {MOST_SHARDS} are possible"));
         }
         Ok(Self { shard, shards })
     }
@@ -126,7 +126,7 @@ fn compute(
         let sample = CandidateSample::of(sweep);
         let seconds = sample.seconds_each() * total as f64 / threads as f64;
         diagnostic::print_note(&format!(
-            "{total} candidates in {} shards, about {} on {threads} thread{}, from a sample of {}",
+            "{total} candidates in {} shards: {} on {threads} thread{}, estimated from a sample of {}",
             open.len(),
             spoken(seconds),
             if threads == 1 { "" } else { "s" },
@@ -175,7 +175,7 @@ fn compute(
     let exit = if interrupted || left { Exit::Inconclusive } else { Exit::Yes };
     let mut text = super::status::text(&status);
     if interrupted {
-        text.push_str("Interrupted: the same command goes on where it ended.\n");
+        text.push_str("Interrupted: the same command continues the run.\n");
     }
     Ok(Answer::new(exit, SweepRunAnswer::Run(status), text))
 }
@@ -219,9 +219,9 @@ impl CandidateSample {
 fn spoken(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".into(),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
+        s if s < 120.0 => format!("about {s:.0} s"),
+        s if s < 7200.0 => format!("about {:.0} min", s / 60.0),
+        s => format!("about {:.1} h", s / 3600.0),
     }
 }
 
@@ -251,7 +251,7 @@ fn estimate(sweep: &Sweep, threads: usize, shards: Option<u64>) -> Answer {
             .collect(),
     };
     let mut text = format!(
-        "{}: {} candidates in {} shards, {:.3} ms each, about {} on {threads} thread{}\n{} of {} candidates of the sample are kept, {} have an error\n\n",
+        "{}: {} candidates in {} shards, {:.3} ms each, {} on {threads} thread{}\n{} of {} sampled candidates pass the filters, {} have an error\n\n",
         answer.name,
         answer.candidates,
         answer.shards,

@@ -1,6 +1,6 @@
 //! `equipod sweep script`: a script that submits the shards of a plan to a cluster.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -130,7 +130,7 @@ shard)
     ;;
 merge)
     if ! "$equipod" sweep verify "$folder"; then
-        echo "not merged: once the reason is mended, the same script submits what is missing" >&2
+        echo "not merged: remove the cause, then the same script submits the missing shards" >&2
         exit 1
     fi
     exec "$equipod" sweep merge "$folder" --output "$folder/merged.parquet"

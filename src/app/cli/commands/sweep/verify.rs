@@ -1,6 +1,6 @@
 //! `equipod sweep verify`: checks the digests of all parts, and recomputes a random sample.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -47,12 +47,12 @@ pub(crate) fn run(args: &SweepVerifyArgs, context: &mut Context) -> Result<Answe
     let mut text = super::status::text(&status);
     let _ = writeln!(
         text,
-        "{} candidates computed again: {}",
+        "{} candidates recomputed: {}",
         checked.len(),
         if different.is_empty() {
-            "all rows are the same, bit for bit".into()
+            "all rows equal bit for bit".into()
         } else {
-            format!("other rows at {different:?}")
+            format!("different rows {different:?}")
         }
     );
     let exit = if same { Exit::Yes } else { Exit::No };
