@@ -241,7 +241,7 @@ fn limits_that_leave_no_space_are_infeasible_with_a_report() {
     assert!(!temp.path().join("out/optimised.toml").exists());
     assert!(
         read(&temp.path().join("out"), "report.md")
-            .contains("every branch of the offsets is proved to violate the limits")
+            .contains("Every branch of the offsets violates the limits: proved.")
     );
 }
 

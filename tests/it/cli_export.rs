@@ -88,7 +88,7 @@ wrote DIR/genhexkins.hal
         (
             "ball diameter, base",
             "0.346 mm",
-            "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home",
+            "rule: minimum of 0.05 of the size, 0.4 of the least distance of joints, 0.1 of the shortest leg at home",
         ),
         ("hole diameter, platform", "0.173 mm", "rule: half a ball"),
         ("cylinder length from the base joint", "8.08 mm", "rule: half the shortest leg at home"),

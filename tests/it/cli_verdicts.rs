@@ -89,7 +89,7 @@ fn a_singular_member_of_the_family_is_refused_as_by_move() {
         let out = member(offsets);
         let text = String::from_utf8(out.stdout).unwrap();
         assert_eq!(out.status.code(), Some(1), "{text}");
-        assert!(text.contains("no design is written: the platform is architecturally singular"));
+        assert!(text.contains("No design is written: the platform is architecturally singular."));
         assert!(!file.exists());
     }
     assert_eq!(member("0.2,0.8,0.3,0.7,0.1,0.8").status.code(), Some(0));

@@ -757,7 +757,7 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
         all,
         r#"2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
 4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
-16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
+16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole below it: give a smaller hole, or the `height` of the joints
 5:8 design::not_positive: `hole` is 0 | give a positive number
 17:12 design::missing_key: the density of `material` "steal" is not known | add `density`, kg/m^3; did you mean `steel`?
 8:11 design::not_positive: `density` is -1 | give a positive number

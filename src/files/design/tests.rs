@@ -109,7 +109,7 @@ fn legs_and_triangles() {
     assert_eq!(
         all,
         r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]; `equipod check` and `equipod fk` take designs of five legs
-4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
+4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg its own pair of joints: two legs on one line hold the platform like one leg
 4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
 4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
 4:80 design::missing_joint: leg 6 names `P6`, which is not a joint of the base | `P6` is a joint of the platform; a leg names the base joint first
@@ -117,7 +117,7 @@ fn legs_and_triangles() {
 4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
 4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
 5:2 design::collinear_triangle: the base joints P1, P2, P3 are on one line | move one of them: a body held in three points on a line can turn about it
-9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint there, name P1 in all of them; P1 and P7 count as two joints
+9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint, name P1 in all of them: P1 and P7 count as two joints
 9 design::unused_joint: base joint P7 carries no leg | attach a leg to P7 or remove it
 1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
 5:2 design::unknown_key: `bse` is not a key of a design | did you mean `base`?
