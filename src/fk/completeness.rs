@@ -498,7 +498,9 @@ impl Reason {
 /// Writes how many of the listed points are real.
 fn real_part(f: &mut fmt::Formatter<'_>, real: usize) -> fmt::Result {
     match real {
-        0 => f.write_str("sections and a search from 24 starts found no real pose on it, which proves nothing"),
+        0 => {
+            f.write_str("sections and a search from 24 starts found no real pose on it, which proves nothing")
+        }
         real => write!(f, "{real} of the points listed are real, found numerically"),
     }
 }

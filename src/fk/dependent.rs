@@ -1,7 +1,7 @@
 //! Platforms that cannot be assembled, and sets of poses of positive dimension.
 
+use super::counted::{CountVerdict, compare, counted, set_counted};
 use super::homotopy::pose_of;
-use super::counted::{CountVerdict, counted, compare, set_counted};
 use super::newton::on_a_curve;
 use super::real_points::real_points;
 use super::{

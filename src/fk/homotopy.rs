@@ -7,10 +7,10 @@ use std::collections::VecDeque;
 use num_complex::Complex64;
 
 use super::bounded::Surroundings;
+use super::counted::{CountVerdict, compare, counted, set_counted};
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
-use super::counted::{CountVerdict, counted, compare, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,

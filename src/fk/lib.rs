@@ -20,6 +20,7 @@ mod closure_poses;
 mod cluster;
 mod collect;
 mod completeness;
+mod counted;
 mod dependent;
 pub mod distance;
 #[cfg(feature = "lab")]
@@ -28,7 +29,6 @@ mod evidence;
 mod harvest;
 mod hidden;
 mod homotopy;
-mod counted;
 mod near;
 mod newton;
 mod octic;

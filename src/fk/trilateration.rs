@@ -7,9 +7,9 @@ use num_complex::Complex64;
 
 use super::bounds::class_bound;
 use super::closure_candidates;
+use super::counted::compared_with_count;
 use super::evidence::attach;
 use super::harvest::{Harvest, HarvestEnd, harvest};
-use super::counted::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     Rejected, RejectionReason, SolutionSet, Theorem, Tried, hidden,

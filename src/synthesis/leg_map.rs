@@ -322,7 +322,10 @@ impl LegMapOutcome {
                 let legs: Vec<String> = o.legs_off().map(|i| (i.get() + 1).to_string()).collect();
                 let subject = match legs.as_slice() {
                     [one] => format!("the squared length of leg {one} of TO is not an affine function"),
-                    _ => format!("the squared lengths of legs {} of TO are not affine functions", legs.join(", ")),
+                    _ => format!(
+                        "the squared lengths of legs {} of TO are not affine functions",
+                        legs.join(", ")
+                    ),
                 };
                 let by = if o.level.is_proved() {
                     format!("proved {level}")

@@ -11,8 +11,8 @@
 //! [`decide_map`] first compares two designs on exact joints. Then lengths are drawn, mapped, and solved twice, and the two
 //! sets of poses are matched one to one.
 
-mod determined;
 mod decision;
+mod determined;
 mod matching;
 mod sample;
 mod verdict;

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use thiserror::Error;
 
-use super::determined::is_beyond_precision;
 use super::decision::decide_map;
+use super::determined::is_beyond_precision;
 use super::matching::{PoseMatching, match_poses};
 use super::sample::Sample;
 use fk::solve::certify::RootCertificate;

@@ -368,7 +368,9 @@ fn what_is_made_from_a_design_keeps_its_characteristic_length() {
     let value = |v: &Value| v.as_f64().unwrap();
     assert_eq!(compared["conditioning"], compared["assessment"]["conditioning"]["inverse_condition"]);
     // `assess` examined fewer poses here
-    assert!(value(&compared["conditioning"]) <= value(&assessed["conditioning"]["inverse_condition"]) + 1e-12);
+    assert!(
+        value(&compared["conditioning"]) <= value(&assessed["conditioning"]["inverse_condition"]) + 1e-12
+    );
 }
 
 /// One length in one comparison: alone this design has another.

@@ -189,7 +189,8 @@ fn poses_and_exports_of_a_calibrated_machine_say_how_uncertain_it_is() {
 
     // the others have the same numbers in metres, or say what they leave out
     let metres = |k: usize| number(&exported["deviations"][k]) / 1e3;
-    let near = |found: f64, expected: f64| assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e-9));
+    let near =
+        |found: f64, expected: f64| assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e-9));
     let script = read("platform.m");
     let block = |name: &str| -> Vec<Vec<f64>> {
         let from = script.find(&format!("stewart.{name} = [")).unwrap_or_else(|| panic!("{name}"));

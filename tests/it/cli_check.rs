@@ -98,8 +98,7 @@ Proved about the exact joints: the joints lie on the sides of two triangles (Gri
         assert!(long.contains(part), "{part}: {long}");
     }
     let general = said(&["check", "designs/general-6-6.toml"]);
-    let count =
-        "Generic leg lengths have 40 poses, real and complex, counted modulo random primes.";
+    let count = "Generic leg lengths have 40 poses, real and complex, counted modulo random primes.";
     assert!(general.contains(count), "{general}");
     // three digits, or as many as are asked for
     let digits = |n: &str| said(&["check", "designs/general-6-6.toml", "--digits", n]);

@@ -724,7 +724,10 @@ fn legs_keep_clear_of_the_plates_where_the_best_platform_would_not() {
         let list = d["requirements"].as_array().unwrap();
         list.iter().find(|m| m["name"] == "plate_clearance").unwrap()["margin"].as_f64().unwrap()
     };
-    assert!(assessed["met"] == false && of(&assessed) < 0.0, "without the plate the legs are where it would be");
+    assert!(
+        assessed["met"] == false && of(&assessed) < 0.0,
+        "without the plate the legs are where it would be"
+    );
     let plated = on_plates(&format!("{hardware}{plate}"), variables);
     let (out, folder) = optimize(&plated, &["-o", "out.toml"]);
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
@@ -760,7 +763,8 @@ fn a_wider_plate_is_a_freedom_that_is_tried() {
     assert!(amount >= missing && amount < 1.4 * missing, "{amount} {missing}");
     assert!(wider["message"].as_str().unwrap().starts_with("with a plate of the base wider by "));
     let mut assess = Command::new(env!("CARGO_BIN_EXE_equipod"));
-    let assessed = assess.current_dir(folder.path()).args(["assess", "opened/with-base_margin.toml"]).output();
+    let assessed =
+        assess.current_dir(folder.path()).args(["assess", "opened/with-base_margin.toml"]).output();
     assert_eq!(assessed.unwrap().status.code(), Some(0));
 }
 

@@ -359,7 +359,10 @@ const LEFT_OUT: [(&str, &str); 13] = [
         "equipod plot pareto ",
         "reads the answer of a search for a front, which no page makes; tests/it/cli_plot.rs does",
     ),
-    ("equipod plot self-motion ", "a minute, and assesses no design; tests/it/cli_plot.rs runs a shorter one"),
+    (
+        "equipod plot self-motion ",
+        "a minute, and assesses no design; tests/it/cli_plot.rs runs a shorter one",
+    ),
     ("equipod singular motion ", "a minute, and assesses no design; tests/it/cli_singularities.rs runs it"),
     ("equipod shell completions bash > ", "writes into the folder of its user"),
     ("equipod shell completions fish > ", "writes into the folder of its user"),

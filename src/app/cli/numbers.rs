@@ -15,9 +15,7 @@ pub(crate) fn one(text: &str) -> Option<f64> {
 /// # Errors
 /// The fault of the text.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
-    one(text).ok_or_else(|| {
-        "give a finite number: a decimal or an expression such as 12/5".to_owned()
-    })
+    one(text).ok_or_else(|| "give a finite number: a decimal or an expression such as 12/5".to_owned())
 }
 
 /// A length as it is typed, before the design with its unit is read: `25`, `12/5 mm`, `36/19 in`.

@@ -180,10 +180,8 @@ impl SweepFolder {
         }
         let texts = self.texts();
         if texts.sha256() != self.record.plan_sha256 {
-            let message = format!(
-                "{}: the digest of plan and design is wrong",
-                self.path.join(SWEEP).display()
-            );
+            let message =
+                format!("{}: the digest of plan and design is wrong", self.path.join(SWEEP).display());
             return Err(Failure::refused("sweep::no_sweep", message)
                 .with_help("the file was altered: begin anew in another folder"));
         }

@@ -56,7 +56,10 @@ pub(crate) fn refusal(error: &clap::Error, args: &[String]) -> Failure {
 /// A message about a value, without the words of Rust for numbers and ranges.
 fn in_words(message: &str) -> String {
     let message = message.replace("invalid digit found in string", "give a whole number");
-    match message.split_once(" is not in ").and_then(|(before, range)| Some((before, range.split_once("..=")?))) {
+    match message
+        .split_once(" is not in ")
+        .and_then(|(before, range)| Some((before, range.split_once("..=")?)))
+    {
         Some((before, (least, greatest))) => format!("{before} is not from {least} to {greatest}"),
         None => message,
     }

@@ -76,9 +76,8 @@ pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
 
 /// The refusal of cranks for questions about legs of variable length, with the question to ask instead.
 pub(super) fn refused_for_cranks(py: Python<'_>, instead: &str) -> PyErr {
-    let message = format!(
-        "the design has rods on cranks, but this question needs legs of variable length: {instead}"
-    );
+    let message =
+        format!("the design has rods on cranks, but this question needs legs of variable length: {instead}");
     refused(py, Code::Rotary.name(), &message)
 }
 

@@ -185,7 +185,9 @@ fn headline(c: &CheckReport) -> String {
     let name = &c.design.name;
     match (&c.verdict.meant, c.is_singular()) {
         (Some(n), _) => format!("{name}: {}", n.words(&c.design.units)),
-        (None, Some(true)) => format!("{name}: architecturally singular, the legs hold the platform at no pose"),
+        (None, Some(true)) => {
+            format!("{name}: architecturally singular, the legs hold the platform at no pose")
+        }
         (None, Some(false)) => format!("{name}: regular, the legs hold the platform at almost every pose"),
         (None, None) => format!("{name}: not decided"),
     }

@@ -162,7 +162,8 @@ const PLATES: &str = "[plates]";
 const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
 const RULE_STROKE: &str = "rule: long enough to hold the rod over the stroke, short enough to clear the platform joint at the least length";
 
-const RULE_BALL: &str = "rule: minimum of 0.05 of the size, 0.4 of the least distance of joints, 0.1 of the shortest leg at home";
+const RULE_BALL: &str =
+    "rule: minimum of 0.05 of the size, 0.4 of the least distance of joints, 0.1 of the shortest leg at home";
 
 /// Edge of the housing as a ball diameter; with different housings, the ball that fits into each.
 fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {

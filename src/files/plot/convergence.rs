@@ -137,10 +137,8 @@ fn frame(svg: &mut Svg, (x, y): (&PixelAxis, &PixelAxis), panel: usize, figure: 
         svg.line("tick", (x.from - 5.0, y.at(value)), (x.from, y.at(value)));
         svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
     }
-    let below_best = format!(
-        "relative shortfall from the best, {} or less at the bottom",
-        "10\u{207b}\u{b9}\u{2070}"
-    );
+    let below_best =
+        format!("relative shortfall from the best, {} or less at the bottom", "10\u{207b}\u{b9}\u{2070}");
     svg.text("", (x.from, TOP - 10.0), if panel == 0 { &figure.quantity } else { &below_best });
     svg.text("mid", (f64::midpoint(x.from, x.to), bottom + 44.0), "elapsed time, seconds");
 }

@@ -8,9 +8,9 @@ use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
 use crate::bounded::{KnownSurroundings, Surroundings};
+use crate::counted::{CountVerdict, compare};
 use crate::evidence::{Bounds, attach};
 use crate::harvest::harvest;
-use crate::counted::{CountVerdict, compare};
 use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
 use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
 use crate::solve::{ScaledFrames, mirror};

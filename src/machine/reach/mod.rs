@@ -5,22 +5,22 @@
 //! `docs/theory/reach.md` has the bounds.
 
 mod nearest;
+mod path;
 mod projection;
 mod rays;
 mod step;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod path;
 
 use crate::requirements::{Limit, Requirements, Terms};
 use platform::geom::Pose;
 use platform::manipulator::{Leg, Manipulator};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
+pub use path::{PoseAxis, StraightPath};
 pub use rays::{FreeRay, largest_box_within, volume_of_rays};
 pub use surface::ReachedSurface;
-pub use path::{PoseAxis, StraightPath};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
 const SINGULAR: f64 = 1e-12;

@@ -212,7 +212,9 @@ impl Reach<'_> {
         for _ in 0..steps {
             let path = StraightPath::between(&pose, asked);
             let wish =
-                Vector6::from_fn(|k, _| if k < 3 { path.velocity[k] } else { self.length * path.turn[k - 3] });
+                Vector6::from_fn(
+                    |k, _| if k < 3 { path.velocity[k] } else { self.length * path.turn[k - 3] },
+                );
             let mut spaces = self.half_spaces(&pose, radius);
             // the trust region of the steps, a box
             for k in 0..6 {

@@ -1,5 +1,6 @@
 //! The questions that are put to a design with names, units and requirements.
 
+mod assessing;
 mod at_pose;
 pub mod calibrating;
 mod comparing;
@@ -13,7 +14,6 @@ pub mod exporting;
 mod file_io;
 mod frames;
 mod holding;
-mod assessing;
 mod locus;
 mod moved_legs;
 mod moving;
@@ -35,6 +35,7 @@ pub mod whole;
 
 use crate::Error;
 
+pub use assessing::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
 pub use at_pose::{AtPoseOptions, AtPoseReport, DrivesAt, HeldWrench, NoAtPose, StuckLeg};
 pub use comparing::{DesignFigures, FigureOptions, Separation};
 pub use design::Design;
@@ -46,7 +47,6 @@ pub use exploring::{
 };
 pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;
-pub use assessing::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
 pub use moved_legs::{
     InvalidMove, LegMoveRequest, MoveOptions, MovedAtOnce, MovesReport, NamedFamily, NoMoves,

@@ -292,8 +292,14 @@ impl Design {
         for (k, c) in found.components.iter().enumerate() {
             let legs: Vec<String> = c.support.iter().map(|leg| (leg.get() + 1).to_string()).collect();
             let name = self.family_name(found, k)?.map_or(String::new(), |name| format!(" {name}"));
-            let parameters = if c.dimension == 1 { "1 parameter".into() } else { format!("{} parameters", c.dimension) };
-            entries.push(format!("{}{name} ({}, {parameters}, legs {})", k + 1, c.type_name(), legs.join(" ")));
+            let parameters =
+                if c.dimension == 1 { "1 parameter".into() } else { format!("{} parameters", c.dimension) };
+            entries.push(format!(
+                "{}{name} ({}, {parameters}, legs {})",
+                k + 1,
+                c.type_name(),
+                legs.join(" ")
+            ));
         }
         Ok(format!("families, with the legs they can replace: {}", entries.join("; ")))
     }

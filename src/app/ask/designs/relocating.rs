@@ -198,7 +198,11 @@ impl std::fmt::Display for MoveSearchReport {
                 write!(f, "impossible: the other end of every leg at hole {} is at infinity", h + 1)
             }
             SearchVerdict::Impossible(Impossibility::NotByThoseLegs(h)) => {
-                write!(f, "impossible: no leg of the joint at hole {} can be replaced by a leg that ends there", h + 1)
+                write!(
+                    f,
+                    "impossible: no leg of the joint at hole {} can be replaced by a leg that ends there",
+                    h + 1
+                )
             }
             SearchVerdict::Impossible(Impossibility::SharedJoints(least)) => write!(
                 f,

@@ -72,7 +72,11 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
         pose,
         point,
         axes: args.axes,
-        wrench: args.wrench.as_deref().map(|text| given(text, "--wrench", "FX,FY,FZ,TX,TY,TZ")).transpose()?,
+        wrench: args
+            .wrench
+            .as_deref()
+            .map(|text| given(text, "--wrench", "FX,FY,FZ,TX,TY,TZ"))
+            .transpose()?,
         efforts: args.forces.as_deref().map(|text| given(text, "--forces", "F1,..,F6")).transpose()?,
         leg: args.leg.map(|leg| usize::from(leg) - 1),
         directions: args.nearest_singular.then_some(args.directions as usize),

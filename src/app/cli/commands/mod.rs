@@ -47,7 +47,8 @@ use super::output::Answer;
 use super::reference;
 
 /// The way from another design to commands for octahedral designs.
-const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with its error;";
+const NEAREST: &str =
+    "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with its error;";
 
 /// The commands for a design that is not octahedral.
 const GENERAL: &str = "`equipod equivalents components` and `equipod equivalents move DESIGN --search --spacing MIN` find replaceable legs and equivalents of every design";

@@ -331,7 +331,7 @@ pub(crate) fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
             "file::not_readable",
             format!("{} cannot be read: {}", path.display(), in_words(&error)),
         )
-            .with_help("check the path and its permissions")
+        .with_help("check the path and its permissions")
     };
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(unreadable)?;

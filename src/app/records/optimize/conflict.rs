@@ -89,9 +89,7 @@ impl GiveRecord {
     fn new(design: &Design, g: &Give) -> Self {
         let (what, unit) = words(design, g.demand);
         let message = match g.alone {
-            Some(x) if x > 0.0 => {
-                format!("{what}: relax it by {} {unit}", amount(x)).trim_end().to_string()
-            }
+            Some(x) if x > 0.0 => format!("{what}: relax it by {} {unit}", amount(x)).trim_end().to_string(),
             Some(_) => format!("{what}: relax it by less than the tolerance of the search"),
             None => format!("{what}: relaxing it alone does not resolve the conflict"),
         };

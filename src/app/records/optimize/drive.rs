@@ -218,8 +218,7 @@ impl DriveSearchRecord {
                 "the drive with the best first objective among those that meet the requirements (not every drive has a price)"
             }
         };
-        let ended =
-            if search.interrupted { "; the search was interrupted" } else { "" };
+        let ended = if search.interrupted { "; the search was interrupted" } else { "" };
         let message = match chosen {
             Some(name) => format!("{name} is {how}{ended}"),
             None => format!(

@@ -160,7 +160,10 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
         let mut cells = vec![name.into()];
         if found.is_some() {
             cells.extend(
-                [status, margin].into_iter().chain(with_margin.then_some(after_safety_margin)).chain([proved]),
+                [status, margin]
+                    .into_iter()
+                    .chain(with_margin.then_some(after_safety_margin))
+                    .chain([proved]),
             );
         }
         cells.push(unit.into());

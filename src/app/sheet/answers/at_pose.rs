@@ -4,8 +4,8 @@ use super::poses::{units, without_rounding, words, written};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use records::{
-    AtPoseAnswer, HeldWrenchRecord, LimitRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
-    SmallMotionRecord, StuckLegRecord,
+    AtPoseAnswer, HeldWrenchRecord, LimitRecord, NearestSingularPoseRecord, Number, PoseInFrames,
+    ResolutionRecord, SmallMotionRecord, StuckLegRecord,
 };
 
 /// The answer of `at`.
@@ -180,7 +180,12 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
     }
     for path in [&found.shorter, &found.longer] {
         if let Some(last) = path.last() {
-            say!(out, "  With the drive at {} {travel} the pose is {}", figure(last.length), pose(answer, &last.in_frames));
+            say!(
+                out,
+                "  With the drive at {} {travel} the pose is {}",
+                figure(last.length),
+                pose(answer, &last.in_frames)
+            );
         }
     }
 }

@@ -77,9 +77,15 @@ fn generic_poses(out: &mut Sheet, answer: &CheckAnswer) {
             say!(out, "Generic leg lengths have {n} poses, real and complex, {how}{lost}.");
         }
         (None, Some(d)) => {
-            say!(out, "The platform can move at constant leg lengths: its poses form a set of dimension {d}.");
+            say!(
+                out,
+                "The platform can move at constant leg lengths: its poses form a set of dimension {d}."
+            );
         }
-        (None, None) => say!(out, "Generic leg lengths have at most {bound} poses, real and complex; they were not counted."),
+        (None, None) => say!(
+            out,
+            "Generic leg lengths have at most {bound} poses, real and complex; they were not counted."
+        ),
     }
     if answer.solvability.quadratic || !answer.solvability.placed_first.is_empty() {
         say!(out, "Order of solution: {}.", answer.solvability.sentence());
@@ -164,7 +170,12 @@ fn dependency(out: &mut Sheet, d: &DependencyRecord) {
 
 fn griffis_duffy(out: &mut Sheet, g: &GriffisDuffyRecord) {
     let t: Vec<String> = g.t.iter().map(|t| figure(t.0)).collect();
-    say!(out, "\nGriffis-Duffy type, in the cyclic order of {}: t = {}", legs_in_words(&g.order), t.join(", "));
+    say!(
+        out,
+        "\nGriffis-Duffy type, in the cyclic order of {}: t = {}",
+        legs_in_words(&g.order),
+        t.join(", ")
+    );
     let det = if g.exactly_singular { "0 exactly".into() } else { figure(g.det.0) };
     say!(out, "  det A = prod (1 - t) - prod t = {det}; the design is singular if it is zero");
     let [off, limit] = [g.deviation.0, g.deviation_limit.0].map(figure);

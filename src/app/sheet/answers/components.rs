@@ -11,8 +11,14 @@ pub fn components(r: &ComponentsAnswer) -> Sheet {
     let mut out = Sheet::new();
     let families = if r.count == 1 { "1 family".to_owned() } else { format!("{} families", r.count) };
     match r.count {
-        0 => say!(out, "{}: no leg is replaceable, so no leg can move without changing the kinematics", r.name),
-        _ => say!(out, "{}: {families} of replaceable legs, which can move without changing the kinematics\n", r.name),
+        0 => {
+            say!(out, "{}: no leg is replaceable, so no leg can move without changing the kinematics", r.name)
+        }
+        _ => say!(
+            out,
+            "{}: {families} of replaceable legs, which can move without changing the kinematics\n",
+            r.name
+        ),
     }
     out.table(table(&r.components));
     if r.leg_rank < 6 {

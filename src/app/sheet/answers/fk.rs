@@ -60,7 +60,11 @@ fn many(rows: &[FkRowRecord], units: &str) -> Sheet {
         vec![left("pose and its proof", 0)]
     } else if first.is_some_and(|one| one.near.is_some()) {
         let numbers = [right("segments", 8), right("conditioning", 17)];
-        [left("outcome", 16)].into_iter().chain(numbers).chain([left(format!("{POSE}{}", pose_units(units, "deg")), 0)]).collect()
+        [left("outcome", 16)]
+            .into_iter()
+            .chain(numbers)
+            .chain([left(format!("{POSE}{}", pose_units(units, "deg")), 0)])
+            .collect()
     } else {
         vec![left("method", 13), right("finite", 6), right("real", 4), left("complete", 0)]
     };

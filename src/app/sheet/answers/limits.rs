@@ -20,8 +20,7 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     if answer.allowed {
         say!(out, "{name} is allowed at {numbers} = {at}.");
         out.line("Free travel from there, one coordinate at a time:\n");
-        let columns =
-            [left("axis", 6), right("value", 9), right("minimum", 9), left("limited by", 0).gap(2)];
+        let columns = [left("axis", 6), right("value", 9), right("minimum", 9), left("limited by", 0).gap(2)];
         let more = [right("maximum", 9), left("limited by", 0).gap(2), left("unit", 0)];
         out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
     } else {

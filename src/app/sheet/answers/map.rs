@@ -106,11 +106,13 @@ fn exact_rows(out: &mut Sheet, r: &MapRecord) {
         let terms = (0..6).filter(|k| a[i][*k] != "0").map(|k| (a[i][k].clone(), format!("s{}", k + 1)));
         let row = combination(terms, &c[i]);
         let singular = shares[i].as_ref().filter(|share| share.len() <= WRITTEN);
-        let singular =
-            singular.map_or_else(String::new, |t| format!("    (det A = 0 for offset t = {t})"));
+        let singular = singular.map_or_else(String::new, |t| format!("    (det A = 0 for offset t = {t})"));
         say!(out, "  s{}' = {row}{singular}", i + 1);
     }
     if let Some(polynomial) = &r.det_of_offsets {
-        say!(out, "  For any offsets t on these edges, det A = {polynomial}; the platform is singular if det A = 0.");
+        say!(
+            out,
+            "  For any offsets t on these edges, det A = {polynomial}; the platform is singular if det A = 0."
+        );
     }
 }

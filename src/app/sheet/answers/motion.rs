@@ -177,9 +177,9 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
     let rows = found.matrix.iter().map(|row| row.iter().map(|x| figure(x.0)));
     out.table(Table::new((0..6).map(|_| right("", 9).gap(2))).with_rows(rows));
     match &found.natural {
-        None => out.line(
-            "No natural frequencies: the payload has no mass, or no inertia against some rotation.",
-        ),
+        None => {
+            out.line("No natural frequencies: the payload has no mass, or no inertia against some rotation.")
+        }
         Some(all) => {
             let shape = ["x", "y", "z", "rx", "ry", "rz"].map(|title| right(title, 8));
             let mut table = Table::new([right("frequency Hz", 14)].into_iter().chain(shape));

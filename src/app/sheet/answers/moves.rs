@@ -45,7 +45,9 @@ pub fn moves(r: &MovesAnswer) -> Sheet {
         );
     }
     if !r.exact {
-        out.line("The new coordinates are rounded: the leg vectors lie in the span only to the residuals below.");
+        out.line(
+            "The new coordinates are rounded: the leg vectors lie in the span only to the residuals below.",
+        );
     }
     out.space();
     out.add(leg_map(&r.map, &r.name, "legs moved"));
@@ -69,7 +71,9 @@ fn describe(out: &mut Sheet, number: &str, m: &LegMoveRecord) {
     say!(out, "   from {}\n   to   {}", ends(&m.from), ends(&m.to));
     let singular = match &m.singular_parameters {
         SingularParametersRecord::Everywhere(_) => "det A = 0 on the whole family".to_string(),
-        SingularParametersRecord::At(list) if list.is_empty() => "no singular point on the family".to_string(),
+        SingularParametersRecord::At(list) if list.is_empty() => {
+            "no singular point on the family".to_string()
+        }
         SingularParametersRecord::At(list) => {
             let list: Vec<String> = list.iter().map(|t| figure(t.0)).collect();
             format!("singular at t = {}", list.join(", "))

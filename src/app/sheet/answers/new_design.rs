@@ -17,7 +17,9 @@ pub fn new_design(answer: &NewAnswer, has_cranks: bool) -> Sheet {
     let what = if has_cranks { "rod lengths" } else { "leg lengths at home" };
     say!(out, "{what}: {lengths} {}", answer.units);
     if answer.architecturally_singular {
-        out.line("ARCHITECTURALLY SINGULAR: the legs hold the platform at no pose. `equipod check` explains why.");
+        out.line(
+            "ARCHITECTURALLY SINGULAR: the legs hold the platform at no pose. `equipod check` explains why.",
+        );
     }
     out
 }

@@ -100,7 +100,9 @@ fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
 
 fn front_in_words(out: &mut Sheet, a: &OptimizeAnswer, count: usize) {
     if a.status == OptimizeStatus::Interrupted {
-        out.line("The front is incomplete, because the search was interrupted; its platforms may still improve.");
+        out.line(
+            "The front is incomplete, because the search was interrupted; its platforms may still improve.",
+        );
     }
     if let (Some(dominated), Some(unmet)) = (a.search.dominated, a.search.unmet) {
         say!(
@@ -114,8 +116,7 @@ fn front_in_words(out: &mut Sheet, a: &OptimizeAnswer, count: usize) {
 fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
     match (a.status, a.optimality) {
         (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
-            let gap =
-                a.tolerance.map_or_else(String::new, |t| format!(" within the requested gap of {t}"));
+            let gap = a.tolerance.map_or_else(String::new, |t| format!(" within the requested gap of {t}"));
             say!(out, "A local optimum{gap}; a better platform elsewhere is not excluded.");
         }
         (_, Some(OptimalityWord::BestOfStarts)) => {
@@ -127,7 +128,10 @@ fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
         (OptimizeStatus::Feasible, _) => out.line("The limits are met; better platforms may exist nearby."),
         (OptimizeStatus::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
             let reason = a.failure.as_ref().map_or_else(String::new, |w| format!(": {w}"));
-            say!(out, "No platform that meets the requirements was found, and no conflict of requirements either{reason}.");
+            say!(
+                out,
+                "No platform that meets the requirements was found, and no conflict of requirements either{reason}."
+            );
         }
         _ => {}
     }

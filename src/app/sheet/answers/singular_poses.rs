@@ -106,11 +106,9 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
             "{requested}; at {} times, the {shape} contains a singular pose, proved.",
             figure(s.scale.0)
         ),
-        None => say!(
-            out,
-            "{requested}; up to {} times, no singular pose was found.",
-            figure(b.searched_scale.0)
-        ),
+        None => {
+            say!(out, "{requested}; up to {} times, no singular pose was found.", figure(b.searched_scale.0))
+        }
     }
 }
 
@@ -132,7 +130,12 @@ fn rows(r: &SingularitiesAnswer, convention: &Convention<'_>) -> Table {
 
 /// The sign of det J along a path, in words.
 fn path(out: &mut Sheet, r: &SignPathRecord) {
-    say!(out, "\nStraight path from mode {} to mode {} (0 is the pose), as a fraction of its length:", r.from, r.to);
+    say!(
+        out,
+        "\nStraight path from mode {} to mode {} (0 is the pose), as a fraction of its length:",
+        r.from,
+        r.to
+    );
     for (k, part) in r.parts.iter().enumerate() {
         say!(out, "  part {}", k + 1);
         for p in &part.pieces {

@@ -39,9 +39,10 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
     out.space();
     out.table(joints(&r.joints, units));
     out.space();
-    for (what, e) in
-        [("this tolerance", &r.worst_errors.in_budget), ("1.5 times this tolerance", &r.worst_errors.times_1_5)]
-    {
+    for (what, e) in [
+        ("this tolerance", &r.worst_errors.in_budget),
+        ("1.5 times this tolerance", &r.worst_errors.times_1_5),
+    ] {
         if let Some(e) = e {
             let (p, w) = (figure(e.position.0), figure(e.rotation_deg.0));
             say!(out, "Greatest pose error for joints off by {what}, solved exactly: {p} {units}, {w} deg");

@@ -184,8 +184,7 @@ pub(super) fn cranks(
         return None;
     }
     for e in OF_LENGTHS.iter().filter_map(|key| find(top, key)) {
-        let message =
-            format!("`{}` is about legs of variable length, and the drive is \"rotary\"", e.key);
+        let message = format!("`{}` is about legs of variable length, and the drive is \"rotary\"", e.key);
         let help = "remove it; [cranks] has the lengths of cranks and rods and the limits of angles, torques and speeds";
         report.refuse(Code::ConflictingKeys, &e.key_span, message, help);
     }

@@ -3,11 +3,11 @@
 use nalgebra::{Point3, Vector3};
 
 use super::grid::{
-    BodyGrid, GridHole, GridTriangle, POOL, TrianglePool, TargetPlaces, length, pool, three_fold_pool,
+    BodyGrid, GridHole, GridTriangle, POOL, TargetPlaces, TrianglePool, length, pool, three_fold_pool,
 };
 use super::{
-    Evaluation, Grid, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, evaluate,
-    objective_above, on_cells, place, plate_of, sample_plan,
+    Evaluation, Grid, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of,
+    evaluate, objective_above, on_cells, place, plate_of, sample_plan,
 };
 use crate::manufacture::correction::octahedral_of;
 use crate::manufacture::joint::{Joint, joints};
@@ -244,7 +244,12 @@ pub(super) fn proved(
 }
 
 /// The given places of the roles on a grid.
-pub(super) fn target(m: &Manipulator, roles: &TrianglesOfBodies, grid: &BodyGrid, body: usize) -> TargetPlaces {
+pub(super) fn target(
+    m: &Manipulator,
+    roles: &TrianglesOfBodies,
+    grid: &BodyGrid,
+    body: usize,
+) -> TargetPlaces {
     let at = |j: Joint| grid.coordinates(&place(m, j));
     TargetPlaces {
         corners: roles.corners[body].map(at),

@@ -82,9 +82,7 @@ pub enum NoRounding {
     )]
     BadGrid(Body),
     /// An exact rounding needs lines through many holes.
-    #[error(
-        "the {0} has no square or triangular grid, and only such grids have lines with many holes"
-    )]
+    #[error("the {0} has no square or triangular grid, and only such grids have lines with many holes")]
     NoLines(Body),
     /// Origins and angles can be chosen only for square grids.
     #[error("the origin and the angle of the grid of the {0} cannot be chosen: it is not a square grid")]

@@ -466,7 +466,9 @@ fn rooms_inside_envelopes_are_enclosed() {
             let (margin, found) =
                 (shape.margin(at.coords.into(), &half, 0.3), shape.margin(enclosed(&at), &half, 0.3));
             assert!(
-                found.lo() - 1e-14 <= margin && margin <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
+                found.lo() - 1e-14 <= margin
+                    && margin <= found.hi() + 1e-14
+                    && found.hi() - found.lo() < 1e-13
             );
         }
     }

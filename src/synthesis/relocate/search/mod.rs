@@ -19,7 +19,7 @@ mod tests;
 
 use thiserror::Error;
 
-pub use self::targets::{HoleAnswer, HoleWord, CheckedHole};
+pub use self::targets::{CheckedHole, HoleAnswer, HoleWord};
 pub use candidate::{Candidate, LegSource, Placement};
 pub use targets::{Hole, Target, TargetMargin, Targets};
 

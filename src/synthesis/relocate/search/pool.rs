@@ -2,7 +2,7 @@
 //! six generic legs are independent.
 
 use super::candidate::LegSource;
-use super::targets::{Hole, HoleAnswer, CheckedHole, Targets};
+use super::targets::{CheckedHole, Hole, HoleAnswer, Targets};
 use crate::components::{Component, Components, MovingPoint, Parametrisation};
 use num::Rng;
 use num::linalg::LinalgError;

@@ -1,22 +1,22 @@
 //! The best platform for a design; all callers ask the same question here.
 
+mod assessed;
 pub mod drives;
 pub mod freedoms;
-mod assessed;
 mod platform_search;
 mod problem;
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use self::drives::search_drives;
-pub use self::drives::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
-use self::freedoms::FreedomSearch;
-pub use self::freedoms::{ConflictFreedom, FreedomOutcome, FreedomWord, OpenedFreedom, RelaxedRequirement};
 pub use self::assessed::Checked;
 pub(crate) use self::assessed::checked;
 pub use self::assessed::{Assessing, met_or_nothing_required};
 use self::assessed::{checked_offsets, offset_status};
+use self::drives::search_drives;
+pub use self::drives::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
+use self::freedoms::FreedomSearch;
+pub use self::freedoms::{ConflictFreedom, FreedomOutcome, FreedomWord, OpenedFreedom, RelaxedRequirement};
 pub use self::platform_search::{FoundFront, FoundPlatform};
 use self::platform_search::{find_front, find_platform};
 pub use self::problem::{

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::super::Error;
 use super::OptimizeStatus;
-use super::assessed::{Checked, Assessing, checked, dimensional_status};
+use super::assessed::{Assessing, Checked, checked, dimensional_status};
 use super::problem::dimensional_problem;
 use crate::Design;
 use machine::manufacture::holes_turn;
@@ -158,8 +158,9 @@ impl FoundFront {
         symmetry: Option<StartSymmetry>,
         assessing: Assessing,
     ) -> Result<Self, VerifyError> {
-        let of =
-            |point: &optimize::dimensional::ParetoPoint| checked(design, &problem, &point.solution, assessing);
+        let of = |point: &optimize::dimensional::ParetoPoint| {
+            checked(design, &problem, &point.solution, assessing)
+        };
         let members = report.front.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
         Ok(Self { problem, report, members, symmetry })
     }

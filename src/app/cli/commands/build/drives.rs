@@ -150,8 +150,7 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
     silent("speed", |d| d.speed, h.drive_limit(TermKind::LegSpeed).is_some());
     if h.leg_masses.is_none() && drives.iter().any(|d| d.mass.is_some()) {
         out.push(
-            "The legs have no masses in [hardware]: masses of drives only rank drives of equal price."
-                .into(),
+            "The legs have no masses in [hardware]: masses of drives only rank drives of equal price.".into(),
         );
     }
     if design.requirements().loads.is_empty() {

@@ -51,8 +51,7 @@ pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Ans
     let mut sentences = Vec::new();
     if args.snap {
         let Some(snapped) = design.snapped() else {
-            let message =
-                format!("{}: no further symmetry of the joints was found", design.name);
+            let message = format!("{}: no further symmetry of the joints was found", design.name);
             return Err(Failure::refused("convert::no_symmetry", message).with_help(
                 "joints are compared within two millionths of the size; constructed joints are already exact",
             ));

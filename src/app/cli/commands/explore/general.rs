@@ -204,9 +204,7 @@ fn explanation(
         (Some(moves), ..) => moves.explanation.clone(),
         (None, ..) => match found.verdict() {
             ExploreVerdict::Compared(VerdictWord::Singular) => "the design is architecturally singular",
-            ExploreVerdict::None => {
-                "no leg is replaceable, so no other platform is equivalent to the design"
-            }
+            ExploreVerdict::None => "no leg is replaceable, so no other platform is equivalent to the design",
             _ => "no replaceable leg was found, but some may exist",
         }
         .into(),

@@ -234,8 +234,7 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
         context.no_effect("time_limit", why)?;
         optimize::refuse_drives(&design, why)?;
         if design.holes.is_some() {
-            let message =
-                "the design states [holes], but only joints of octahedral designs are put on holes";
+            let message = "the design states [holes], but only joints of octahedral designs are put on holes";
             return Err(Failure::refused("explore::holes", message).with_help(
                 "`equipod build round` puts the joints of this design on its holes; without [holes] it can be explored",
             ));

@@ -27,8 +27,7 @@ pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Conte
     }
     optimize::refuse_extension(design, context)?;
     if dimensional_problem(design, EXTENSION).variables.triangles != Triangles::Fixed {
-        let why =
-            "a platform with other triangles has other kinematics, so it is not compared";
+        let why = "a platform with other triangles has other kinematics, so it is not compared";
         context.no_effect("samples", why)?;
     }
     Ok(())

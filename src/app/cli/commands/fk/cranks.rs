@@ -56,10 +56,7 @@ pub(super) fn run(
     (design, platform): (&Design, &RotaryPlatform),
     context: &Context,
 ) -> Result<Answer, Failure> {
-    context.no_effect(
-        "lengths",
-        "the rods of a design with cranks have constant lengths; give --angles",
-    )?;
+    context.no_effect("lengths", "the rods of a design with cranks have constant lengths; give --angles")?;
     let series = given(args.angles.as_deref(), context)?;
     let frames = args.frames.of(design);
     let table = PoseTable {

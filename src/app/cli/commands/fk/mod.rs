@@ -121,7 +121,8 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
     }
     let given = lengths::given(args.lengths.as_deref(), &design, context)?;
     let frames = args.frames.of(&design);
-    let table = PoseTable { requested: args.csv, all: args.all, time_name: None, frames, limits: args.limits };
+    let table =
+        PoseTable { requested: args.csv, all: args.all, time_name: None, frames, limits: args.limits };
     if let Some(text) = &args.near {
         context.no_effect("threads", "each row is followed from the row before it")?;
         let start = poses::parse(text, &frames, "--near", "fk::bad_pose")?;

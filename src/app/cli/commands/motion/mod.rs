@@ -213,8 +213,7 @@ fn stiffness(
         return Ok(None);
     }
     if design.has_cranks() {
-        let message =
-            "the legs are rods on cranks; stiffness is computed for legs of variable length only";
+        let message = "the legs are rods on cranks; stiffness is computed for legs of variable length only";
         return Err(Failure::refused("motion::no_stiffness", message).with_help(
             "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
         ));

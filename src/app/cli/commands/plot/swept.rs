@@ -59,7 +59,11 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
     );
     if !(least..=most).contains(&given) {
         let message = format!("--columns has {given} names, which is no number for the kind {kind}");
-        let help = if least == most { format!("give {least} names") } else { format!("give {least} to {most} names") };
+        let help = if least == most {
+            format!("give {least} names")
+        } else {
+            format!("give {least} to {most} names")
+        };
         return Err(Failure::refused("plot::columns", message).with_help(help));
     }
     let table = SweptTable::open(&args.table, &args.keep)?;

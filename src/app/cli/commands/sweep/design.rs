@@ -28,7 +28,8 @@ pub(crate) fn run(args: &SweepDesignArgs) -> Result<Answer, Failure> {
     let sweep = folder.sweep()?;
     let k = args.candidate;
     if k >= sweep.count() {
-        let message = format!("there is no candidate {k}; the sweep has {} candidates, counted from 0", sweep.count());
+        let message =
+            format!("there is no candidate {k}; the sweep has {} candidates, counted from 0", sweep.count());
         return Err(Failure::refused("sweep::no_candidate", message));
     }
     let text = sweep.design_text(k).map_err(|why| {

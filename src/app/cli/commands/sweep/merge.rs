@@ -74,7 +74,8 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     })?;
     let Some((rows, bytes, sha256)) = written else { return Err(Failure::internal("nothing was written")) };
     let output = path.display().to_string();
-    let text = format!("wrote {output}: {rows} rows of {} parts, {bytes} bytes\nsha256 {sha256}\n", done.len());
+    let text =
+        format!("wrote {output}: {rows} rows of {} parts, {bytes} bytes\nsha256 {sha256}\n", done.len());
     let answer = SweepMergeAnswer { output, parts: done.len() as u64, rows, bytes, sha256 };
     Ok(Answer::new(Exit::Yes, answer, text))
 }
