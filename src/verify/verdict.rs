@@ -286,7 +286,7 @@ impl Verification {
             Verdict::Inconclusive(reason @ InconclusiveReason::WithinRounding) => format!(
                 "{} at {n} of {n} sets of lengths. Leg map: {}{}{}",
                 reason.sentence(),
-                v.map.explanation(),
+                v.map.explanation().trim_start_matches("within rounding, not proved: "),
                 beyond_in_words(v),
                 deviation(v)
             ),

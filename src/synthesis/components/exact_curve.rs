@@ -97,7 +97,7 @@ impl std::fmt::Display for NoExactCurve {
             Self::Irrational => {
                 write!(
                     f,
-                    "the joints have square roots in their coordinates; curves are split for fractions only"
+                    "coordinates of the joints have square roots, and exact factors need fractions"
                 )
             }
             Self::TooLong { bits } => {

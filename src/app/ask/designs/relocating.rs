@@ -208,7 +208,7 @@ impl std::fmt::Display for MoveSearchReport {
                 f,
                 "impossible: every equivalent platform has at least {least} shared {}. All replaceable legs are known, and six independent \
                  legs always share that many",
-                if *least == 1 { "joint" } else { "joints" }
+                if least == 1 { "joint" } else { "joints" }
             ),
             SearchVerdict::Impossible(Impossibility::HolesTogether) => f.write_str(
                 "impossible: all replaceable legs are known, and no six independent legs reach all the holes",

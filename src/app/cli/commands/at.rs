@@ -63,7 +63,7 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
     let pose = poses::parse(&args.pose, &frames, "--pose", "at::bad_pose")?;
     let point = match &args.point {
         None => frames.convention.pivot_on_platform(),
-        Some(text) => frames.convention.axes() * Vector3::from(given::<3>(text, "--point")?),
+        Some(text) => frames.convention.axes() * Vector3::from(given::<3>(text, "--point", "X,Y,Z")?),
     };
     if !(args.step > 0.0 && args.step.is_finite()) {
         return Err(Failure::refused("at::bad_numbers", "--step is not a positive number"));

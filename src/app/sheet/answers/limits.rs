@@ -97,7 +97,15 @@ fn straight(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightPathRecord) 
 }
 
 fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord) {
-    let binds = found.binds.iter().map(named).collect::<Vec<_>>().join(", ");
+    let same = |a: &LimitRecord, b: &LimitRecord| a.label() == b.label();
+    let binds = found.binds.chunk_by(same).map(|limits| {
+        let between: Vec<String> = limits.iter().map(|limit| limit.between.join(", ")).collect();
+        match between.join("; ") {
+            nothing if nothing.is_empty() => limits[0].label().to_owned(),
+            legs => format!("{} ({legs})", limits[0].label()),
+        }
+    });
+    let binds = binds.collect::<Vec<_>>().join(", ");
     let numbers = words(&answer.frames);
     say!(
         out,

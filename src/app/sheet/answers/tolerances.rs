@@ -35,7 +35,7 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
         figure(coordinate.value),
         coordinate.kind.name()
     );
-    say!(out, "{}", sentence(&r.solved, units));
+    say!(out, "{}.", sentence(&r.solved, units));
     out.space();
     out.table(joints(&r.joints, units));
     out.space();
