@@ -43,10 +43,7 @@ pub fn check_arithmetic() -> Result<(), UnfitArithmetic> {
 }
 
 /// The test for any sum and product, so that deviations can be tested without changing the processor mode.
-fn fitness(
-    sum: impl Fn(f64, f64) -> f64,
-    product: impl Fn(f64, f64) -> f64,
-) -> Result<(), UnfitArithmetic> {
+fn fitness(sum: impl Fn(f64, f64) -> f64, product: impl Fn(f64, f64) -> f64) -> Result<(), UnfitArithmetic> {
     let quarter = f64::EPSILON / 4.0;
     // bits are compared: a comparison of doubles would flush its operands as well
     let gives = |x: f64, expected: f64| black_box(x).to_bits() == expected.to_bits();
@@ -116,10 +113,7 @@ mod tests {
         let flushed = |x: f64| if x.is_subnormal() { 0.0_f64.copysign(x) } else { x };
         let sum = |x: f64, y: f64| x + y;
         assert_eq!(fitness(sum, |x, y| flushed(x * y)), Err(UnfitArithmetic::SubnormalsFlushed));
-        assert_eq!(
-            fitness(sum, |x, y| flushed(x) * flushed(y)),
-            Err(UnfitArithmetic::SubnormalsFlushed)
-        );
+        assert_eq!(fitness(sum, |x, y| flushed(x) * flushed(y)), Err(UnfitArithmetic::SubnormalsFlushed));
         assert_eq!(fitness(sum, plain), Ok(()));
     }
 }

@@ -89,6 +89,7 @@ pub(crate) fn fault(option: &str, text: &str, count: usize) -> String {
     let fields: Vec<&str> = text.split(',').collect();
     match fields.iter().find(|field| one(field).is_none()) {
         Some(field) => format!("{option}: `{}` is not a finite number", field.trim()),
+        None if fields.len() == 1 => format!("{option} has one number instead of {count}"),
         None => format!("{option} has {} numbers instead of {count}", fields.len()),
     }
 }

@@ -95,10 +95,7 @@ impl std::fmt::Display for NoExactCurve {
         match self {
             Self::OtherFlats => write!(f, "as written the joints do not have these flats"),
             Self::Irrational => {
-                write!(
-                    f,
-                    "coordinates of the joints have square roots, and exact factors need fractions"
-                )
+                write!(f, "coordinates of the joints have square roots, and exact factors need fractions")
             }
             Self::TooLong { bits } => {
                 write!(

@@ -58,7 +58,8 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
         args.columns.len(),
     );
     if !(least..=most).contains(&given) {
-        let message = format!("--columns has {given} names, which is no number for the kind {kind}");
+        let message =
+            format!("--columns names {given} of the columns, too few or too many for the kind {kind}");
         let help = if least == most {
             format!("give {least} names")
         } else {
