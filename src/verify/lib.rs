@@ -8,8 +8,8 @@
 //! * [`Verification`]: the verdict with the map and all samples.
 //! * [`Sample`]: one set of lengths, the poses of both platforms, and how they match.
 //!
-//! [`decide_map`] first compares two designs on exact joints. Then lengths are drawn, mapped, and solved twice, and the two
-//! sets of poses are matched one to one.
+//! [`decide_map`] first compares two designs on exact joints. Then lengths are drawn, mapped, and solved twice, and the
+//! two sets of poses are matched one to one.
 
 mod decision;
 mod determined;

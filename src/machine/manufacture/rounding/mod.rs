@@ -1,5 +1,5 @@
-//! Moves the joints of a design to a grid of holes and evaluates the rounded design: conditioning, requirements, distances
-//! of joints.
+//! Moves the joints of a design to a grid of holes and evaluates the rounded design: conditioning, requirements, joint
+//! distances.
 
 mod exact;
 mod free;
