@@ -56,7 +56,7 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! # A design changed, judged and handed on
+//! # A design changed, assessed and passed on
 //!
 //! ```
 //! use equipod::prelude::*;

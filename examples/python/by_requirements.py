@@ -17,9 +17,9 @@ def main() -> None:
     print(answer.status)
     if best is None:
         return
-    judged = best.assess()
-    print("meets its requirements:", {True: "proved", False: "no", None: "not decided"}[judged.met])
-    for row in judged.requirements:
+    assessed = best.assess()
+    print("meets its requirements:", {True: "proved", False: "no", None: "not decided"}[assessed.met])
+    for row in assessed.requirements:
         print(f"  {row.name:18} {row.margin:10.3f} {row.unit:6} {row.status}")
     best.save(folder / "best.toml")
     for name, text in best.export("mjcf").items():

@@ -13,7 +13,7 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 /// The number of threads that a batch may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Threads {
-    /// As many as the process may run at the same time; one where that is not known.
+    /// The number that the process may run at the same time; one if it is unknown.
     #[default]
     All,
     /// This many.

@@ -12,8 +12,8 @@ mod neighbour;
 
 use std::cell::OnceCell;
 
+use super::counted::are_distinct;
 use super::evidence::reject_others;
-use super::judge::are_distinct;
 use super::{
     BoundedProof, Completeness, FarPoses, FkError, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet,
     Theorem,

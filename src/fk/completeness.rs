@@ -108,15 +108,14 @@ impl fmt::Display for BoundedProof {
         let (Some(far), Some(rotation)) = (far, rotation) else {
             return write!(
                 f,
-                "{poses} certified distinct poses, as many as planar bodies have whose joints are affine images of each other; the ends of the legs are within {:.1e} of such bodies, \
+                "{poses} certified distinct poses, the number of planar bodies whose joints are affine images of each other. The joints are within {:.1e} of such bodies, \
                  and every real pose is a pose of them at lengths within that distance; each of these is next to a listed pose or not real: all real poses are listed",
                 neighbour.unwrap_or_default()
             );
         };
         write!(
             f,
-            "{poses} certified distinct poses, and the other {far} of at most {} are proved to be far from every real pose, with entries of R above {rotation:.1e}: \
-             all poses with smaller entries, so all real ones, are listed",
+            "{poses} certified distinct poses, and the other {far} of at most {} are proved to be complex: their rotation matrices have entries above {rotation:.1e}",
             poses + far
         )
     }
@@ -175,11 +174,11 @@ impl Theorem {
     pub fn statement(self) -> String {
         match self {
             Self::ContradictoryLengths => {
-                "the leg vectors satisfy a linear relation, exactly, and the squared lengths do not: the same combination of \
-                 the leg equations is a nonzero multiple of e.e, which no pose annuls"
+                "the leg vectors satisfy a linear relation exactly, and the squared lengths contradict it: the same combination of \
+                 the leg equations is a nonzero multiple of e.e, which is zero at no pose"
             }
             Self::Octahedral => {
-                "an octahedral platform never has more than 16 isolated ones (degree of the octic, two mirror poses a root)"
+                "an octahedral platform never has more than 16 isolated ones (an octic with two mirror poses for each root)"
             }
             Self::SixLegs => {
                 "six leg equations never have more than 40 isolated ones (Ronga, Vust 1992; Lazard 1993; Mourrain 1993)"
@@ -188,7 +187,7 @@ impl Theorem {
                 return format!("no more than {poses} are possible: {construction}");
             }
             Self::FiveOnALine => {
-                "no more than 16 are possible with five joints of one body on a line: three quadrics for the place of the line, two angles about it"
+                "no more than 16 are possible with five joints of one body on a line: three quadrics for the position of the line, two angles about it"
             }
             Self::FourOnALine => {
                 "no more than 32 are possible with four joints of one body on a line: a closure condition of degree four on a curve of degree eight"
@@ -470,7 +469,9 @@ impl Reason {
 /// Writes how many of the listed points are real.
 fn real_part(f: &mut fmt::Formatter<'_>, real: usize) -> fmt::Result {
     match real {
-        0 => f.write_str("no real pose was found on it by sections and a search from 24 starts, which is no proof that there is none"),
+        0 => {
+            f.write_str("sections and a search from 24 starts found no real pose on it, which proves nothing")
+        }
         real => write!(f, "{real} of the points listed are real, found numerically"),
     }
 }
@@ -506,14 +507,14 @@ impl fmt::Display for Reason {
             ),
             Self::PosesMissing { counted, certified, error_probability } => write!(
                 f,
-                "the design and lengths as written have {counted} finite poses, multiplicity included (modulo random primes, probability of error below {error_probability:.0e}), \
+                "the design and lengths as written have {counted} finite poses with multiplicity (modulo random primes, probability of error below {error_probability:.0e}); \
                  {certified} are certified, {} are missing or not certified",
                 counted.saturating_sub(*certified)
             ),
             Self::FewerThanGeneric { counted, certified, error_probability } => write!(
                 f,
-                "the design has {counted} finite poses for generic lengths (modulo random primes, probability of error below {error_probability:.0e}), \
-                 {certified} are certified for the lengths at hand, which are known to rounding; poses may be missing or multiple"
+                "the design has {counted} finite poses for generic lengths (modulo random primes, probability of error below {error_probability:.0e}); \
+                 {certified} are certified for the given lengths, which are known to rounding; poses may be missing or multiple"
             ),
             Self::DependentLegs { established, dimension, points, real } => {
                 let relation = if *established {
@@ -566,11 +567,11 @@ impl fmt::Display for Reason {
                 "the leg vectors are linearly dependent to within 1e-9 but not exactly (nearly architecturally singular)",
             ),
             Self::LegsNotToldApart => f.write_str(
-                "doubles do not tell the legs apart, because the lengths are much longer than the design or one body is much larger than the other: no poses were computed",
+                "no poses were computed: doubles do not distinguish the legs, because the lengths are much longer than the design or one body is much larger than the other",
             ),
             Self::NotSeparated { near, far } => write!(
                 f,
-                "{near} poses and {far} that are far out are certified, of at most 40: the other {} are missing, or no proof tells whether they are near or far",
+                "{near} near and {far} far poses are certified, of at most 40; the other {} are missing, or it is undecided whether they are near or far",
                 40usize.saturating_sub(near + far)
             ),
             Self::EndsUnproved { paths, points } => write!(
@@ -678,12 +679,12 @@ impl fmt::Display for Completeness {
             Self::ProvedBounded { proof } => proof.fmt(f),
             Self::Modular { poses, lengths: CountedLengths::Generic, error_probability } => write!(
                 f,
-                "{poses} certified distinct poses, and no lengths of the design have more isolated poses, by the algebra of generic lengths modulo random primes \
+                "{poses} certified distinct poses, and generic lengths have no more isolated poses, counted modulo random primes \
                  (probability of error below {error_probability:.0e})"
             ),
             Self::Modular { poses, lengths: CountedLengths::Given, error_probability } => write!(
                 f,
-                "{poses} certified distinct poses, and the design and lengths as written have as many finite poses, all isolated, by their algebra modulo random primes \
+                "{poses} certified distinct poses, and the design and lengths as written have the same number of finite poses, all isolated, counted modulo random primes \
                  (probability of error below {error_probability:.0e})"
             ),
             Self::Unproved { reasons } => {

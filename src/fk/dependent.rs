@@ -1,7 +1,7 @@
 //! Platforms that cannot be assembled, and sets of poses of positive dimension.
 
+use super::counted::{CountVerdict, compare, counted, set_counted};
 use super::homotopy::pose_of;
-use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::newton::on_a_curve;
 use super::real_points::real_points;
 use super::{
@@ -15,7 +15,7 @@ use num::Purpose;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Leg equations count as dependent below this sine when curves are looked for.
+/// Leg equations count as dependent below this sine when curves are searched for.
 const RANK: f64 = 1e-9;
 /// Points of a section with imaginary parts this many times the tolerance are not real.
 const NON_REAL: f64 = 1e4;
@@ -89,7 +89,7 @@ pub(super) fn not_told_apart(
 ) -> Result<FkSolutions, FkError> {
     let mut out = without_roots(Completeness::unproved([Reason::LegsNotToldApart]), SolutionSet::Isolated, o);
     if let Some(count) = counted(m, s, o)
-        && let RealityJudgement::PositiveDimensional { dimension } = judge(&mut out, &count)?
+        && let CountVerdict::PositiveDimensional { dimension } = compare(&mut out, &count)?
     {
         out.solution_set =
             SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };

@@ -17,7 +17,7 @@ use platform::manipulator::{Leg, Manipulator, SquaredLegLengths};
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
 
-/// Ends this near to images of others are looked at with these, relative to 1 and to themselves.
+/// Ends this near to images of others are examined with these, relative to 1 and to themselves.
 const ALIKE: f64 = 1e-7;
 
 /// A root is sought within this distance from the mean of an endgame loop, in parts of the size of the point.
@@ -163,8 +163,8 @@ fn is_zero(x: f64) -> bool {
 /// made when it is asked for.
 fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPose> + use<'_> {
     let pair = root.certificate.reality() == ProvedReality::NonReal;
-    let wanted = move |(conjugate, mirrored): &(bool, bool)| (!conjugate || pair) && (!mirrored || flat);
-    [(true, false), (false, true), (true, true)].into_iter().filter(wanted).map(|image| match image {
+    let applies = move |(conjugate, mirrored): &(bool, bool)| (!conjugate || pair) && (!mirrored || flat);
+    [(true, false), (false, true), (true, true)].into_iter().filter(applies).map(|image| match image {
         (true, false) => root.conjugate(),
         (false, _) => root.mirrored(),
         (true, true) => root.mirrored().conjugate(),

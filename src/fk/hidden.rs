@@ -2,7 +2,7 @@
 
 use super::bounds::class_bound;
 use super::harvest::HarvestEnd;
-use super::trilateration::{ends_at, judged};
+use super::trilateration::{ends_at, with_evidence};
 use super::{FkError, FkOptions, FkSolutions, Theorem, Tried};
 use crate::distance::HiddenLengths;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -35,7 +35,7 @@ pub(super) fn solve(
             ends.extend(ends_at(found.poses.into_iter().flatten()));
         }
         let tried = Tried::HiddenLengths { ways: way + 1, values: evaluations };
-        let found = judged(m, s, o, &ends, theorem.bound(), tried, theorem);
+        let found = with_evidence(m, s, o, &ends, theorem.bound(), tried, theorem);
         let settled = found.as_ref().ok().is_none_or(|f| f.completeness.is_proved());
         answer = Some(found);
         if settled || evaluations > BUDGET {

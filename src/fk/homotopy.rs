@@ -7,10 +7,10 @@ use std::collections::VecDeque;
 use num_complex::Complex64;
 
 use super::bounded::Surroundings;
+use super::counted::{CountVerdict, compare, counted, set_counted};
 use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
-use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,
@@ -104,16 +104,16 @@ fn attempts(
             count = counted(m, s, o);
         }
         let uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone());
-        let judgement = count.as_ref().map_or(Ok(RealityJudgement::Silent), |c| judge(&mut found, c))?;
-        match judgement {
-            RealityJudgement::Complete => {
+        let verdict = count.as_ref().map_or(Ok(CountVerdict::Silent), |c| compare(&mut found, c))?;
+        match verdict {
+            CountVerdict::Complete => {
                 return Ok(moving_within_rounding(uncertified, m, s, count).unwrap_or(found));
             }
-            RealityJudgement::PositiveDimensional { dimension } => {
+            CountVerdict::PositiveDimensional { dimension } => {
                 return positive_dimensional(found, m, s, o, &frame, dimension);
             }
-            RealityJudgement::Short => {}
-            RealityJudgement::Silent => detect_curves(&mut found, m, s),
+            CountVerdict::Short => {}
+            CountVerdict::Silent => detect_curves(&mut found, m, s),
         }
         if nearly {
             // the answer depends on digits that nobody knows

@@ -20,6 +20,7 @@ mod closure_poses;
 mod cluster;
 mod collect;
 mod completeness;
+mod counted;
 mod dependent;
 pub mod distance;
 #[cfg(feature = "lab")]
@@ -28,7 +29,6 @@ mod evidence;
 mod harvest;
 mod hidden;
 mod homotopy;
-mod judge;
 mod near;
 mod newton;
 mod octic;
@@ -91,8 +91,8 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FkOptions {
-    /// The method that [`solver`] is to choose; `None` for the fastest that applies. A method that is asked itself does
-    /// not look at it.
+    /// The method that [`solver`] is to choose; `None` for the fastest that applies. A method that is called
+    /// directly ignores it.
     pub method: Option<Method>,
     /// Seed of the generic constants (gamma, patches). Same seed, same output.
     pub seed: u64,

@@ -74,7 +74,7 @@ pub(super) fn solve<const N: usize>(
         for c in 0..N {
             b[(k, c)] *= inverse;
         }
-        // the pivot row is wanted divided by the pivot
+        // the elimination needs the pivot row divided by the pivot
         for j in k + 1..6 {
             a[(k, j)] *= inverse;
         }

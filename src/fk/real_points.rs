@@ -11,7 +11,7 @@ use num::{Purpose, Rng};
 use platform::geom::{Pose, nearest_rotation, random_rotation, turn_between};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// Random poses from which zeros are looked for.
+/// Random poses from which zeros are searched for.
 const STARTS: u64 = 24;
 /// Iterations of the search; on sets of multiplicity the error is halved in each.
 const ITERATIONS: usize = 80;

@@ -1,7 +1,7 @@
 //! Forward kinematics by the 15 x 15 Sylvester matrix.
 
+use super::counted::compared_with_count;
 use super::elimination::PoseCandidates;
-use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::sylvester::Eliminant;

@@ -1,7 +1,7 @@
 //! Forward kinematics by the elimination template.
 
+use super::counted::compared_with_count;
 use super::elimination::PoseCandidates;
-use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, LibraryCalls, Method};
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::template::TemplateLayout;

@@ -7,9 +7,9 @@ use num_complex::Complex64;
 
 use super::bounds::class_bound;
 use super::closure_candidates;
+use super::counted::compared_with_count;
 use super::evidence::attach;
 use super::harvest::{Harvest, HarvestEnd, harvest};
-use super::judge::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     Rejected, RejectionReason, SolutionSet, Theorem, Tried, hidden,
@@ -150,7 +150,7 @@ impl ForwardKinematics for Trilateration {
 }
 
 impl Prepared {
-    fn judged(
+    fn with_evidence(
         &self,
         s: &SquaredLegLengths,
         o: &FkOptions,
@@ -158,7 +158,7 @@ impl Prepared {
         expected: usize,
         tried: Tried,
     ) -> Result<FkSolutions, FkError> {
-        judged(&self.manipulator, s, o, ends, expected, tried, self.theorem)
+        with_evidence(&self.manipulator, s, o, ends, expected, tried, self.theorem)
     }
 }
 
@@ -176,7 +176,7 @@ impl PreparedDesign for Prepared {
             let configurations = evaluator.configurations(&squares, radius);
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
             let tried = Tried::Evaluations(attempt + 1);
-            let found = self.judged(s, o, &ends, configurations.expected, tried)?;
+            let found = self.with_evidence(s, o, &ends, configurations.expected, tried)?;
             if found.completeness.is_proved() {
                 return Ok(found);
             }
@@ -188,7 +188,7 @@ impl PreparedDesign for Prepared {
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
                 let tried = Tried::Evaluations(*attempts);
-                *found = self.judged(s, o, &ends, *expected, tried)?;
+                *found = self.with_evidence(s, o, &ends, *expected, tried)?;
             }
         }
         let found = answer.map(|a| a.0);
@@ -213,7 +213,7 @@ pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iter
 
 /// Refines, merges and certifies the ends of all that was `tried`; `theorem` bounds their number. Ends without a
 /// certificate are not roots: with other distances the same lengths give other poses far out by rounding.
-pub(super) fn judged(
+pub(super) fn with_evidence(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,

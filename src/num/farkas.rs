@@ -1,4 +1,4 @@
-//! Farkas certificates judged in intervals.
+//! Farkas certificates checked in intervals.
 //!
 //! Let the rows `rhs - coefficients . x` be in a cone `K`, and `y` a vector of the dual cone. Every `x` that meets the
 //! rows satisfies `0 <= y . (rhs - A x)`. If the right side is negative for all data in their intervals and all `x` of

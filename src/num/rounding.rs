@@ -39,11 +39,11 @@ pub enum UnfitArithmetic {
 /// # Errors
 /// [`UnfitArithmetic`] names the first deviation.
 pub fn check_arithmetic() -> Result<(), UnfitArithmetic> {
-    judge(|x, y| black_box(x) + black_box(y), |x, y| black_box(x) * black_box(y))
+    fitness(|x, y| black_box(x) + black_box(y), |x, y| black_box(x) * black_box(y))
 }
 
 /// The test for any sum and product, so that deviations can be tested without changing the processor mode.
-fn judge(sum: impl Fn(f64, f64) -> f64, product: impl Fn(f64, f64) -> f64) -> Result<(), UnfitArithmetic> {
+fn fitness(sum: impl Fn(f64, f64) -> f64, product: impl Fn(f64, f64) -> f64) -> Result<(), UnfitArithmetic> {
     let quarter = f64::EPSILON / 4.0;
     // bits are compared: a comparison of doubles would flush its operands as well
     let gives = |x: f64, expected: f64| black_box(x).to_bits() == expected.to_bits();
@@ -94,7 +94,7 @@ mod tests {
         };
         for correct in [up, down, to_zero] {
             let sum = |x: f64, y: f64| correct(x + y, error(x, y, x + y));
-            assert_eq!(judge(sum, plain), Err(UnfitArithmetic::NotToNearest));
+            assert_eq!(fitness(sum, plain), Err(UnfitArithmetic::NotToNearest));
         }
     }
 
@@ -105,15 +105,15 @@ mod tests {
             let s = x + y;
             if error(x, y, s).to_bits() == (-f64::EPSILON / 2.0).to_bits() { s.next_down() } else { s }
         };
-        assert_eq!(judge(odd, plain), Err(UnfitArithmetic::NotToNearest));
+        assert_eq!(fitness(odd, plain), Err(UnfitArithmetic::NotToNearest));
     }
 
     #[test]
     fn subnormals_taken_for_zero_are_found_in_results_and_in_operands() {
         let flushed = |x: f64| if x.is_subnormal() { 0.0_f64.copysign(x) } else { x };
         let sum = |x: f64, y: f64| x + y;
-        assert_eq!(judge(sum, |x, y| flushed(x * y)), Err(UnfitArithmetic::SubnormalsFlushed));
-        assert_eq!(judge(sum, |x, y| flushed(x) * flushed(y)), Err(UnfitArithmetic::SubnormalsFlushed));
-        assert_eq!(judge(sum, plain), Ok(()));
+        assert_eq!(fitness(sum, |x, y| flushed(x * y)), Err(UnfitArithmetic::SubnormalsFlushed));
+        assert_eq!(fitness(sum, |x, y| flushed(x) * flushed(y)), Err(UnfitArithmetic::SubnormalsFlushed));
+        assert_eq!(fitness(sum, plain), Ok(()));
     }
 }

@@ -1,7 +1,7 @@
 //! The mechanism: six legs between two rigid bodies.
 //!
 //! The crate has poses, joints and legs, the lengths and the Jacobian at a pose, and the topology of shared joints. It
-//! solves and judges nothing. It uses only `num`.
+//! solves and decides nothing. It uses only `num`.
 //!
 //! * [`Manipulator`](manipulator::Manipulator): the joints of both bodies and the two ends of each leg.
 //! * [`Pose`](geom::Pose): the pose of the platform, `x_base = R x_platform + p`.

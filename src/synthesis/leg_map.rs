@@ -289,61 +289,66 @@ impl LegMapOutcome {
         self.exact_numbers = (map.bits() <= readable).then(|| ExactNumbers::of(map));
     }
 
-    /// One sentence: the decision and the deciding number.
+    /// The decision and the deciding number: sentences that can follow a colon, without the last full stop.
     #[must_use]
     pub fn explanation(&self) -> String {
         let (o, t) = (self, self.tolerances);
         let level = o.level.words();
         if let (Relation::Undecided, Some(distance)) = (o.relation, o.near_singular) {
             return format!(
-                "within rounding, not proved: a singular platform is {distance:.1e} from one of the two, which is regular as written"
+                "within rounding, not proved: one of the two is regular as written, but a singular platform is only {distance:.1e} units of length away"
             );
         }
         match o.relation {
             Relation::Unrelated => {
-                let legs: Vec<String> = o.legs_off().map(|i| i.to_string()).collect();
+                let legs: Vec<String> = o.legs_off().map(|i| (i.get() + 1).to_string()).collect();
+                let subject = match legs.as_slice() {
+                    [one] => format!("the squared length of leg {one} of TO is not an affine function"),
+                    _ => format!(
+                        "the squared lengths of legs {} of TO are not affine functions",
+                        legs.join(", ")
+                    ),
+                };
                 let by = if o.level.is_proved() {
                     format!("proved {level}")
                 } else {
-                    format!("tolerance {:.0e}, joints are known between bounds only", t.residual)
+                    format!("tolerance {:.0e}: the joints are known between bounds only", t.residual)
                 };
                 format!(
-                    "the squared length of {} of TO is not an affine function of the squared lengths of FROM ({by}): distance from the span {} of the size; A and c are the \
-                     closest fit only",
-                    legs.join(", "),
+                    "{subject} of the squared lengths of FROM ({by}). Their distance from the span is {} of the size. A and c are only the closest fit",
                     rounded(o.residual, 3),
                 )
             }
             Relation::Singular if o.leg_rank < 6 => format!(
-                "the leg vectors of FROM have rank {}, proved {level}: FROM is architecturally singular and the coefficients of the map are not unique",
+                "FROM is architecturally singular: its leg vectors have rank {}, proved {level}. The coefficients of the map are not unique",
                 o.leg_rank
             ),
             Relation::Singular if o.leg_vectors_independent => format!(
-                "the leg lines of one of the two are dependent at every pose, proved {level}, although its leg vectors are independent: it is architecturally singular"
+                "one of the two is architecturally singular: its leg lines are dependent at every pose, proved {level}, although its leg vectors are independent"
             ),
             Relation::Singular => format!(
                 "the leg vectors of TO are dependent, proved {level}{}: TO is architecturally singular",
                 if o.exact { ", det A = 0" } else { "" }
             ),
             Relation::Undecided if o.singular_limit >= 1.0 => format!(
-                "neither platform is architecturally singular as the numbers they are, but rounding and the residual {:.1e} decide nothing about det A:                  the joints are too far from the origin for their size, or the platforms of too different size",
+                "as written, neither platform is architecturally singular, but rounding and the residual {:.1e} leave det A undecided. The joints are too far from the origin for their size, or the sizes of the platforms differ too much",
                 o.residual
             ),
             Relation::Undecided => format!(
-                "within rounding, not proved: the nearest map misses the legs of TO by {:.1e} of the size, no more than rounding of the joints explains{}",
+                "within rounding, not proved: the nearest map misses the legs of TO by {:.1e} of the size, and rounding of the joints explains that much{}",
                 o.residual,
                 if o.inverse_condition > o.singular_limit {
                     String::new()
                 } else {
                     format!(
-                        "; a singular A is within rounding too (smallest singular value {:.1e} of the largest)",
+                        ". A singular A is within rounding too: its smallest singular value is {:.1e} of the largest",
                         o.inverse_condition
                     )
                 }
             ),
             Relation::Equivalent => format!(
-                "proved {level}: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
-                 det A{} is not zero",
+                "proved {level}: corresponding lengths have the same poses, and the singular poses are the same. Every leg vector of TO is a linear combination \
+                 of those of FROM, and det A{} is not zero",
                 o.exact_numbers
                     .as_ref()
                     .filter(|numbers| numbers.determinant.len() <= WRITTEN)

@@ -8,16 +8,16 @@
 //! * [`Verification`]: the verdict with the map and all samples.
 //! * [`Sample`]: one set of lengths, the poses of both platforms, and how they match.
 //!
-//! [`judge`] first compares two designs on exact joints. Then lengths are drawn, mapped, and solved twice, and the two
-//! sets of poses are matched one to one.
+//! [`decide_map`] first compares two designs on exact joints. Then lengths are drawn, mapped, and solved twice, and the
+//! two sets of poses are matched one to one.
 
+mod decision;
 mod determined;
-mod judgement;
 mod matching;
 mod sample;
 mod verdict;
 
-pub use judgement::judge;
+pub use decision::decide_map;
 pub use matching::{PoseMatching, match_poses};
 pub use sample::Sample;
 pub use verdict::{

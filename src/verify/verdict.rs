@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use thiserror::Error;
 
+use super::decision::decide_map;
 use super::determined::is_beyond_precision;
-use super::judgement::judge;
 use super::matching::{PoseMatching, match_poses};
 use super::sample::Sample;
 use fk::solve::certify::RootCertificate;
@@ -103,18 +103,17 @@ num::words! {
             "the leg map holds within rounding, but forward kinematics may have missed poses of a sample",
         /// The map holds within rounding, but the poses found contradict it.
         Contradiction =
-            "the leg map holds within rounding, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
-                 nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)",
+            "the leg map holds within rounding, but at a sample the poses of the two differ by more than rounding of the joints explains. The samples decide nothing: bodies of very different size, or nearly double poses, make poses this uncertain",
         /// The map holds within its tolerance, but its regularity is undecided.
         MapUndecided = "the leg map is not decided: a singular platform is within rounding of one of the two",
         /// No samples were requested, so only the map decides.
-        NoSamples = "no sets of lengths were compared: forward kinematics has said nothing",
+        NoSamples = "no sets of lengths were compared by forward kinematics",
         /// The map holds within rounding of the joints, and the poses agree: nothing is proved.
         WithinRounding =
             "the platforms are equivalent within rounding, not proved: the leg map holds as far as the joints are known, and forward kinematics agrees",
         /// There is no map, but no pose was found that distinguishes the platforms.
         NoCounterexample =
-            "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly",
+            "there is no leg map within the tolerance, but no sampled pose clearly distinguishes the platforms",
     }
 }
 
@@ -199,22 +198,22 @@ impl Verification {
         self.samples.iter().filter(|s| s.agrees()).count()
     }
 
-    /// One sentence with the deciding numbers.
+    /// The deciding numbers in sentences that can follow a colon, without the last full stop.
     #[must_use]
     pub fn explanation(&self) -> String {
         let (v, n) = (self, self.samples.len());
         match &v.verdict {
             Verdict::Equivalent => format!(
-                "proved {}: every leg vector of B is exactly a combination of those of A, and {} is not zero; forward kinematics of both, solved \
-                 independently, agrees at {} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}{}",
+                "proved {}: every leg vector of B is exactly a combination of those of A, and {} is not zero. Forward kinematics of both, solved \
+                 independently, agrees at {} of {n} sets of lengths, {}. The worst relative distance of matched poses is {:.1e}{}{}",
                 v.map.level.words(),
                 exact_determinant(v),
                 v.agreeing(),
                 lists_proved(v),
                 v.worst_distance(),
-                set_aside(v),
+                beyond_in_words(v),
                 if v.agreeing() < n {
-                    "; where it does not, the poses are beyond what doubles of the joints determine"
+                    ". At the other sets, doubles of the joints do not determine the poses"
                 } else {
                     ""
                 }
@@ -225,7 +224,7 @@ impl Verification {
             Verdict::NotEquivalent(Some(c)) => {
                 let other = if c.solves == "A" { "B" } else { "A" };
                 format!(
-                    "{}; at sample {} a {}pose of {} misses the squared length of {} of {other} by {:.1e} of the squared size (rounding {:.1e}){}",
+                    "{}. At sample {} a {}pose of {} misses the squared length of {} of {other} by {:.1e} of the squared size (rounding {:.1e}){}",
                     v.map.explanation(),
                     c.sample + 1,
                     if c.certified() { "certified " } else { "" },
@@ -237,10 +236,10 @@ impl Verification {
                 )
             }
             Verdict::Inconclusive(reason @ InconclusiveReason::WithinRounding) => format!(
-                "{} at {n} of {n} sets of lengths; {}{}{}",
+                "{} at {n} of {n} sets of lengths. Leg map: {}{}{}",
                 reason.sentence(),
-                v.map.explanation(),
-                set_aside(v),
+                v.map.explanation().trim_start_matches("within rounding, not proved: "),
+                beyond_in_words(v),
                 deviation(v)
             ),
             Verdict::Inconclusive(reason) => reason.sentence().to_owned(),
@@ -291,19 +290,19 @@ fn deviation(v: &Verification) -> String {
     let worst = v.deviation_bounds.map(|bounds| bounds.into_iter().fold(0.0, f64::max));
     worst.map_or_else(String::new, |worst| {
         format!(
-            "; A s + c is the squared lengths of B up to {worst:.1e} units squared, a bound at every pose of the box about home that the samples are from (the workspace, where the design has one)"
+            ". A s + c differs from the squared lengths of B by at most {worst:.1e} square units in the box of the sample poses"
         )
     })
 }
 
-/// The poses beyond precision in words, for the end of the sentence.
-fn set_aside(v: &Verification) -> String {
+/// The poses beyond precision in words, a sentence for the end.
+fn beyond_in_words(v: &Verification) -> String {
     let [a, b] = v.beyond_precision();
     match a + b {
         0 => String::new(),
         count => format!(
-            "; {count} further pose{} so far out that the rounding of the joints decides whether they exist, left out",
-            if count == 1 { "" } else { "s" }
+            ". {count} further pose{} left out: so far away, the rounding of the joints decides whether a pose exists",
+            if count == 1 { " is" } else { "s are" }
         ),
     }
 }
@@ -339,16 +338,16 @@ pub struct VerifyRun {
 /// [`verify()`], with each sample passed on as soon as it and the earlier ones are solved.
 ///
 /// # Errors
-/// The errors of [`verify()`]; [`VerifyError::Cancelled`] if `look` breaks or the run is cancelled.
+/// The errors of [`verify()`]; [`VerifyError::Cancelled`] if `observe` breaks or the run is cancelled.
 pub fn verify_each(
     a: &Manipulator,
     b: &Manipulator,
     plan: &SamplePlan,
     options: &FkOptions,
     run: &VerifyRun,
-    look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
+    observe: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
-    verified(a, b, judge(a, b)?, plan, options, run, look)
+    verified(a, b, decide_map(a, b)?, plan, options, run, observe)
 }
 
 /// [`verify()`] for a known map.
@@ -373,7 +372,7 @@ fn verified(
     plan: &SamplePlan,
     options: &FkOptions,
     run: &VerifyRun,
-    look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
+    observe: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
     let undecided = map.relation == Relation::Undecided;
     let at_once = match map.relation {
@@ -404,7 +403,7 @@ fn verified(
             Err(VerifyError::Lengths { .. } | VerifyError::ForwardKinematics { .. }) if proved => continue,
             other => other?,
         };
-        if look(&sample).is_break() {
+        if observe(&sample).is_break() {
             return Err(VerifyError::Cancelled);
         }
         samples.push(sample);
@@ -488,8 +487,8 @@ fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -
         for root in solutions.roots.iter().filter(|r| !is_beyond_precision(r, other.size())) {
             let misses =
                 other.legs().map(|leg| root.pose.squared_length(&leg)).into_iter().zip(squares.get());
-            for (leg, (found, wanted)) in LegIndex::all().zip(misses) {
-                let miss = (found - wanted).norm() / scale;
+            for (leg, (found, expected)) in LegIndex::all().zip(misses) {
+                let miss = (found - expected).norm() / scale;
                 let rounding =
                     root.residual.max(1e-15 * (1.0 + found.norm() / scale)) * root.condition.max(1.0);
                 let clearer = best.as_ref().is_none_or(|b| miss / rounding > b.miss / b.rounding);

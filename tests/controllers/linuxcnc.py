@@ -1,6 +1,6 @@
 """LinuxCNC's headers and its HAL take the kinematics module of `equipod export DESIGN --to c -o FOLDER`, and poses become joint values and poses again.
 
-LINUXCNC_ROOT names the folder where the Debian packages linuxcnc-uspace and linuxcnc-uspace-dev are unpacked (`dpkg -x`); without it LinuxCNC is looked for
+LINUXCNC_ROOT names the folder where the Debian packages linuxcnc-uspace and linuxcnc-uspace-dev are unpacked (`dpkg -x`); without it LinuxCNC is searched for
 on the system. Few systems can have it, so it is never required. The memory of HAL is one for the whole system: where a component is loaded nothing is done.
 """
 

@@ -233,7 +233,7 @@ def main(program, design, folder):
     table.write_text("".join(",".join(map(repr, pose)) + "\n" for pose, _, _ in rows))
     own = [commanded(row) for row in asked(program, "ik", str(here), str(table))["rows"]]
     worst = max(abs(a - b) for mine, (_, theirs, _) in zip(own, rows) for a, b in zip(mine, theirs))
-    lag = max(math.dist(actual[:3], wanted[:3]) for actual, _, wanted in rows)
+    lag = max(math.dist(actual[:3], expected[:3]) for actual, _, expected in rows)
     print(f"{len(rows)} samples, {len(moving)} of them after the first motion: lengths of the shown poses differ by {worst:.2e} mm at most from those of the drives (size {size:.0f} mm); drives lag by up to {lag:.3f} mm")
     # a planted fault: one tenth of a micrometre of the size in one leg is seen
     fault = max(abs(a - b) for mine, (_, theirs, _) in zip(own, rows) for a, b in zip([mine[0] + 1e-7 * size, *mine[1:]], theirs))

@@ -18,7 +18,7 @@ def angles_and_poses(program, design):
     return [(np.radians(r["angles_deg"]), np.array(r["pose"]["p"]) / 1000, np.array(r["pose"]["R"])) for r in rows]
 
 
-def complaint(path, wanted):
+def complaint(path, expected):
     """The fault of the model at its home, or at one of the poses that its actuators are sent to."""
     import mujoco
     import numpy as np
@@ -31,7 +31,7 @@ def complaint(path, wanted):
     if np.abs(data.efc_pos).max() > 1e-9:
         return f"at home the loops are {np.abs(data.efc_pos).max():.1e} m open"
     steps = round(1.0 / model.opt.timestep)
-    for angles, position, matrix in wanted:
+    for angles, position, matrix in expected:
         start = data.ctrl.copy()
         for k in range(steps):
             data.ctrl[:] = start + (angles - start) * smooth((k + 1) / steps)
@@ -130,8 +130,8 @@ def check_cranks(program, folder, design):
         absent("MuJoCo")
         return
     run(program, "export", design, "--to", "mjcf", "-o", folder, "--gravity-compensation")
-    wanted = angles_and_poses(program, design)
+    expected = angles_and_poses(program, design)
     # a rod that is a hundredth too long
     fault = lambda text: text.replace('body2="platform" anchor="0.0 0.0 0.085"', 'body2="platform" anchor="0.0 0.0 0.0851"', 1)
-    compare("cranks: MuJoCo", lambda path: complaint(path, wanted), folder / "platform.xml", folder / "wrong.xml", fault)
+    compare("cranks: MuJoCo", lambda path: complaint(path, expected), folder / "platform.xml", folder / "wrong.xml", fault)
     check_swing_of_rods(program, folder / "swing", design)

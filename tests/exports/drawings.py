@@ -33,7 +33,7 @@ def check_dxf(folder, name, doc):
         return
     for body in ("base", "platform"):
         plate, centres, _ = plate_facts(doc, body)
-        wanted = expected_dimensions(centres.values(), plate["margin"])
+        expected = expected_dimensions(centres.values(), plate["margin"])
         def good(path):
             drawing = ezdxf.readfile(path)
             audit, space = drawing.audit(), drawing.modelspace()
@@ -55,8 +55,8 @@ def check_dxf(folder, name, doc):
             if not all(sum(math.dist(p, q) < 1e-6 for q in ends) == 2 for p in ends):
                 return "outline not closed"
             measured = sorted(d.get_measurement() for d in space.query("DIMENSION"))
-            if len(measured) != len(wanted) or not all(near(x, y, 1e-6) for x, y in zip(measured, wanted)):
-                return f"dimensions {measured} instead of {wanted}"
+            if len(measured) != len(expected) or not all(near(x, y, 1e-6) for x, y in zip(measured, expected)):
+                return f"dimensions {measured} instead of {expected}"
             for d in space.query("DIMENSION"):
                 shown = [t.dxf.text for t in drawing.blocks.get(d.dxf.geometry).query("TEXT")]
                 if shown != [f"{d.get_measurement():.3f}"]:

@@ -155,8 +155,8 @@ class Inverse:
 LEG_MASSES = ["cylinder_mass", "cylinder_center", "cylinder_inertia", "rod_mass", "rod_center", "reflected_mass"]
 VARIANTS = {
     "with all masses": ([], []),
-    "legs without masses": (LEG_MASSES, ["taken as massless"]),
-    "nothing but the mass of the payload": (["inertia", *LEG_MASSES], ["taken as massless", "that of a ball"]),
+    "legs without masses": (LEG_MASSES, ["assumed massless"]),
+    "nothing but the mass of the payload": (["inertia", *LEG_MASSES], ["assumed massless", "a ball is assumed"]),
 }
 
 

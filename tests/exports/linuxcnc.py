@@ -1,6 +1,6 @@
 """LinuxCNC: its halcmd reads the settings, its compiled genhexkins computes struts from poses and poses from struts.
 
-LINUXCNC_ROOT names the folder where a Debian package is unpacked (`dpkg -x`); without it LinuxCNC is looked for on the system.
+LINUXCNC_ROOT names the folder where a Debian package is unpacked (`dpkg -x`); without it LinuxCNC is searched for on the system.
 """
 
 import atexit

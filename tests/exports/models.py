@@ -132,7 +132,7 @@ class Drake(Mechanism):
         self.simulator = Simulator(self.plant)
         self.context = self.simulator.get_mutable_context()
         self.simulator.Initialize()
-        self.wanted = self.plant.get_desired_state_input_port(self.plant.GetJointByName("leg1").model_instance())
+        self.expected = self.plant.get_desired_state_input_port(self.plant.GetJointByName("leg1").model_instance())
 
     def counts(self):
         return self.plant.num_velocities(), self.plant.num_constraints(), self.plant.num_actuators()
@@ -142,7 +142,7 @@ class Drake(Mechanism):
         return [[s.position_lower_limits()[0], s.position_upper_limits()[0]] for s in slides]
 
     def advance(self, control):
-        self.wanted.FixValue(self.context, self.np.concatenate([control, self.np.zeros(6)]))
+        self.expected.FixValue(self.context, self.np.concatenate([control, self.np.zeros(6)]))
         self.simulator.AdvanceTo(self.context.get_time() + self.step)
 
     def velocities(self):
@@ -216,5 +216,5 @@ class Pinocchio(Mechanism):
 
 
 def installed():
-    """Those whose program is there; the others are noted."""
+    """The targets whose program is installed; the others are noted."""
     return [kind for kind in (MuJoCo, Drake, Pinocchio) if module(kind.PACKAGE, kind.__name__)]

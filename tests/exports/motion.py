@@ -54,12 +54,12 @@ def without_connect(text):
 
 
 def check_poses(folder, name, time, range_):
-    """`range_`: least and greatest length in metres by the design file, or None. `time` of a move over the square root of the size; None: lengths do not hold the platform, only the loops are looked at."""
+    """`range_`: least and greatest length in metres by the design file, or None. `time` of a move over the square root of the size; None: lengths do not hold the platform, only the loops are examined."""
     moves = list(poses_of(folder / "lengths-workspace.csv", 4))
     home = moves[0][2]
     size = max(home)
     if sum(max(abs(x - y) for x, y in zip(home, m[2])) > 1e-3 * size for m in moves) < 3:
-        report(f"{name} mjcf: moves to look at", False)
+        report(f"{name} mjcf: moves to check", False)
     limits = [[round(x / size, 12) for x in range_]] * 6 if range_ else []
     path, wrong = folder / "platform.xml", folder / "wrong.xml"
     for kind in installed():

@@ -41,13 +41,13 @@ def tree_complaint(program, design, doc):
         lengths = np.array([leg["home_length"] for leg in doc["legs"]]) / 1000
         for move in MOVES:
             p = np.array(move[:3]) * size / 500
-            wanted = home * pin.SE3(pin.rpy.rpyToMatrix(*np.radians(move[3:])), home.rotation.T @ p)
+            expected = home * pin.SE3(pin.rpy.rpyToMatrix(*np.radians(move[3:])), home.rotation.T @ p)
             for _ in range(30):
                 pin.computeJointJacobians(model, data, q)
                 pin.framesForwardKinematics(model, data, q)
                 errors, rows = [], []
                 for end in ends:
-                    errors.append(pin.log6(data.oMf[end].actInv(wanted)).vector)
+                    errors.append(pin.log6(data.oMf[end].actInv(expected)).vector)
                     rows.append(pin.getFrameJacobian(model, data, end, pin.ReferenceFrame.LOCAL))
                 error = np.concatenate(errors)
                 if np.linalg.norm(error) < 1e-12:
@@ -55,8 +55,8 @@ def tree_complaint(program, design, doc):
                 q = pin.integrate(model, q, np.linalg.lstsq(np.vstack(rows), error, rcond=None)[0])
             found = lengths + [q[model.joints[j].idx_q] for j in slides]
             unit = doc["design_unit"]["mm"] / 1000
-            x, y, z, w = pin.Quaternion(wanted.rotation).coeffs()
-            pose = ",".join(map(repr, map(float, [*(wanted.translation / unit), w, x, y, z])))
+            x, y, z, w = pin.Quaternion(expected.rotation).coeffs()
+            pose = ",".join(map(repr, map(float, [*(expected.translation / unit), w, x, y, z])))
             answer = json.loads(run(program, "ik", design, f"--pose={pose}", "--json"))
             meant = np.array(answer["lengths"]) * unit
             if abs(found - meant).max() > 1e-9 * size:

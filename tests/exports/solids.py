@@ -244,7 +244,7 @@ def check_stl(folder, name, doc):
     for body in ("base", "platform"):
         plate, _, area = plate_facts(doc, body)
         posts = sum(h["post"] for h in plate["holes"]) * math.pi * doc[body]["ball_diameter"] ** 2 / 4
-        wanted = area * plate["thickness"] + posts
+        expected = area * plate["thickness"] + posts
         def good(path):
             mesh = RWStl.ReadFile_s(str(path))
             if mesh is None:
@@ -259,6 +259,6 @@ def check_stl(folder, name, doc):
                 volume += sum(x * y for x, y in zip(a, cross(b, c))) / 6
             if any(n != edges.get((b, a), 0) for (a, b), n in edges.items()):
                 return "not closed"
-            return "" if abs(volume / wanted - 1) < 2e-3 else f"volume {volume} instead of {wanted}"
+            return "" if abs(volume / expected - 1) < 2e-3 else f"volume {volume} instead of {expected}"
         compare(f"{name} stl {body} (OCCT): closed, volume", good, folder / f"{body}-plate.stl", folder / "wrong.stl",
                 lambda text: "\n".join(text.splitlines()[:1] + text.splitlines()[8:]))

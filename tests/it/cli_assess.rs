@@ -68,8 +68,8 @@ fn a_distance_equal_to_the_least_one_is_at_its_limit() {
     let (code, doc) = assess(&with("6.0"));
     assert_eq!((code, platform(&doc)), (Some(0), (Some(true), Some(true))), "{doc}");
     let text = String::from_utf8(equipod(&["assess", &with("6.0")]).stdout).unwrap();
-    let row = text.lines().find(|l| l.starts_with("spacing of platform joints")).unwrap();
-    assert!(row.starts_with("spacing of platform joints =at limit") && !row.contains("-0.0"), "{text}");
+    let row = text.lines().find(|l| l.starts_with("distance of platform joints")).unwrap();
+    assert!(row.starts_with("distance of platform joints =at limit") && !row.contains("-0.0"), "{text}");
     let (code, doc) = assess(&with("6.000000001"));
     assert_eq!((code, platform(&doc)), (Some(1), (Some(false), Some(false))), "{doc}");
     let (code, doc) = assess(&with("5.999999999"));
@@ -267,7 +267,7 @@ fn fixture(folder: &Path, name: &str, edit: impl Fn(String) -> String) -> String
 
 /// Limits without a workspace were once called met, proved for every pose of the workspace.
 #[test]
-fn limits_without_a_workspace_are_judged_at_home_by_every_command() {
+fn limits_without_a_workspace_are_assessed_at_home_by_every_command() {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html").to_str().unwrap().to_owned();
     let said = |words: &[&str]| {
@@ -318,7 +318,7 @@ fn the_page_of_cranks_without_a_workspace_says_that_none_is_stated() {
 }
 
 #[test]
-fn a_list_of_poses_is_judged_at_these_poses_and_not_between_them() {
+fn a_list_of_poses_is_assessed_at_these_poses_and_not_between_them() {
     let folder = tempfile::tempdir().unwrap();
     let listed = |poses: &str, more: &str| {
         let edit = |text: String| {
@@ -331,10 +331,10 @@ fn a_list_of_poses_is_judged_at_these_poses_and_not_between_them() {
     let poses =
         "{ position = [2, 0, 0], rpy_deg = [0, 0, 0] }, { position = [0, 2, 0], rpy_deg = [0, 0, 0] }";
     let (text, doc) = listed(poses, "");
-    assert!(text.contains("at the 2 poses listed; poses between them are not judged"), "{text}");
+    assert!(text.contains("at the 2 poses listed; poses between them are not assessed"), "{text}");
     assert!(
         text.contains(
-            "No singular pose among the 2 poses listed: proved; poses between them are not judged."
+            "No singular pose among the 2 poses listed: proved; poses between them are not assessed."
         )
     );
     assert!(!text.contains("every pose") && !text.contains("in the workspace"), "{text}");
@@ -361,14 +361,16 @@ fn what_is_made_from_a_design_keeps_its_characteristic_length() {
     // joints inside the sides alone would give a shorter one
     let own = Design::load(&made).unwrap().manipulator().platform_rms_radius();
     assert!(own < 0.9 * length(start), "{own}");
-    let (_, judged) = assess(&made);
+    let (_, assessed) = assess(&made);
     let found = document(&equipod(&["compare", start, &made, "--points", "10", "--json"]));
     let compared = &found["designs"][1];
     assert_eq!(found["characteristic_length"].as_f64(), Some(length(start)));
     let value = |v: &Value| v.as_f64().unwrap();
     assert_eq!(compared["conditioning"], compared["assessment"]["conditioning"]["inverse_condition"]);
-    // `assess` looked at fewer poses here
-    assert!(value(&compared["conditioning"]) <= value(&judged["conditioning"]["inverse_condition"]) + 1e-12);
+    // `assess` examined fewer poses here
+    assert!(
+        value(&compared["conditioning"]) <= value(&assessed["conditioning"]["inverse_condition"]) + 1e-12
+    );
 }
 
 /// One length in one comparison: alone this design has another.

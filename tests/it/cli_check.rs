@@ -118,10 +118,10 @@ fn the_finite_poses_for_generic_lengths_are_counted() {
 fn people_are_told_the_verdict_and_the_algebra_where_they_ask_for_it() {
     let said = |args: &[&str]| String::from_utf8(equipod(args).stdout).unwrap();
     let short = said(&["check", "designs/rbt-midline.toml"]);
-    let wanted = "\
-midline Griffis-Duffy 12-6 (singular): architecturally singular, no pose holds the platform
+    let expected = "\
+midline Griffis-Duffy 12-6 (singular): architecturally singular, the legs hold the platform at no pose
 Proved about the exact joints: the joints lie on the sides of two triangles (Griffis-Duffy type) with prod t_i = prod (1 - t_i) (legs 1, 2, 3, 4, 5, 6).";
-    assert!(short.starts_with(wanted) && !short.contains("rank of the leg vectors"), "{short}");
+    assert!(short.starts_with(expected) && !short.contains("rank of the leg vectors"), "{short}");
     let long = said(&["check", "designs/rbt-midline.toml", "--details"]);
     for part in [
         "joints: exact numbers of Q(sqrt(3))",
@@ -133,8 +133,7 @@ Proved about the exact joints: the joints lie on the sides of two triangles (Gri
         assert!(long.contains(part), "{part}: {long}");
     }
     let general = said(&["check", "designs/general-6-6.toml"]);
-    let count =
-        "40 ways to assemble it for given leg lengths, real and complex, counted; 0 lost at infinity.";
+    let count = "Generic leg lengths have 40 poses, real and complex, counted modulo random primes.";
     assert!(general.contains(count), "{general}");
     // three digits, or as many as are asked for
     let digits = |n: &str| said(&["check", "designs/general-6-6.toml", "--digits", n]);

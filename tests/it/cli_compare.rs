@@ -96,22 +96,22 @@ fn legs_weigh_the_same_in_compare_assess_and_motion() {
     let list = |k: usize| -> Vec<&str> {
         doc["designs"][k]["assumptions"].as_array().unwrap().iter().map(|s| s.as_str().unwrap()).collect()
     };
-    let massless = "The legs have no masses in [hardware]: they are taken as massless.";
+    let massless = "The legs have no masses in [hardware]: they are assumed massless.";
     assert_eq!((list(0), list(1)), (vec![massless], vec![]));
-    assert!(list(2).iter().any(|s| s.contains("platform is taken as massless")), "{:?}", list(2));
+    assert!(list(2).iter().any(|s| s.contains("platform is assumed massless")), "{:?}", list(2));
     assert!(doc["designs"][0]["assessment"]["assumptions"].is_null(), "the list stands once");
     let compared = ["compare", &light, &whole, "--points", "20"];
     let text = String::from_utf8(equipod(&compared).stdout).unwrap();
     assert_eq!(text.matches(massless).count(), 1, "{text}");
     assert!(text.contains(": The legs have no masses"), "with the name of the design: {text}");
     // assess says the same of each design
-    let judged = |path: &str| document(&equipod(&["assess", path, "--json"]));
+    let assessed = |path: &str| document(&equipod(&["assess", path, "--json"]));
     let row = |doc: &Value| {
         let rows = doc["requirements"].as_array().unwrap();
         rows.iter().find(|row| row["name"] == "leg_force").unwrap_or_else(|| panic!("{doc}")).clone()
     };
     for (k, path, between) in [(0, &light, "payload"), (1, &whole, "payload"), (2, &legs, "legs")] {
-        let doc = judged(path);
+        let doc = assessed(path);
         let row = row(&doc);
         let force = 3000.0 - row["margin"].as_f64().unwrap();
         assert!((force / figure(k, "force") - 1.0).abs() < 1e-9, "{row}");
@@ -119,8 +119,8 @@ fn legs_weigh_the_same_in_compare_assess_and_motion() {
         let proved = row["proved_margin"].as_f64().unwrap();
         assert!(proved <= 3000.0 - figure(k, "force") + 1e-9 && proved > 0.0, "{row}");
     }
-    assert_eq!(judged(&light)["assumptions"], serde_json::json!([massless]));
-    assert!(judged(&whole)["assumptions"].is_null());
+    assert_eq!(assessed(&light)["assumptions"], serde_json::json!([massless]));
+    assert!(assessed(&whole)["assumptions"].is_null());
     let text = String::from_utf8(equipod(&["assess", &light]).stdout).unwrap();
     assert_eq!(text.matches(massless).count(), 1, "{text}");
 }

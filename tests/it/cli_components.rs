@@ -53,7 +53,7 @@ fn the_octahedral_platform_has_the_six_sides_of_the_hexagon() {
 
 #[test]
 fn every_shipped_design() {
-    for (design, wanted) in [
+    for (design, expected) in [
         ("general-6-6", vec![]),
         ("dietmaier", vec![]),
         ("lee-shim", vec![]),
@@ -61,7 +61,7 @@ fn every_shipped_design() {
         ("symmetric-hexapod", vec!["plane-plane"]),
     ] {
         let doc = of(design, &["--samples", "2"]);
-        assert_eq!(types(&doc), wanted, "{design}");
+        assert_eq!(types(&doc), expected, "{design}");
     }
     // curves are split over the fractions: of exact joints with square roots nothing is said about their doubles
     let doc = of("symmetric-hexapod", &[]);

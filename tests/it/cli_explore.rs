@@ -95,7 +95,7 @@ fn the_folder_holds_designs_records_pictures_and_report() {
     std::fs::copy(shipped("dietmaier"), first.join("foreign.toml")).unwrap();
     std::fs::File::create(first.join("huge.json")).unwrap().set_len(1 << 30).unwrap();
     let out = explore(&shipped("rbt-octahedral"), &first, &["--json", "--quiet"]);
-    assert!(out.stderr.is_empty(), "no progress where none is wanted");
+    assert!(out.stderr.is_empty(), "no progress where none is requested");
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
     assert_eq!((&d["verdict"], &d["schema_version"]), (&Value::from("equivalent"), &Value::from(1)));
     assert_eq!(d["paths"].as_array().unwrap().len(), FILES.len());
@@ -164,9 +164,9 @@ fn optimised_design_has_the_lengths_of_the_same_poses(folder: &Path) {
         })),
         position: nalgebra::Vector3::from_fn(|i, _| x(&root["p"]["re"][i])),
     };
-    let (found, wanted) = (pose.lengths(new.manipulator()).unwrap().get(), new.lengths.unwrap().get());
+    let (found, required) = (pose.lengths(new.manipulator()).unwrap().get(), new.lengths.unwrap().get());
     for i in 0..6 {
-        assert!((found[i] - wanted[i]).abs() < 1e-8, "leg {}", i + 1);
+        assert!((found[i] - required[i]).abs() < 1e-8, "leg {}", i + 1);
     }
 }
 
@@ -241,7 +241,7 @@ fn limits_that_leave_no_space_are_infeasible_with_a_report() {
     assert!(!temp.path().join("out/optimised.toml").exists());
     assert!(
         read(&temp.path().join("out"), "report.md")
-            .contains("every branch of the offsets is proved to violate the limits")
+            .contains("Every branch of the offsets violates the limits: proved.")
     );
 }
 
@@ -359,7 +359,7 @@ fn the_page_of_a_run_is_that_of_the_command_report() {
 
 #[test]
 #[ignore = "evidence"]
-fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
+fn the_platform_is_searched_under_the_requirements_and_assessed_as_assess_does() {
     let temp = tempfile::tempdir().unwrap();
     let design = temp.path().join("limited.toml");
     let run = |text: &str, to: &str| {

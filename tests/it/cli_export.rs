@@ -75,8 +75,8 @@ fn what_is_written_and_left_out_is_told() {
     assert_eq!(out.status.code(), Some(0));
     let text = String::from_utf8(out.stdout).unwrap().replace(folder.path().to_str().unwrap(), "DIR");
     // whether the design meets its requirements stands first
-    let (judged, text) = text.split_once("\n\nwrote").map(|(a, b)| (a, format!("wrote{b}"))).unwrap();
-    assert!(judged.starts_with("octahedral 12-6 meets all its requirements, proved"), "{judged}");
+    let (assessed, text) = text.split_once("\n\nwrote").map(|(a, b)| (a, format!("wrote{b}"))).unwrap();
+    assert!(assessed.starts_with("octahedral 12-6 meets all its requirements, proved"), "{assessed}");
     let written = r"wrote DIR/base-plate.dxf
 wrote DIR/platform-plate.dxf
   dxf leaves out legs; heights of joints above the plate are text only
@@ -88,7 +88,7 @@ wrote DIR/genhexkins.hal
         (
             "ball diameter, base",
             "0.346 mm",
-            "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home",
+            "rule: minimum of 0.05 of the size, 0.4 of the least distance of joints, 0.1 of the shortest leg at home",
         ),
         ("hole diameter, platform", "0.173 mm", "rule: half a ball"),
         ("cylinder length from the base joint", "8.08 mm", "rule: half the shortest leg at home"),

@@ -43,8 +43,8 @@ fn assess_proves_both_angles_of_universal_joints() {
         {
             let row = rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {answer}"));
             let second = name.ends_with("second_angle");
-            let wanted = if second && exit == 1 { "violated" } else { "met" };
-            assert_eq!(row["status"], wanted, "{row}");
+            let expected = if second && exit == 1 { "violated" } else { "met" };
+            assert_eq!(row["status"], expected, "{row}");
         }
         assert_eq!(out.status.code(), Some(exit), "{answer}");
     }
@@ -103,7 +103,7 @@ fn joints_per_leg_have_housings_of_their_own() {
 /// Each leg has the limits of its own joint. The least margin of a row is at a leg that has such a joint, and a limit
 /// of other legs changes nothing.
 #[test]
-fn joints_per_leg_are_judged_leg_by_leg() {
+fn joints_per_leg_are_assessed_leg_by_leg() {
     let poses = size(&["--points", "200"][..], &[]);
     let folder = tempfile::tempdir().unwrap();
     let row = |name: &str, lines: &str| {
@@ -207,7 +207,7 @@ fn commands_take_joints_per_leg_or_refuse_them() {
 
 #[test]
 #[ignore = "evidence"]
-fn assess_judges_drives_whose_joints_are_not_ideal() {
+fn assess_assesses_drives_whose_joints_are_not_ideal() {
     let folder = tempfile::tempdir().unwrap();
     let hexapod = std::fs::read_to_string(DESIGN).unwrap();
     assert!(hexapod.contains("translation = [60.0, 60.0, 60.0]"));

@@ -103,7 +103,7 @@ fn free_grids_are_told_written_and_no_worse() {
     assert!(written.description.as_ref().unwrap().contains("turned by"));
 }
 
-/// The design of [`design`] with housings that have no room.
+/// The design of [`design`] with housings that do not fit.
 fn crowded(folder: &Path) -> String {
     let path = design(folder);
     let text = std::fs::read_to_string(&path).unwrap();

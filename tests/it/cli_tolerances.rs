@@ -53,7 +53,7 @@ fn the_text_names_the_most_critical_joint_first() {
     ];
     let out = equipod(&args);
     let text = String::from_utf8(out.stdout).unwrap();
-    assert!(text.contains("most critical first") && text.contains("20 within the bound"), "{text}");
+    assert!(text.contains("position mm/mm") && text.contains("20 within the required accuracy"), "{text}");
     assert!(text.contains("after one Newton step"), "{text}");
 }
 

@@ -36,7 +36,7 @@ fn the_published_pair_is_equivalent_at_ten_samples() {
 
 #[test]
 fn poses_that_rounding_of_the_joints_makes_do_not_spoil_the_verdict() {
-    // Rounded joints make the 6-6 a platform with 24 more poses, at |R| of about 1e13. `verify` does not look for them,
+    // Rounded joints make the 6-6 a platform with 24 more poses, at |R| of about 1e13. `verify` does not search for them,
     // and those that it meets do not speak against the pair.
     let (a, b) = (design("worked/isolator-octahedral.toml"), design("worked/isolator-1.toml"));
     let out = verify(&a, &b, &["--json"]);
@@ -85,9 +85,9 @@ fn the_midline_platform_is_singular_and_an_unrelated_one_is_not_equivalent() {
     let folder = tempfile::tempdir().unwrap();
     let other = folder.path().join("other.toml");
     let units = text.lines().find(|l| l.starts_with("units")).unwrap();
-    let wanted = std::fs::read_to_string(&octahedral).unwrap();
-    let wanted = wanted.lines().find(|l| l.starts_with("units")).unwrap();
-    std::fs::write(&other, text.replace(units, wanted)).unwrap();
+    let expected = std::fs::read_to_string(&octahedral).unwrap();
+    let expected = expected.lines().find(|l| l.starts_with("units")).unwrap();
+    std::fs::write(&other, text.replace(units, expected)).unwrap();
     let out = verify(&octahedral, &other, &["--samples", "1"]);
     assert_eq!(out.status.code(), Some(1), "{out:?}");
     let text = String::from_utf8(out.stdout).unwrap();

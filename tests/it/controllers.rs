@@ -150,7 +150,7 @@ fn checks_of_poses_find_planted_faults() {
     let exported = Exported::of(&design);
     exported.plant("linuxcnc/equipodkins.h", "move_origin(-tool, ", "move_origin(0, ");
     assert!(!exported.kinematics("poses.c", "linuxcnc", &[]).0);
-    // joints that are not looked at
+    // joints that are not examined
     let exported = Exported::of(&design);
     exported.plant("equipod.c", "    return finite;\n", "    return 1;\n");
     assert!(!exported.kinematics("poses.c", "linuxcnc", &[]).0);

@@ -135,10 +135,10 @@ fn anchor(heading: &str) -> String {
     kept.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
 }
 
-fn has_heading(text: &str, wanted: &str) -> bool {
+fn has_heading(text: &str, expected: &str) -> bool {
     text.lines()
         .filter(|line| line.starts_with('#'))
-        .any(|line| anchor(line.trim_start_matches('#')) == wanted)
+        .any(|line| anchor(line.trim_start_matches('#')) == expected)
 }
 
 /// Links of a page to headings that are not there.
@@ -166,7 +166,7 @@ fn out_of_reach(clicks: &BTreeMap<PathBuf, usize>, place: &str) -> Option<String
     let (name, heading) = place.split_once('#').map_or((place, None), |(name, h)| (name, Some(h)));
     let Ok(page) = root().join(name).canonicalize() else { return Some(format!("{name} does not exist")) };
     let text = std::fs::read_to_string(&page).unwrap();
-    if heading.is_some_and(|wanted| !has_heading(&text, wanted)) {
+    if heading.is_some_and(|expected| !has_heading(&text, expected)) {
         return Some(format!("{place}: no such heading"));
     }
     match clicks.get(&page) {

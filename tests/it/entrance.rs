@@ -216,7 +216,7 @@ fn verify_shows_its_samples_and_can_be_ended() {
 }
 
 #[test]
-fn judgements_say_yes_no_and_not_known() {
+fn verdicts_say_yes_no_and_not_known() {
     assert_eq!(octahedral().check().unwrap().is_singular(), Some(false));
     let singular = Design::load("designs/rbt-midline.toml").unwrap().check().unwrap();
     assert_eq!(singular.is_singular(), Some(true));

@@ -93,10 +93,11 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
         .current_dir(folder.path())
         .output()
         .unwrap();
-    let row = "s1' = 4/5 s1 + 1/5 s2 - 576/25    (det A = 0 with t = 3/5 in this row)";
+    let row = "s1' = 4/5 s1 + 1/5 s2 - 576/25    (det A = 0 for offset t = 3/5)";
     let table = String::from_utf8(table.stdout).unwrap();
     assert!(
-        table.contains(row) && table.contains(&format!("det A = {all}: singular where it is zero")),
+        table.contains(row)
+            && table.contains(&format!("det A = {all}; the platform is singular if det A = 0")),
         "{table}"
     );
     let (code, verified) = run(folder.path(), &["verify", "octahedral.toml", "free.toml", "--samples", "2"]);

@@ -31,14 +31,14 @@ fn names(code: &str) -> BTreeSet<&str> {
     uses.chain(paths).flat_map(|text| text.split(move |c| !word(c))).collect()
 }
 
-/// The rooms whose packages the package of a room sees, directly or through another one.
-fn seen(room: &str) -> BTreeSet<String> {
-    let manifest = std::fs::read_to_string(file(room).join("Cargo.toml")).unwrap();
+/// The packages whose packages the package of a package sees, directly or through another one.
+fn seen(package: &str) -> BTreeSet<String> {
+    let manifest = std::fs::read_to_string(file(package).join("Cargo.toml")).unwrap();
     let (_, dependencies) = manifest.split_once("[dependencies]").unwrap();
     let (dependencies, _) = dependencies.split_once("\n[").unwrap();
     let names = dependencies.lines().filter_map(|line| line.split(['.', ' ']).next());
-    let rooms = names.filter(|name| !name.is_empty() && file(name).is_dir());
-    rooms.flat_map(|name| seen(name).into_iter().chain([name.to_owned()])).collect()
+    let packages = names.filter(|name| !name.is_empty() && file(name).is_dir());
+    packages.flat_map(|name| seen(name).into_iter().chain([name.to_owned()])).collect()
 }
 
 /// The compiler refuses names that a package does not list, so that its manifest decides.
@@ -53,11 +53,11 @@ fn poses_and_leg_maps_do_not_reach_each_other() {
 /// The order of `docs/architecture.md`. Kernels know no design files.
 #[test]
 fn rooms_see_only_rooms_above_them() {
-    let rooms = ["num", "platform", "fk", "synthesis", "verify", "machine", "files", "optimize"];
-    for (k, room) in rooms.into_iter().enumerate() {
-        let seen = seen(room);
-        assert!(seen.iter().all(|name| rooms[..k].contains(&name.as_str())), "{room}: {seen:?}");
-        assert!(!seen.contains("files"), "{room} is a kernel");
+    let packages = ["num", "platform", "fk", "synthesis", "verify", "machine", "files", "optimize"];
+    for (k, package) in packages.into_iter().enumerate() {
+        let seen = seen(package);
+        assert!(seen.iter().all(|name| packages[..k].contains(&name.as_str())), "{package}: {seen:?}");
+        assert!(!seen.contains("files"), "{package} is a kernel");
     }
 }
 

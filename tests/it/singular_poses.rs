@@ -112,7 +112,7 @@ fn a_motion_through_a_singular_pose_is_refused_with_the_pose() {
     let out = equipod(&["motion", &design, &before, "--json"]);
     let doc = document(&out);
     assert_eq!((out.status.code(), &doc["motions"][0]["regularity"]), (Some(0), &"proved".into()), "{doc}");
-    // sines and accelerations are judged by the same test
+    // sines and accelerations are assessed by the same test
     let sine =
         |text: &str| document(&equipod(&["motion", &design, "--sine", text, "--json"]))["motions"][0].clone();
     let far = sine("yaw:100:1");

@@ -108,7 +108,7 @@ fn faults_of(steps: Vec<Step>, folder: &Path) -> Vec<String> {
     faults
 }
 
-/// Runs a command line in a folder, judges its answer, and returns its exit code and output. The output is the answer
+/// Runs a command line in a folder, assesses its answer, and returns its exit code and output. The output is the answer
 /// as data, unless words for people are asked for.
 fn run(command: &str, words_wanted: bool, folder: &Path, faults: &mut Vec<String>) -> (Option<i32>, String) {
     // quotes are for a shell
@@ -117,14 +117,14 @@ fn run(command: &str, words_wanted: bool, folder: &Path, faults: &mut Vec<String
     let shown = |out: Output| {
         (out.status.code(), String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap())
     };
-    if !judges(command) {
+    if !assesses(command) {
         return shown(equipod_in(folder, &words[1..]));
     }
     let copy = tempfile::tempdir().unwrap();
     if words_wanted {
         copy_folder(folder, copy.path());
     }
-    let (out, found) = judged(&words, if words_wanted { copy.path() } else { folder });
+    let (out, found) = assessed(&words, if words_wanted { copy.path() } else { folder });
     faults.extend(found.into_iter().map(|fault| format!("{command}: {fault}")));
     shown(if words_wanted { equipod_in(folder, &words[1..]) } else { out })
 }
@@ -133,9 +133,9 @@ fn equipod_in(folder: &Path, words: &[String]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_equipod")).current_dir(folder).args(words).output().unwrap()
 }
 
-/// Compares the answer of a command with the judgement of `assess` on the designs that the answer is about. These are
+/// Compares the answer of a command with the verdict of `assess` on the designs that the answer is about. These are
 /// the new designs, or else those that were read.
-fn judged(words: &[String], folder: &Path) -> (Output, Vec<String>) {
+fn assessed(words: &[String], folder: &Path) -> (Output, Vec<String>) {
     let before = designs(folder);
     let mut all = words[1..].to_vec();
     all.extend((!words.iter().any(|w| w == "--json")).then(|| "--json".to_owned()));
@@ -150,9 +150,9 @@ fn judged(words: &[String], folder: &Path) -> (Output, Vec<String>) {
     if subjects.is_empty() {
         subjects = after.keys().filter(|path| words.contains(path)).collect();
     }
-    let judged: Vec<(String, bool)> =
+    let assessed: Vec<(String, bool)> =
         subjects.into_iter().map(|path| (path.clone(), !is_refused(path, folder))).collect();
-    (out, contradictions(&answer, &judged))
+    (out, contradictions(&answer, &assessed))
 }
 
 /// Designs of a folder and of those below it by their paths, with their texts. The original named by `explore` is the
@@ -179,7 +179,7 @@ fn designs(folder: &Path) -> BTreeMap<String, String> {
 }
 
 /// Commands whose answer says whether a design meets its requirements.
-fn judges(command: &str) -> bool {
+fn assesses(command: &str) -> bool {
     let verbs =
         ["assess", "optimize", "explore", "build", "export", "view", "report", "compare", "equivalents move"];
     let of = |verb: &str| {
@@ -197,7 +197,7 @@ fn calls_good(answer: &Value) -> bool {
     met(answer) || found || each("candidates") || each("designs")
 }
 
-/// The judgements of `assess` on the designs with these texts: many commands are about the same one.
+/// The verdicts of `assess` on the designs with these texts: many commands are about the same one.
 static SAID: Mutex<BTreeMap<String, bool>> = Mutex::new(BTreeMap::new());
 
 /// Whether `assess` does not call a design good; one that requires nothing cannot be bad.
@@ -215,16 +215,16 @@ fn is_refused(design: &str, folder: &Path) -> bool {
 
 /// Cases of an answer that calls designs good which `assess` refuses. It calls the only one or all of them good, or a
 /// candidate whose file has its number.
-fn contradictions(answer: &Value, judged: &[(String, bool)]) -> Vec<String> {
+fn contradictions(answer: &Value, assessed: &[(String, bool)]) -> Vec<String> {
     let mut out = Vec::new();
-    if calls_good(answer) && !judged.is_empty() && judged.iter().all(|(_, good)| !good) {
-        let names: Vec<&str> = judged.iter().map(|(path, _)| path.as_str()).collect();
+    if calls_good(answer) && !assessed.is_empty() && assessed.iter().all(|(_, good)| !good) {
+        let names: Vec<&str> = assessed.iter().map(|(path, _)| path.as_str()).collect();
         out.push(format!("`assess` does not agree about {}", names.join(", ")));
     }
     for (k, candidate) in answer["candidates"].as_array().into_iter().flatten().enumerate() {
         let number = (k + 1).to_string();
         let own =
-            judged.iter().filter(|(path, good)| !good && Path::new(path).file_stem().unwrap() == &*number);
+            assessed.iter().filter(|(path, good)| !good && Path::new(path).file_stem().unwrap() == &*number);
         out.extend(
             own.filter(|_| calls_good(candidate))
                 .map(|(path, _)| format!("`assess` does not agree about {path}")),
@@ -310,9 +310,9 @@ fn a_page_that_promises_too_much_is_found_out() {
 #[test]
 fn praise_that_assess_does_not_share_is_found_out() {
     let found = |answer: Value, all: &[(&str, bool)]| {
-        let judged: Vec<(String, bool)> =
+        let assessed: Vec<(String, bool)> =
             all.iter().map(|(path, good)| ((*path).to_owned(), *good)).collect();
-        contradictions(&answer, &judged).len()
+        contradictions(&answer, &assessed).len()
     };
     for praise in [
         json!({"status": "optimal"}),
@@ -345,13 +345,13 @@ fn praise_that_assess_does_not_share_is_found_out() {
     assert_eq!(designs(folder.path()).len(), 3);
     let refused = |name: &str| is_refused(name, folder.path());
     assert_eq!(["bad.toml", "none.toml"].map(refused), [true, false]);
-    let said = |text: &str| judged(&text.split(' ').map(str::to_owned).collect::<Vec<_>>(), folder.path());
+    let said = |text: &str| assessed(&text.split(' ').map(str::to_owned).collect::<Vec<_>>(), folder.path());
     assert_eq!(said("equipod assess bad.toml").1, [""; 0]);
 }
 
 /// Commands of the pages that are not run here, by their beginning, and why.
 const LEFT_OUT: [(&str, &str); 13] = [
-    ("equipod bench ", "solves problems for minutes and judges no design; tests/it/cli_bench.rs runs it"),
+    ("equipod bench ", "solves problems for minutes and assesses no design; tests/it/cli_bench.rs runs it"),
     ("equipod export hexapod.toml ", "stands for any design with joints that are not ideal"),
     ("equipod fk DESIGN ", "stands for any design"),
     ("equipod design schema fk > ", "the shell writes the file"),
@@ -359,18 +359,21 @@ const LEFT_OUT: [(&str, &str); 13] = [
         "equipod plot pareto ",
         "reads the answer of a search for a front, which no page makes; tests/it/cli_plot.rs does",
     ),
-    ("equipod plot self-motion ", "a minute, and judges no design; tests/it/cli_plot.rs runs a shorter one"),
-    ("equipod singular motion ", "a minute, and judges no design; tests/it/cli_singularities.rs runs it"),
+    (
+        "equipod plot self-motion ",
+        "a minute, and assesses no design; tests/it/cli_plot.rs runs a shorter one",
+    ),
+    ("equipod singular motion ", "a minute, and assesses no design; tests/it/cli_singularities.rs runs it"),
     ("equipod shell completions bash > ", "writes into the folder of its user"),
     ("equipod shell completions fish > ", "writes into the folder of its user"),
     ("equipod shell man -o ~", "writes into the folder of its user"),
     (
         "equipod optimize designs/worked/",
-        "a minute; tests/it/worked_designs.rs judges the result, which is shipped",
+        "a minute; tests/it/worked_designs.rs assesses the result, which is shipped",
     ),
     (
         "equipod explore designs/worked/",
-        "minutes; tests/it/worked_designs.rs judges the result, which is shipped",
+        "minutes; tests/it/worked_designs.rs assesses the result, which is shipped",
     ),
     ("equipod assess designs/worked/bench-plates", "half a minute; it is `assess` itself"),
 ];

@@ -75,7 +75,7 @@ def shown_lengths(page, platform=1):
 
 
 def modes_are_all(shown, program, folder, which="original"):
-    """As many assembly modes as `fk` finds for the lengths in the table."""
+    """The number of assembly modes that `fk` finds for the lengths in the table."""
     page = shown.page
     page.click("#home")
     page.click("#find")
@@ -136,7 +136,7 @@ def at_the_limit(shown):
         shown.page.fill(f"input[aria-label='t{k} as a number']", "0.2")
         shown.page.keyboard.press("Enter")
     shown.settle()
-    spacing = shown.page.locator("#margins tbody tr", has_text="spacing of platform joints").locator("td").last
+    spacing = shown.page.locator("#margins tbody tr", has_text="distance of platform joints").locator("td").last
     assert "0, at the limit" in spacing.text_content() and spacing.get_attribute("class") == "yes", spacing.text_content()
     shown.page.fill("input[aria-label='t4 as a number']", "0.199999")
     shown.page.keyboard.press("Enter")

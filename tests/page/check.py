@@ -159,7 +159,7 @@ def required(chromium, program, folder, pictures):
     """A worked design: requirements with margins, a workspace of its own."""
     path = program.page(DESIGNS / "worked" / "positioner-joint-free.toml", folder / "worked.html")
     with Opened(chromium, path) as shown:
-        shown.judged()
+        shown.assessed()
         assert shown.page.locator("#margins tbody tr").count() > 0
         picture(shown, pictures, "worked")
         shown.quiet()
@@ -381,7 +381,7 @@ def faults(chromium, program, folder, pictures):
         "a core of other sources": ('"inverse_condition":', '"inverse_condition":1', fresh.same_answers),
         "a hidden leg": ("seen > best + 1e-3", "best < 0 || seen < best", lambda s: poses.no_leg_hidden(s, ["view-first", "view-second"])),
         "a shade that says nothing": ("violated[row * n + column];", "null;", lambda s: surfaces.shaded_as_assess(s, program, folder)),
-        "a workspace that is not looked at": ("limits.regular.met === false", "true", lambda s: limits.as_assess(s, program, folder)),
+        "a workspace that is not examined": ("limits.regular.met === false", "true", lambda s: limits.as_assess(s, program, folder)),
         "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
     }
     for name, (good, bad, check) in planted.items():

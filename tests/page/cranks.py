@@ -9,7 +9,7 @@ HEAD = DESIGNS / "presets" / "reachy-mini.toml"
 
 
 def near_home(folder):
-    """The head with half its workspace, which is judged in a fifth of the time."""
+    """The head with half its workspace, which is assessed in a fifth of the time."""
     text = HEAD.read_text()
     for key, wide, half in (("translation", 10.0, 5.0), ("rotation_deg", 10.0, 5.0)):
         assert f"{key} = {[wide] * 3}" in text, key

@@ -33,7 +33,7 @@ class Tab:
 
     def settle(self):
         time.sleep(0.35)
-        self.until("!document.documentElement.dataset.busy && !document.documentElement.dataset.judging")
+        self.until("!document.documentElement.dataset.busy && !document.documentElement.dataset.assessing")
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
 
     def text(self, selector):

@@ -11,7 +11,7 @@ BADGES = {True: "meets all requirements", None: "no violation found, not all pro
 def as_assess(shown, program, folder, which="equivalent"):
     """Badge, status and least margins are those of `equipod assess` for the design that the page saves."""
     page = shown.page
-    shown.judged()
+    shown.assessed()
     design = shown.download(f"{which}, TOML", folder / "assessed.toml")
     answer = program.json("assess", design, exits=(0, 1, 3))
     badge = page.text_content("#badge")
@@ -79,5 +79,5 @@ def at_its_worst(shown):
     row = page.locator("#margins tbody tr", has=page.locator("td:nth-child(2).no")).first
     assert not violated_here(shown)
     row.get_by_role("button", name="show pose").click()
-    shown.judged()
+    shown.assessed()
     assert violated_here(shown), page.text_content("#margins")

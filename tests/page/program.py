@@ -71,15 +71,15 @@ class Opened:
         self.settle()
 
     def settle(self):
-        """Waits until bursts of changes are answered and drawn; not for judgements over the workspace, which take longest."""
+        """Waits until bursts of changes are answered and drawn; not for assessments over the workspace, which take longest."""
         self.page.wait_for_timeout(350)
         self.page.wait_for_selector("html:not([data-busy])", state="attached", timeout=120000)
         self.drawn()
 
-    def judged(self):
-        """Waits until the workspace is judged as well, and what is shaded over the offsets."""
+    def assessed(self):
+        """Waits until the workspace is assessed as well, and what is shaded over the offsets."""
         self.settle()
-        self.page.wait_for_selector("html:not([data-busy]):not([data-judging])", state="attached", timeout=300000)
+        self.page.wait_for_selector("html:not([data-busy]):not([data-assessing])", state="attached", timeout=300000)
         self.drawn()
 
     def drawn(self):

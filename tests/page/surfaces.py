@@ -11,11 +11,11 @@ def put(shown, offsets):
     for k, value in enumerate(offsets, 1):
         shown.page.fill(f"input[aria-label='t{k} as a number']", repr(value))
         shown.page.keyboard.press("Enter")
-    shown.judged()
+    shown.assessed()
 
 
 def shaded_as_assess(shown, program, folder):
-    """Next to the mark the page says what `assess` finds at the same poses; the marks lie on points that were looked at."""
+    """Next to the mark the page says what `assess` finds at the same poses; the marks lie on points that were examined."""
     seen = set()
     for t1 in (0.2, 0.3, 0.5, 0.0, 1.2):
         put(shown, [t1, 0.3, 0.2, 0.3, 0.2, 0.3])

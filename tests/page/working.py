@@ -50,7 +50,7 @@ def stays_usable(shown):
     assert gap < took / 4, f"no frame for {gap:.0f} of {took:.0f} ms"
     found = table(shown)
     page.click("#find")
-    page.get_by_text("Looking for all poses").wait_for()
+    page.get_by_text("Searching for all poses").wait_for()
     assert page.get_attribute("html", "data-busy") == "worker"
     before = page.text_content("#pose-words")
     page.focus("#way")

@@ -611,9 +611,9 @@ def turn_reality(s):
 
 def run(program, options, tally):
     ctx.prec = BITS
-    wanted, k = options.certificates, 0
+    expected, k = options.certificates, 0
     folder = pathlib.Path(tempfile.mkdtemp())
-    while tally.checked.get("certificates", 0) < wanted:
+    while tally.checked.get("certificates", 0) < expected:
         name, design, rows = designs.draw(stream(options.seed, "certificates", k), k)
         k += 1
         path = folder / "design.json"
@@ -636,7 +636,7 @@ def run(program, options, tally):
                 if solution["certificate"] is None:
                     tally.count("solutions without certificate")
                     continue
-                if tally.checked.get("certificates", 0) >= wanted:
+                if tally.checked.get("certificates", 0) >= expected:
                     return
                 complaint, root = check(legs, row["lengths"], solution)
                 tally.count("certificates")

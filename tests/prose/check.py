@@ -62,7 +62,7 @@ def masked(text):
 
 
 def ends(text):
-    """Where a sentence ends and another one begins in the same line."""
+    """The places in a line between two sentences."""
     found = []
     for end in re.finditer(r"[.?!][\"')\]*_]* +(?=[\"'(\[*_]*[A-Z\u00a7])", text):
         before = re.search(r"[\w.-]*$", text[: end.start()]).group(0)

@@ -134,10 +134,10 @@ def peers(name, design, problems, folder, solver):
     size = design.characteristic_length
     home = design.home
     joints = (design.joints.base_ends, design.joints.platform_ends)
-    wanted = [
+    expected = [
         equipod.pose(home[:3, 3] + 0.4 * size * rng.uniform(-1, 1, 3), rpy=rng.uniform(-0.9, 0.9, 3)) for _ in range(problems)
     ]
-    lengths = [design.ik(pose) for pose in wanted]
+    lengths = [design.ik(pose) for pose in expected]
     number = design.check().pose_count.finite
     start = np.concatenate([home[:3, 3], equipod.rpy(home)])
 
@@ -152,7 +152,7 @@ def peers(name, design, problems, folder, solver):
 
     def measure(method, solve, has_right, is_complete):
         times, rights, complete = [], 0, 0
-        for l, pose in zip(lengths, wanted):
+        for l, pose in zip(lengths, expected):
             began = time.perf_counter()
             try:
                 found = solve(l)

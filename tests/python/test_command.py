@@ -111,19 +111,19 @@ def test_the_streams_of_the_process_stay_untouched(capfd):
 def test_progress_comes_as_lines_to_the_thread_that_asks(plan):
     lines = []
 
-    def look(line):
+    def observer(line):
         lines.append((line, threading.get_ident()))
         raise KeyboardInterrupt
 
     # the first interrupt is answered with what is done so far
-    assert ask(plan, look)["missing"]
+    assert ask(plan, observer)["missing"]
     assert lines and all("\n" not in line and thread == threading.get_ident() for line, thread in lines)
     assert lines[0][0].startswith("100000 candidates in 1000 shards")
 
 
 def test_what_progress_raises_ends_the_question(plan):
-    def look(line):
+    def observer(line):
         raise ValueError(line)
 
     with pytest.raises(ValueError, match="100000 candidates"):
-        ask(plan, look)
+        ask(plan, observer)

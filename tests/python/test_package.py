@@ -443,8 +443,8 @@ def test_margins_at_a_pose_are_signed_distances_to_limits():
     lengths = design.ik(design.home)
     short = [k for k, name in enumerate(margins.names) if name == "min_leg_length"]
     long = [k for k, name in enumerate(margins.names) if name == "max_leg_length"]
-    room = margins.values[short] + margins.values[long]
-    assert np.allclose(room, room[0]) and len(lengths) == len(short)
+    total = margins.values[short] + margins.values[long]
+    assert np.allclose(total, total[0]) and len(lengths) == len(short)
     batch = design.margins(np.stack([design.home] * 3))
     assert batch.values.shape == (3, len(margins.names))
 
@@ -714,9 +714,9 @@ def test_tables_are_read_by_arrow(octahedral):
     assert table.num_rows == len(batch.T) and table.column("row").to_pylist()[-1] == 4
     assert np.allclose(table.column("x_re").to_numpy(), batch.T[:, 0, 3].real)
     worked = equipod.Design.load(DESIGNS / "worked/bench-joint-free.toml")
-    judged = worked.assess(points=100, searches=0, cells=50)
-    rows = equipod.table(judged.requirements)
-    assert rows.num_rows == len(judged.requirements) and "margin" in rows.column_names
+    assessed = worked.assess(points=100, searches=0, cells=50)
+    rows = equipod.table(assessed.requirements)
+    assert rows.num_rows == len(assessed.requirements) and "margin" in rows.column_names
     margins = worked.margins(np.stack([worked.home] * 4)).to_arrow()
     assert margins.num_rows == 4 and len(set(margins.column_names)) == margins.num_columns
 

@@ -1,4 +1,4 @@
-"""One judgement for each question: the package says of a design and of two what the commands say."""
+"""One verdict for each question: the package says of a design and of two what the commands say."""
 
 import json
 import pathlib

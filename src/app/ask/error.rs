@@ -98,7 +98,7 @@ pub enum Error {
     SingularHome(SingularHome),
     /// Two designs in different units.
     #[cfg(feature = "files")]
-    #[error("{} is in {} and {} is in {}: write both in the same unit", .0[0].0, .0[0].1, .0[1].0, .0[1].1)]
+    #[error("{} has the unit `{}`, and {} has the unit `{}`: convert one of them", .0[0].0, .0[0].1, .0[1].0, .0[1].1)]
     Units(Box<[(String, String); 2]>),
     /// Singular values could not be computed.
     #[cfg(feature = "synthesis")]
@@ -139,7 +139,7 @@ pub enum Error {
     /// The design has no requirement to assess.
     #[cfg(feature = "files")]
     #[error(
-        "the design requires nothing: add [hardware] with leg lengths, joint angles, diameters or greatest forces"
+        "the design has no requirements: add [hardware] with leg lengths, joint angles, diameters or greatest forces"
     )]
     NothingRequired,
     /// There is nothing to export.
@@ -160,7 +160,7 @@ pub enum Error {
     DimensionalProblem(#[from] optimize::dimensional::InvalidProblem),
     /// A Pareto front requested together with a table of drives.
     #[cfg(feature = "optimize")]
-    #[error("a front is many platforms, and a drive is chosen for one")]
+    #[error("a front has many platforms, but a drive is chosen for one")]
     FrontWithDrives,
     /// A table of drives that is empty.
     #[cfg(feature = "optimize")]

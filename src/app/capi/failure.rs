@@ -100,7 +100,7 @@ impl From<Error> for CallFault {
         {
             // the remedy comes first, since a message that is too long is cut at its end
             let message = format!(
-                "the legs are rods on cranks, and this library takes legs that change their lengths; `equipod export DESIGN --to c` writes C for cranks: {error}"
+                "the legs are rods on cranks, but this library takes legs of variable length; `equipod export DESIGN --to c` writes C for cranks: {error}"
             );
             return Self::new(EqpStatus::Cranks, message);
         }

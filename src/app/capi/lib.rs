@@ -9,7 +9,7 @@
 
 #![allow(
     unsafe_code,
-    reason = "C hands over pointers and finds functions by exported names; every function says what it needs of its caller, and looks for null pointers"
+    reason = "C hands over pointers and finds functions by exported names; every function says what it needs of its caller, and checks for null pointers"
 )]
 #![allow(unreachable_pub, reason = "C reaches them by name")]
 

@@ -14,7 +14,7 @@ use platform::manipulator::Manipulator;
 use records::{AlignmentRecord, FramesRecord};
 use synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
 use synthesis::{LegMapOutcome, Relation};
-use verify::judge;
+use verify::decide_map;
 
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
@@ -58,9 +58,9 @@ pub(crate) fn same_units(a: &Design, b: &Design, code: &str) -> Result<(), Failu
     if a.units == b.units {
         return Ok(());
     }
-    let message = format!("{} is in {}, {} is in {}", a.name, a.units, b.name, b.units);
+    let message = format!("{} has the unit `{}`, and {} has the unit `{}`", a.name, a.units, b.name, b.units);
     Err(Failure::refused(code, message)
-        .with_help("write both designs in the same unit: the c of their leg map has the unit squared"))
+        .with_help("convert one of them: `equipod design convert DESIGN --units UNIT -o FILE`"))
 }
 
 impl AlignmentArgs {
@@ -71,7 +71,7 @@ impl AlignmentArgs {
         }
         let broken = |e: &dyn std::fmt::Display| {
             Failure::new(Exit::Inconclusive, "align::breakdown", format!("no motion could be computed: {e}"))
-                .with_help("coordinates of this magnitude are beyond what the search computes with; use a larger unit")
+                .with_help("the coordinates are too large for the search; use a larger unit")
         };
         let upside_down = exchanged(b.manipulator());
         let (given, other) = if self.exchange {
@@ -113,8 +113,8 @@ impl AlignmentArgs {
 impl Second {
     /// The relation of the first design and this one. A motion is known only to rounding, so after it nothing is proved
     /// except that a platform is singular.
-    pub(crate) fn judged(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
-        let given = judge(a, &self.given)?;
+    pub(crate) fn compared(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
+        let given = decide_map(a, &self.given)?;
         match self.aligned.as_ref().map(|found| &found.given) {
             Some(Alignment::Found { motions, .. }) if given.relation != Relation::Singular => {
                 Ok(motions[0].map.clone())

@@ -36,12 +36,16 @@ fn print(text: &str) {
     Errors::of_run().write_styled(text);
 }
 
+/// The violations of a design, then the failure. A single violation is the failure itself.
 fn render_failure(failure: &Failure) -> String {
     let mut out = String::new();
     if let Some(design) = &failure.design {
         for violation in &design.violations {
             out.push_str(&render_violation(&design.path, &design.text, violation));
             out.push('\n');
+        }
+        if design.violations.len() == 1 {
+            return out.trim_end().to_owned() + "\n";
         }
     }
     out + &report(Level::ERROR, &failure.code, &failure.message, None, failure.help.as_deref())

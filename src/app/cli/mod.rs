@@ -136,7 +136,7 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     };
     let output = Output::new(cli.global.json);
     if cli.licences {
-        let failure = Failure::refused("usage", "--licences is asked of the program, without a command");
+        let failure = Failure::refused("usage", "--licences is an option of `equipod` without a command");
         return output.failure(&failure.with_help("`equipod --licences`"), None);
     }
     if let Err(unfit) = check_arithmetic() {

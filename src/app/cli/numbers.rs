@@ -15,9 +15,7 @@ pub(crate) fn one(text: &str) -> Option<f64> {
 /// # Errors
 /// The fault of the text.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
-    one(text).ok_or_else(|| {
-        "this is no finite number, neither a decimal nor an expression such as 12/5".to_owned()
-    })
+    one(text).ok_or_else(|| "give a finite number: a decimal or an expression such as 12/5".to_owned())
 }
 
 /// A length as it is typed, before the design with its unit is read: `25`, `12/5 mm`, `36/19 in`.
@@ -84,6 +82,16 @@ pub(crate) fn lengths<const N: usize>(text: &str, word: &str, units: &str) -> Re
             one_length(field, units).map_err(|why| format!("value {} is not a length: {why}", i + 1))?;
     }
     Ok(values)
+}
+
+/// The fault of a text that is not `count` finite numbers separated by commas.
+pub(crate) fn fault(option: &str, text: &str, count: usize) -> String {
+    let fields: Vec<&str> = text.split(',').collect();
+    match fields.iter().find(|field| one(field).is_none()) {
+        Some(field) => format!("{option}: `{}` is not a finite number", field.trim()),
+        None if fields.len() == 1 => format!("{option} has one number instead of {count}"),
+        None => format!("{option} has {} numbers instead of {count}", fields.len()),
+    }
 }
 
 /// Finite numbers separated by commas.

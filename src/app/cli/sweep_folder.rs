@@ -53,7 +53,7 @@ pub(crate) enum ShardState {
 
 /// The depth of the check of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PartLook {
+pub(crate) enum PartCheck {
     /// The whole part: its digest is compared with the manifest.
     Whole,
     /// The size only, which detects truncation. For parts of other jobs: with as many jobs as shards, complete checks
@@ -134,16 +134,16 @@ impl SweepFolder {
     }
 
     /// Refuses to continue another sweep.
-    fn goes_on(self, wanted: &SweepFolderRecord) -> Result<Self, Failure> {
+    fn goes_on(self, requested: &SweepFolderRecord) -> Result<Self, Failure> {
         let own = &self.record;
         let differs = [
-            ("the plan or its base design", own.plan_sha256 == wanted.plan_sha256),
-            ("the seed", own.seed == wanted.seed),
-            ("the number of shards", own.shards == wanted.shards),
-            ("the version of the program", own.version == wanted.version),
+            ("the plan or its base design", own.plan_sha256 == requested.plan_sha256),
+            ("the seed", own.seed == requested.seed),
+            ("the number of shards", own.shards == requested.shards),
+            ("the version of the program", own.version == requested.version),
         ];
         let Some((what, _)) = differs.iter().find(|(_, same)| !same) else { return Ok(self) };
-        let message = format!("{} holds another sweep: {what} is another one", self.path.display());
+        let message = format!("{} contains another sweep: {what} differs", self.path.display());
         let help = format!(
             "name another folder; this one is of \"{}\", seed {}, {} shards, equipod {}",
             own.name, own.seed, own.shards, own.version
@@ -160,7 +160,7 @@ impl SweepFolder {
                 path.display()
             );
             return Err(Failure::refused("sweep::no_sweep", message)
-                .with_help("name the folder that `equipod sweep run PLAN -o DIR` was given"));
+                .with_help("give the folder DIR of `equipod sweep run PLAN -o DIR`"));
         };
         Ok(Self { path: path.to_path_buf(), record })
     }
@@ -180,10 +180,8 @@ impl SweepFolder {
         }
         let texts = self.texts();
         if texts.sha256() != self.record.plan_sha256 {
-            let message = format!(
-                "{}: plan and design do not have the digest that belongs to them",
-                self.path.join(SWEEP).display()
-            );
+            let message =
+                format!("{}: the digest of plan and design is wrong", self.path.join(SWEEP).display());
             return Err(Failure::refused("sweep::no_sweep", message)
                 .with_help("the file was altered: begin anew in another folder"));
         }
@@ -235,14 +233,14 @@ impl SweepFolder {
             _ if path.exists() => {
                 let message = format!("{} is not the table of poses of the sweep", path.display());
                 Err(Failure::refused("sweep::other_poses", message)
-                    .with_help("candidates name it: write them into another folder"))
+                    .with_help("the name is taken by --candidates: write them into another folder"))
             }
             _ => files::write_text(&path, text),
         }
     }
 
     /// The state of a shard.
-    pub(crate) fn state(&self, shard: u64, look: PartLook) -> ShardState {
+    pub(crate) fn state(&self, shard: u64, check: PartCheck) -> ShardState {
         let (part, manifest) = (self.part(shard), self.manifest(shard));
         if !manifest.exists() {
             return ShardState::Missing;
@@ -256,11 +254,11 @@ impl SweepFolder {
         {
             return ShardState::Damaged("the manifest is of another sweep".into());
         }
-        let seen = match look {
-            PartLook::Whole => {
+        let seen = match check {
+            PartCheck::Whole => {
                 files::open_regular(&part).and_then(digest_of).map(|(bytes, sha256)| (bytes, Some(sha256)))
             }
-            PartLook::Size => fs::metadata(&part).map(|m| (m.len(), None)),
+            PartCheck::Size => fs::metadata(&part).map(|m| (m.len(), None)),
         };
         match seen {
             Err(error) if error.kind() == ErrorKind::NotFound => ShardState::Missing,
@@ -359,7 +357,7 @@ impl SweepFolder {
 
     /// The finished and missing shards, after reading every part.
     pub(crate) fn status(&self) -> SweepStatusAnswer {
-        self.status_after(Vec::new(), |shard| self.state(shard, PartLook::Whole))
+        self.status_after(Vec::new(), |shard| self.state(shard, PartCheck::Whole))
     }
 
     /// The finished and missing shards by `state`, after the shards `computed` were computed.

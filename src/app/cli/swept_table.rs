@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::failure::Failure;
-use super::sweep_folder::{PartLook, ShardState, SweepFolder, open_table};
+use super::sweep_folder::{PartCheck, ShardState, SweepFolder, open_table};
 use sweep::part::PartReader;
 use sweep::plan::KeepCondition;
 use sweep::{SweepCell, SweepColumn};
@@ -33,7 +33,7 @@ fn tables(path: &Path) -> Result<(String, Vec<PartReader>), Failure> {
     }
     let folder = SweepFolder::open(path)?;
     let done = (0..folder.record.shards)
-        .filter(|s| matches!(folder.state(*s, PartLook::Whole), ShardState::Done(_)));
+        .filter(|s| matches!(folder.state(*s, PartCheck::Whole), ShardState::Done(_)));
     let readers = done.map(|s| folder.reader(s)).collect::<Result<Vec<_>, _>>()?;
     Ok((folder.record.name.clone(), readers))
 }
@@ -70,8 +70,8 @@ impl SweptTable {
         self.readers.first().and_then(|r| r.note(key)).unwrap_or_default()
     }
 
-    /// Calls `look` for the rows that fulfil all conditions, in order.
-    pub(crate) fn each_row(&self, mut look: impl FnMut(&[SweepCell])) -> Result<(), Failure> {
+    /// Calls `visit` for the rows that fulfil all conditions, in order.
+    pub(crate) fn each_row(&self, mut visit: impl FnMut(&[SweepCell])) -> Result<(), Failure> {
         let every: Vec<usize> = (0..self.columns.len()).collect();
         for reader in &self.readers {
             for group in 0..reader.groups() {
@@ -79,7 +79,7 @@ impl SweptTable {
                     .group(group, &every)
                     .map_err(|e| Failure::refused("sweep::damaged", format!("{}: {e}", self.path)))?;
                 for row in rows.iter().filter(|row| self.conditions.iter().all(|c| c.holds(row))) {
-                    look(row);
+                    visit(row);
                 }
             }
         }

@@ -47,9 +47,22 @@ pub(crate) fn refusal(error: &clap::Error, args: &[String]) -> Failure {
             let word = said(error, ContextKind::InvalidArg).unwrap_or_default();
             (message.to_string(), place.meant_option(&word).or_else(tip).unwrap_or(see))
         }
+        ErrorKind::ValueValidation => (in_words(message), tip().unwrap_or(see)),
         _ => (message.to_string(), tip().unwrap_or(see)),
     };
     Failure::refused("usage", message).with_help(help)
+}
+
+/// A message about a value, without the words of Rust for numbers and ranges.
+fn in_words(message: &str) -> String {
+    let message = message.replace("invalid digit found in string", "give a whole number");
+    match message
+        .split_once(" is not in ")
+        .and_then(|(before, range)| Some((before, range.split_once("..=")?)))
+    {
+        Some((before, (least, greatest))) => format!("{before} is not from {least} to {greatest}"),
+        None => message,
+    }
 }
 
 fn said(error: &clap::Error, kind: ContextKind) -> Option<String> {

@@ -217,7 +217,7 @@ fn regularity(design: &Design) -> (Option<bool>, Option<String>) {
 /// The design, the original's hexagon, and the patterns to choose from.
 pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
     let design = &session.design;
-    // results on the joints apply only to legs that change their lengths, so not to cranks
+    // results on the joints apply only to legs of variable length, so not to cranks
     let (singular, reason) = match session.cranks {
         None => regularity(session.first()),
         Some(_) => (None, None),

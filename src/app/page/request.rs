@@ -171,7 +171,7 @@ impl Session {
         let equivalent = |c: Option<Chosen>| c.map(Chosen::equivalent).transpose();
         if self.cranks.is_some() && matches!(request, PageRequest::Locus { .. } | PageRequest::Motion { .. })
         {
-            let message = "the legs are rods on cranks, and this is about legs that change their lengths";
+            let message = "the legs are rods on cranks, but this answer needs legs of variable length";
             return Err(Refusal::new("rotary", message));
         }
         match request {

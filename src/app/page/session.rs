@@ -134,7 +134,7 @@ impl Session {
     }
 
     /// The poses for the conditioning: the poses of the workspace, home first.
-    pub(super) fn judged(&self) -> Vec<Pose> {
+    pub(super) fn assessed_poses(&self) -> Vec<Pose> {
         self.design.workspace_or_default().sample(&self.home)
     }
 

@@ -202,7 +202,7 @@ fn joints_exactly_as_far_apart_as_required_are_at_the_limit() {
         let chosen = json!({"pattern": "S123456", "offsets": [0.3, t, 0.3, t, 0.3, t]});
         let state = ask(&session, &json!({"op": "state", "pose": home, "chosen": chosen}));
         let table = state["requirements"].as_str().unwrap();
-        let row = table.split("<tr>").find(|row| row.contains("spacing of platform joints")).unwrap();
+        let row = table.split("<tr>").find(|row| row.contains("distance of platform joints")).unwrap();
         (!row.contains(VIOLATED), row.contains("0, at the limit"))
     };
     assert_eq!(platform(0.2), (true, true), "0.2 of an edge of 6 is 1.2");

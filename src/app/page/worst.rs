@@ -53,7 +53,7 @@ impl Session {
 
 /// The least inverse condition number of both platforms, with its pose.
 pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<WorstRecord, Refusal> {
-    let poses = session.judged();
+    let poses = session.assessed_poses();
     let second = match e {
         Some(e) => session.worst(&session.second(e)?.0, &poses),
         None => None,

@@ -70,8 +70,8 @@ pub(super) fn verify(
     let (a, b) = (a.inner(), b.inner());
     let threads = threads_of(py, threads)?;
     let found = py.detach(|| {
-        let look = |_: &_| if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        let options = VerifyOptions::new().samples(samples).seed(seed).threads(threads).on_sample(look);
+        let observe = |_: &_| if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let options = VerifyOptions::new().samples(samples).seed(seed).threads(threads).on_sample(observe);
         ask::verify_with(a, b, options)
     });
     let found = found.map_err(|e| raised(py, e))?;

@@ -49,7 +49,7 @@ fn listen(heard: Receiver<String>, stop: &Stop, progress: Option<&Py<PyAny>>) ->
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return Ok(said),
         }
-        let looked = Python::attach(|py| -> PyResult<()> {
+        let checked = Python::attach(|py| -> PyResult<()> {
             py.check_signals()?;
             while let Some(length) = said[told..].find('\n') {
                 let line = &said[told..told + length];
@@ -58,7 +58,7 @@ fn listen(heard: Receiver<String>, stop: &Stop, progress: Option<&Py<PyAny>>) ->
             }
             Ok(())
         });
-        let Err(error) = looked else { continue };
+        let Err(error) = checked else { continue };
         let gives_best = stop.ask();
         if !gives_best || !Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py)) {
             return Err(error);

@@ -9,7 +9,9 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray2, PyRea
 use pyo3::prelude::*;
 
 use super::answers::document;
-use super::arrays::{leg_map_arrays, as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
+use super::arrays::{
+    as_it_stands, at_poses, leg_map_arrays, lengths_in, matrices, pose_entries, poses_in, shaped,
+};
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::forms::{ConventionWords, words_of};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};
@@ -60,7 +62,7 @@ impl NativeDesign {
             .map_err(|why| refused(py, "design::invalid", &why.to_string()))
     }
 
-    /// Refuses rods on cranks for questions about legs that change their lengths, and names the question to ask
+    /// Refuses rods on cranks for questions about legs of variable length, and names the question to ask
     /// instead.
     pub(super) fn only_of_legs(&self, py: Python<'_>, instead: &str) -> PyResult<()> {
         if self.design.has_cranks() { Err(refused_for_cranks(py, instead)) } else { Ok(()) }

@@ -74,11 +74,10 @@ pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
     design_error(py, code, message, &[])
 }
 
-/// The refusal of cranks for questions about legs that change their lengths, with the question to ask instead.
+/// The refusal of cranks for questions about legs of variable length, with the question to ask instead.
 pub(super) fn refused_for_cranks(py: Python<'_>, instead: &str) -> PyErr {
-    let message = format!(
-        "the design has rods on cranks, but this question needs legs that change their lengths: {instead}"
-    );
+    let message =
+        format!("the design has rods on cranks, but this question needs legs of variable length: {instead}");
     refused(py, Code::Rotary.name(), &message)
 }
 

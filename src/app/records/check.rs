@@ -185,7 +185,9 @@ fn headline(c: &CheckReport) -> String {
     let name = &c.design.name;
     match (&c.verdict.meant, c.is_singular()) {
         (Some(n), _) => format!("{name}: {}", n.words(&c.design.units)),
-        (None, Some(true)) => format!("{name}: architecturally singular, no pose holds the platform"),
+        (None, Some(true)) => {
+            format!("{name}: architecturally singular, the legs hold the platform at no pose")
+        }
         (None, Some(false)) => format!("{name}: regular, the legs hold the platform at almost every pose"),
         (None, None) => format!("{name}: not decided"),
     }
@@ -197,21 +199,21 @@ fn explanation(c: &CheckReport) -> String {
         let units = &c.design.units;
         return match n.within_digits {
             Some(half) => format!(
-                "a singular design ({}) is {:.1e} {units} away, and no coordinate differs from it by more than half a unit of the last digit given ({half} {units}); as written the design is regular",
+                "a singular design ({}) is only {:.1e} {units} away: every coordinate agrees with it within half a unit of the last digit ({half} {units}). As written the design is regular",
                 n.kind, n.distance
             ),
             None => format!(
-                "a singular design ({}) is {:.1e} {units} away, which is no more than rounding of the numbers; as written the design is regular",
+                "a singular design ({}) is only {:.1e} {units} away, within rounding of the numbers. As written the design is regular",
                 n.kind, n.distance
             ),
         };
     }
     match (c.is_singular(), c.verdict.architecture.findings.first()) {
         (None, _) => {
-            "joints are known between bounds only, and no pose is proved to hold the platform".into()
+            "the joints are known between bounds only, and at no pose the legs are proved to hold the platform".into()
         }
         (_, Some(f)) => format!("{} ({})", f.case.sentence(), legs_in_words(&leg_numbers(&f.legs))),
-        (_, None) => "almost every pose holds the platform".into(),
+        (_, None) => "the legs hold the platform at almost every pose".into(),
     }
 }
 

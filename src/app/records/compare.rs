@@ -249,8 +249,8 @@ impl CompareAnswer {
             of("conditioning", "", &|d| Some(d.conditioning)),
             of("least stiffness", &stiffness, &|d| d.stiffness),
             of("lowest frequency", "Hz", &|d| d.frequency_hz),
-            of("joint spacing, base", length, &|d| d.base_spacing),
-            of("joint spacing, platform", length, &|d| d.platform_spacing),
+            of("joint distance, base", length, &|d| d.base_spacing),
+            of("joint distance, platform", length, &|d| d.platform_spacing),
             of("leg clearance", length, &|d| d.clearance),
             of("radius, base", length, &|d| Some(d.base_radius)),
             of("radius, platform", length, &|d| Some(d.platform_radius)),
@@ -270,8 +270,8 @@ impl CompareAnswer {
     pub fn verdicts(&self) -> Vec<String> {
         let sentence = |d: &FiguresRecord| match &d.assessment {
             Some(a) => format!("{} {}", d.name, a.explanation),
-            None if d.assessed_poses.stated => format!("{} requires nothing", d.name),
-            None => format!("{} requires nothing; no workspace stated, figures are those at home", d.name),
+            None if d.assessed_poses.stated => format!("{} has no requirements", d.name),
+            None => format!("{} has no requirements and no workspace: its figures are at home", d.name),
         };
         self.designs.iter().map(sentence).collect()
     }

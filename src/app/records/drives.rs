@@ -115,7 +115,8 @@ impl LightestDriveRecord {
         let undecided: Vec<String> = found.undecided.iter().map(|d| d.name.clone()).collect();
         let message = match (found.drive, found.rest) {
             (_, Some(false)) => {
-                "no drive of the table suffices: a requirement that no drive changes is violated".to_owned()
+                "no drive of the table suffices: a requirement is violated that does not depend on the drive"
+                    .to_owned()
             }
             (Some(d), _) => match d.mass {
                 Some(mass) => format!(

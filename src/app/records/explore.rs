@@ -188,7 +188,7 @@ impl PriceRecord {
         let times = |[a, b]: [f64; 2]| short(b / a);
         let [base, platform] = s.radius;
         let message = format!(
-            "price of separate joints: worst conditioning {}; joint spacing {} {unit} on the base, {} {unit} on the platform; radius {} {unit} of the base ({} times), {} {unit} of the platform ({} times)",
+            "price of separate joints: worst conditioning {}; joint distance {} {unit} on the base, {} {unit} on the platform; radius {} {unit} of the base ({} times), {} {unit} of the platform ({} times)",
             pair(s.conditioning),
             pair(s.spacing[0]),
             pair(s.spacing[1]),
@@ -225,11 +225,11 @@ impl DefaultSafetyMarginRecord {
     pub fn new(percent: f64, kept: bool) -> Self {
         let message = if kept {
             format!(
-                "a safety margin of {percent} % of every limit is kept by default; `safety_margin` in [limits] sets another share"
+                "by default every limit keeps a safety margin of {percent} %; `safety_margin` in [limits] sets another value"
             )
         } else {
             format!(
-                "no platform was found that keeps a safety margin of {percent} % of every limit; the search was made without it"
+                "no platform was found that keeps a safety margin of {percent} % on every limit; the search was repeated without it"
             )
         };
         Self { percent, kept, message }

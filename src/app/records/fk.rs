@@ -139,11 +139,11 @@ impl FkAnswer {
     #[must_use]
     pub fn with_limits(mut self, reach: &Reach<'_>) -> Self {
         match &mut self {
-            Self::One(one) => one.solved.judge(reach),
+            Self::One(one) => one.solved.check_limits(reach),
             Self::Rows(answer) => {
                 for row in &mut answer.rows {
                     if let FkRowOutcome::Solved(one) = &mut row.outcome {
-                        one.solved.judge(reach);
+                        one.solved.check_limits(reach);
                     }
                 }
             }
@@ -292,7 +292,7 @@ impl SolvedRecord {
     }
 
     /// Adds to the real poses whether they are allowed.
-    fn judge(&mut self, reach: &Reach<'_>) {
+    fn check_limits(&mut self, reach: &Reach<'_>) {
         for solution in &mut self.solutions {
             let pose = ComplexPose::from(&solution.pose).real_part();
             if let Some(real) = &mut solution.real_pose {

@@ -257,8 +257,8 @@ pub struct HoleRecord {
     pub tolerance: Number,
 }
 
-impl From<&search::JudgedHole> for HoleRecord {
-    fn from(h: &search::JudgedHole) -> Self {
+impl From<&search::CheckedHole> for HoleRecord {
+    fn from(h: &search::CheckedHole) -> Self {
         let dimension = match h.answer {
             HoleAnswer::Legs { dimension, .. } => Some(dimension),
             _ => None,
@@ -358,9 +358,9 @@ impl CandidateRecord {
             coefficient: Number(c.map.closest.a[(p.leg.get(), p.leg.get())]),
             residual: Number(c.map.residuals[p.leg.get()]),
         };
-        let judged = found.design.as_ref().zip(found.assessed.as_ref());
+        let assessed = found.design.as_ref().zip(found.assessed.as_ref());
         // the name and the requirements come from the given design
-        let assessment = judged.map(|(design, a)| AssessAnswer {
+        let assessment = assessed.map(|(design, a)| AssessAnswer {
             name: given.name.clone(),
             role: DesignRoleWord::Equivalent,
             ..AssessAnswer::new(design, a)

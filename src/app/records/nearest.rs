@@ -112,7 +112,7 @@ impl NearestAnswer {
         let explanation = match &nearest {
             None => format!(
                 "no order of the six legs around a hexagon gives an octahedral platform with |det A| at least {} \
-                 and joints at most {} lengths of their side beyond its corners",
+                 with joints at most {} side lengths beyond the corners",
                 options.min_abs_det, options.extension
             ),
             Some(n) if n.error.relative_displacement.0 <= SAME => format!(

@@ -106,6 +106,9 @@ impl MarginRecord {
 pub struct AssessAnswer {
     /// The name of the assessed design.
     pub name: String,
+    /// The unit of lengths, as in `pose`.
+    #[serde(default)]
+    pub length_unit: String,
     /// The role of the design in this answer.
     pub role: DesignRoleWord,
     /// The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved. False: one pose
@@ -165,6 +168,7 @@ impl AssessAnswer {
         let proof = &found.proof;
         Self {
             name: design.name.clone(),
+            length_unit: design.units.clone(),
             role: DesignRoleWord::Design,
             met: found.met(),
             explanation: found.to_string(),
@@ -269,13 +273,13 @@ pub struct AssessedPosesRecord {
 }
 
 impl From<AssessedPoses> for AssessedPosesRecord {
-    fn from(judged: AssessedPoses) -> Self {
+    fn from(poses: AssessedPoses) -> Self {
         Self {
-            stated: judged.are_stated(),
-            region: judged.region,
-            listed: judged.listed,
-            trajectory: judged.trajectory,
-            met_in_words: judged.met_in_words(),
+            stated: poses.are_stated(),
+            region: poses.region,
+            listed: poses.listed,
+            trajectory: poses.trajectory,
+            met_in_words: poses.met_in_words(),
         }
     }
 }

@@ -128,7 +128,7 @@ fn section(id: &str, title: &str, parts: &[Markup]) -> Markup {
 }
 
 /// A verdict as a cell with a badge.
-fn judged(v: &ResultVerdict) -> Cell {
+fn verdict_cell(v: &ResultVerdict) -> Cell {
     Cell::toned(v.word.as_str(), Tone::of(v.holds))
 }
 
@@ -137,7 +137,7 @@ fn verdict_line(name: &str, fields: &Map<String, Value>) -> Option<Markup> {
     let v = verdict(fields)?;
     Some(html! {
         li {
-            a href={ "#" (anchor(name)) } { (title(fields)) } " " (badge(&judged(&v)))
+            a href={ "#" (anchor(name)) } { (title(fields)) } " " (badge(&verdict_cell(&v)))
             @if let Some(sentence) = &v.explanation { ": " (sentence) }
         }
     })
@@ -169,7 +169,7 @@ fn link(name: &str) -> Markup {
     html! { a href=(encoded.join("/")) { (name) } }
 }
 
-/// The heading of a result, with the role of the design that it judges.
+/// The heading of a result, with the role of the design that it assesses.
 fn title(fields: &Map<String, Value>) -> String {
     let role = fields.get("role").and_then(Value::as_str).and_then(DesignRoleWord::heading_of);
     role.map_or_else(
@@ -184,7 +184,7 @@ fn result(name: &str, fields: &Map<String, Value>) -> Markup {
         details.card id=(anchor(name)) {
             summary { h3 {
                 (title(fields))
-                @if let Some(v) = verdict(fields) { " " (badge(&judged(&v))) }
+                @if let Some(v) = verdict(fields) { " " (badge(&verdict_cell(&v))) }
             } }
             (answers::document(fields).html())
             p.note { "From " (link(name)) }

@@ -61,7 +61,7 @@ fn the_answer_of_check_is_a_verdict() {
 #[test]
 fn a_saved_answer_of_check_is_shown_as_its_command_prints_it() {
     for (design, told) in [
-        (DESIGN, "16 ways to assemble it for given leg lengths"),
+        (DESIGN, "Generic leg lengths have 16 poses, real and complex"),
         (MIDLINE, "The lengths of the design can be assembled, and at almost every pose"),
     ] {
         let (design, _) = ask::design::parse(design, Format::Toml).unwrap();

@@ -48,13 +48,13 @@ fn rows(table: &Table) -> Markup {
 fn body(table: &Table) -> Markup {
     html! {
         tbody { @for row in &table.rows { tr { @for (k, (column, cell)) in table.cells(row).enumerate() {
-            @if k == 0 { th scope="row" { (judged(cell)) } }
-            @else { td class=[classes(column, class(cell.tone))] data-pose=[&cell.pose] { (judged(cell)) } }
+            @if k == 0 { th scope="row" { (marked(cell)) } }
+            @else { td class=[classes(column, class(cell.tone))] data-pose=[&cell.pose] { (marked(cell)) } }
         } } } }
     }
 }
 
-/// The classes of a cell: the judgement or else the side of the column, and whether a narrow page leaves it out.
+/// The classes of a cell: the tone or else the side of the column, and whether a narrow page leaves it out.
 fn classes(column: &Column, tone: Option<&'static str>) -> Option<String> {
     let main = tone.or(column.right.then_some("right"));
     let all: Vec<_> = main.into_iter().chain(column.minor.then_some("minor")).collect();
@@ -62,7 +62,7 @@ fn classes(column: &Column, tone: Option<&'static str>) -> Option<String> {
 }
 
 /// The text with the sign of its tone, so that colour is not the only cue.
-fn judged(cell: &Cell) -> Markup {
+fn marked(cell: &Cell) -> Markup {
     html! { @if let Some(sign) = sign(cell.tone) { span aria-hidden="true" { (sign) } " " } (cell.text) }
 }
 
@@ -86,7 +86,7 @@ fn sign(tone: Tone) -> Option<&'static str> {
 
 /// A verdict with its sign and colour.
 pub fn badge(cell: &Cell) -> Markup {
-    html! { strong class=[class(cell.tone)] { (judged(cell)) } }
+    html! { strong class=[class(cell.tone)] { (marked(cell)) } }
 }
 
 /// Markup with all characters visible: terminal control and text direction characters are replaced.

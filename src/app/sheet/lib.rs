@@ -190,7 +190,7 @@ impl Column {
     }
 }
 
-/// A text with its judgement of a requirement.
+/// A text with the tone of a verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cell {
     text: String,
@@ -199,10 +199,10 @@ pub struct Cell {
     pose: Option<String>,
 }
 
-/// The judgement of a cell.
+/// The tone of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
-    /// No judgement.
+    /// No verdict.
     Plain,
     /// Met.
     Yes,
@@ -227,7 +227,7 @@ impl Tone {
 }
 
 impl Cell {
-    /// A text with a judgement.
+    /// A text with a tone.
     pub fn toned(text: impl Into<String>, tone: Tone) -> Self {
         Self { text: text.into(), tone, pose: None }
     }

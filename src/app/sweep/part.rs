@@ -96,11 +96,11 @@ enum WaitingValues {
 
 impl WaitingColumn {
     /// A column with space for this number of cells; texts get less, since they are rarely in every row.
-    fn new(kind: ColumnKind, room: usize) -> Self {
+    fn new(kind: ColumnKind, capacity: usize) -> Self {
         let values = match kind {
-            ColumnKind::Number => WaitingValues::Numbers(Vec::with_capacity(room)),
-            ColumnKind::Integer => WaitingValues::Integers(Vec::with_capacity(room)),
-            ColumnKind::Truth => WaitingValues::Truths(Vec::with_capacity(room)),
+            ColumnKind::Number => WaitingValues::Numbers(Vec::with_capacity(capacity)),
+            ColumnKind::Integer => WaitingValues::Integers(Vec::with_capacity(capacity)),
+            ColumnKind::Truth => WaitingValues::Truths(Vec::with_capacity(capacity)),
             ColumnKind::Text => WaitingValues::Texts(Vec::new()),
         };
         Self { levels: Vec::new(), values }
@@ -204,7 +204,7 @@ impl<W: Write + Send> PartWriter<W> {
         to: W,
         columns: &[SweepColumn],
         notes: &[(String, String)],
-        room: u64,
+        capacity: u64,
     ) -> Result<Self, PartError> {
         let field = |c: &SweepColumn| {
             let (physical, logical) = match c.kind {
@@ -223,8 +223,8 @@ impl<W: Write + Send> PartWriter<W> {
         let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
         let own = (COLUMNS_KEY.to_owned(), described(columns));
         let notes = notes.iter().chain([&own]).map(|(k, v)| KeyValue::new(k.clone(), v.clone())).collect();
-        let room = ROWS.min(usize::try_from(room).unwrap_or(ROWS));
-        let waiting = columns.iter().map(|c| WaitingColumn::new(c.kind, room)).collect();
+        let capacity = ROWS.min(usize::try_from(capacity).unwrap_or(ROWS));
+        let waiting = columns.iter().map(|c| WaitingColumn::new(c.kind, capacity)).collect();
         let head = Some(PartHead { to, schema, notes });
         Ok(Self { head, writer: None, columns: columns.to_vec(), waiting, rows: 0 })
     }
@@ -358,11 +358,11 @@ impl PartReader {
     ///
     /// # Errors
     /// A truncated or altered file.
-    pub fn group(&self, group: usize, wanted: &[usize]) -> Result<Vec<SweepRow>, PartError> {
+    pub fn group(&self, group: usize, chosen: &[usize]) -> Result<Vec<SweepRow>, PartError> {
         let group = self.reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-        let mut out = vec![Vec::with_capacity(wanted.len()); rows];
-        for k in wanted {
+        let mut out = vec![Vec::with_capacity(chosen.len()); rows];
+        for k in chosen {
             let cells = match group.get_column_reader(*k)? {
                 ColumnReader::DoubleColumnReader(from) => cells_of(from, rows, |x| SweepCell::Number(*x))?,
                 ColumnReader::Int64ColumnReader(from) => cells_of(from, rows, |n| SweepCell::Integer(*n))?,

@@ -62,7 +62,7 @@ fn figures_are_those_of_the_design_that_the_candidate_is() {
 
 #[test]
 #[ignore = "evidence"]
-fn a_candidate_with_a_drive_is_judged_by_its_limits() {
+fn a_candidate_with_a_drive_is_assessed_by_its_limits() {
     let table = b"name,stroke,dead_length,force,price_EUR\nshort,1,12,1e6,50\nlong,30,1,1e6,90\n";
     let base = BasePlan::new(PlanText::new(OCTAHEDRAL, Format::Toml)).unwrap();
     let base = base.with_drives(table).unwrap();

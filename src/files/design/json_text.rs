@@ -35,7 +35,7 @@ pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
                 too_deep(report, &span);
             } else {
                 let help =
-                    "mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity";
+                    "correct the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity";
                 report.refuse(Code::Syntax, &span, error.kind().to_string(), help);
             }
             None
@@ -76,7 +76,7 @@ fn table(object: &Object<'_>, report: &mut Findings<'_>, depth: usize) -> Option
         let key = property.name.as_str().to_string();
         let key_span = property.name.start()..property.name.end();
         if !seen.insert(key.clone()) {
-            report.refuse(Code::DuplicateKey, &key_span, "this key stands twice", "keep one of the two");
+            report.refuse(Code::DuplicateKey, &key_span, "this key is defined twice", "keep one of the two");
         }
         let node = node(&property.value, report, depth + 1)?;
         entries.push(Entry { key, key_span, node });

@@ -111,7 +111,7 @@ impl DesignModel {
         }
         let mut out = Vec::new();
         if self.payload.is_some_and(|payload| payload.inertia.is_none()) {
-            out.push("The payload has no inertia: that of a ball is taken whose radius of gyration is the root mean square distance of the platform joints from their middle.".to_owned());
+            out.push("The payload has no inertia: a ball is assumed. Its radius of gyration is the RMS distance of the platform joints from their centroid.".to_owned());
         }
         out.extend(self.weight_assumptions());
         out
@@ -123,22 +123,22 @@ impl DesignModel {
     pub fn weight_assumptions(&self) -> Vec<String> {
         let mut out = Vec::new();
         if self.moving_payload().is_none() {
-            out.push("The design has no [payload]: the platform is taken as massless.".to_owned());
+            out.push("The design has no [payload]: the platform is assumed massless.".to_owned());
         }
         let weight = self.weight();
         if self.has_cranks() {
-            out.push("Cranks and rods are taken as massless.".into());
+            out.push("Cranks and rods are assumed massless.".into());
         } else if self.hardware.leg_masses.is_none() {
-            out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
+            out.push("The legs have no masses in [hardware]: they are assumed massless.".into());
         } else if self.hardware.is_coupled() && weight.as_ref().is_some_and(|load| load.legs.is_some()) {
-            let assumed = "The weight of the legs is taken between joint centres: it leaves out `offset` and `screw_lead`.";
+            let assumed = "The weight of a leg acts on the line between its joint centres; `offset` and `screw_lead` are neglected.";
             out.push(assumed.to_owned());
         }
         if self.force_units.is_none() {
-            out.push("The design names no unit of force: forces are taken in newtons.".into());
+            out.push("The design states no unit of force: newtons are assumed.".into());
         }
         if weight.is_some() && self.mass_units.is_none() {
-            out.push("The design names no unit of mass: masses are taken in kilograms.".into());
+            out.push("The design states no unit of mass: kilograms are assumed.".into());
         }
         out
     }

@@ -44,14 +44,14 @@ impl HexapodSizes {
         for (body, x) in ["base", "platform"].into_iter().zip(self.spread_deg) {
             if !(0.0..PAIRS_DEG).contains(&x) {
                 let message = format!(
-                    "the spread of the {body} is {x} degrees: the angle between the two joints of a pair is from 0 to less than {PAIRS_DEG}"
+                    "the spread of the {body} is {x} degrees; spreads are from 0 to less than {PAIRS_DEG} degrees"
                 );
                 return Err(InvalidOutline(message));
             }
         }
         if self.spread_deg[0] + self.spread_deg[1] == PAIRS_DEG {
             let message = format!(
-                "the spreads add up to {PAIRS_DEG} degrees: base and platform are then similar hexagons on circles, and such a design is architecturally singular{}",
+                "the sum of the spreads is {PAIRS_DEG} degrees: base and platform are similar hexagons, so the design is architecturally singular{}",
                 self.regular_reading()
             );
             return Err(InvalidOutline(message));
@@ -74,7 +74,7 @@ impl HexapodSizes {
             format!("The base joints are {}.", body(0, 0.0)),
             format!("The platform joints are {}.", body(1, PLATFORM_TURN_DEG)),
             format!(
-                "The spread is the angle between the joints of a pair on one body; makers who measure the platform between the two legs of a base pair write {} instead of {} degrees.",
+                "The spread is the angle between the two joints of a pair on one body. Makers who measure the platform spread between the legs of a base pair write {} instead of {} degrees.",
                 self.other_reading().spread_deg[1],
                 self.spread_deg[1]
             ),
@@ -88,7 +88,7 @@ impl HexapodSizes {
             return String::new();
         }
         format!(
-            "; with the platform spread counted from the legs of a base pair it would be {} degrees, and regular",
+            ". If the platform spread is meant between the legs of a base pair, give {} degrees",
             spread[1]
         )
     }

@@ -46,8 +46,8 @@ fn every_key_is_read_and_written_back_to_the_bit() {
         (3, 3, 20.0)
     );
     assert_eq!(required.loads[0].name, "legs", "the file has masses of legs and no payload");
-    let wanted = required.platform_stiffness.unwrap();
-    assert_eq!((wanted.linear, wanted.angular, wanted.natural_frequency), (Some(2e4), Some(3e5), None));
+    let expected = required.platform_stiffness.unwrap();
+    assert_eq!((expected.linear, expected.angular, expected.natural_frequency), (Some(2e4), Some(3e5), None));
     assert_eq!(design.unit_of(Quantity::AngularStiffness), "N mm/rad");
     for format in [Format::Toml, Format::Json] {
         let text = match format {
@@ -115,7 +115,7 @@ fn what_contradicts_itself_is_refused() {
         r#"26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
 27:1 design::unknown_key: `strok` is not a key of [hardware] | did you mean `stroke`?
 28:1 design::conflicting_keys: leg lengths are limited twice | keep `leg_length`, or `dead_length` with `stroke`
-26:14 design::out_of_range: leg lengths from 9 to 4 | give [least, greatest], the least not negative
+26:14 design::out_of_range: `leg_length` is [9, 4] | give [least, greatest] with 0 <= least < greatest
 26:14 design::wrong_type: `leg_length` is a number, not an array | write an array of 2 lengths, least and greatest
 23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
 22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
@@ -136,10 +136,10 @@ fn what_contradicts_itself_is_refused() {
 56:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
 56:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
 51:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
-17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
+17:10 design::wrong_type: `region` is neither "box" nor "ellipsoid" | write "box" or "ellipsoid"
 18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
 19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
-18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
+18:1 design::missing_key: `relative_to` has no effect, because no poses are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
 41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
 70:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
 72:11 design::not_positive: `angular` is 0 | give a positive number
@@ -337,7 +337,7 @@ fn holes_on_circles_and_of_one_plate_are_read_and_written_back() {
         Some(Grid::bolt_circles(HoleCircles::new(&list).unwrap()))
     };
     let common = "pattern = \"polar\"\nfirst_radius = 100\npitch = 25\nstep_deg = 15\n";
-    for (holes, wanted) in [
+    for (holes, expected) in [
         (common.into(), [Some(polar); 2]),
         (
             format!("{common}platform = {{ count = 36 }}"),
@@ -356,7 +356,7 @@ fn holes_on_circles_and_of_one_plate_are_read_and_written_back() {
         ("[holes.platform]\npitch = 10\n".into(), [None, Some(Grid::square(10.0))]),
     ] {
         let design = read(&holes);
-        assert_eq!(design.holes, Some(wanted), "{holes}");
+        assert_eq!(design.holes, Some(expected), "{holes}");
         for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
             assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
         }
@@ -757,7 +757,7 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
         all,
         r#"2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
 4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
-16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
+16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole below it: give a smaller hole, or the `height` of the joints
 5:8 design::not_positive: `hole` is 0 | give a positive number
 17:12 design::missing_key: the density of `material` "steal" is not known | add `density`, kg/m^3; did you mean `steel`?
 8:11 design::not_positive: `density` is -1 | give a positive number
@@ -915,7 +915,7 @@ fn assumptions_name_what_has_no_mass() {
     };
     assert_eq!(said(&plain, false, false), Vec::<String>::new());
     let of_legs = said(&plain, true, false);
-    assert!(of_legs[0].contains("platform is taken as massless"), "{of_legs:?}");
+    assert!(of_legs[0].contains("platform is assumed massless"), "{of_legs:?}");
     assert!(of_legs.len() == 3 && of_legs.iter().all(|s| !s.contains("legs have no masses")), "{of_legs:?}");
     // nothing has weight, so no unit of mass is needed
     let nothing = said(&without(&plain), true, false);

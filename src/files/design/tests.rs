@@ -74,7 +74,7 @@ fn keys_texts_and_numbers() {
 6:17 design::non_finite: number 3 of base joint P1 is inf, not a finite number | write a finite number
 6:6 design::wrong_type: base joint P1 is a number, not an array | write an array of 3 coordinates x, y, z
 6:1 design::empty_name: a joint of the base has an empty name | give the joint a name
-7:1 design::duplicate_key: this key stands twice | keep one of the two
+7:1 design::duplicate_key: this key is defined twice | keep one of the two
 3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
 3:30 design::non_finite: number 6 of `lengths` is NaN, not a finite number | write a finite number
 3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
@@ -109,7 +109,7 @@ fn legs_and_triangles() {
     assert_eq!(
         all,
         r#"4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]; `equipod check` and `equipod fk` take designs of five legs
-4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid
+4 design::coincident_legs: legs 1 and 6 join the same two points | give each leg its own pair of joints: two legs on one line hold the platform like one leg
 4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
 4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
 4:80 design::missing_joint: leg 6 names `P6`, which is not a joint of the base | `P6` is a joint of the platform; a leg names the base joint first
@@ -117,7 +117,7 @@ fn legs_and_triangles() {
 4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
 4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
 5:2 design::collinear_triangle: the base joints P1, P2, P3 are on one line | move one of them: a body held in three points on a line can turn about it
-9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint there, name P1 in all of them; P1 and P7 count as two joints
+9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint, name P1 in all of them: P1 and P7 count as two joints
 9 design::unused_joint: base joint P7 carries no leg | attach a leg to P7 or remove it
 1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
 5:2 design::unknown_key: `bse` is not a key of a design | did you mean `base`?
@@ -157,8 +157,8 @@ fn optional_tables() {
 13:1 design::missing_key: `position` of [home] is missing | add position = [x, y, z]
 13:2 design::missing_home: the box lies around [home], which is missing | add [home] with position and rpy_deg, or list single poses
 17:19 design::not_positive: a half width of -1 | half widths are not negative
-18:23 design::out_of_range: a half width of 200 degrees | stay within 180 degrees
-19:8 design::grid: a grid of 2.5 points per axis | give 1 (centre), 2 (centre and corners), 3, 4 or 5 points per axis
+18:23 design::out_of_range: a half width of `rotation_deg` is 200 degrees | give at most 180 degrees
+19:8 design::grid: `grid` is 2.5 | give 1 (centre), 2 (centre and corners), 3, 4 or 5 points per axis
 17:10 design::rotation: pose 1 of [workspace] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
 17:36 design::wrong_type: pose 2 of [workspace] is a number, not a table | write pose 2 of [workspace] as a table
 19:15 design::not_positive: `min_abs_det` is 0 | give a positive number
@@ -192,21 +192,21 @@ fn texts_that_are_no_design() {
 
 1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
 
-1:8 design::syntax: string values must be quoted, expected literal string | mend the TOML; strings need quotes, tables [brackets], see https://toml.io
+1:8 design::syntax: string values must be quoted, expected literal string | correct the TOML (https://toml.io): strings need quotes, tables [brackets]; `equipod new --points FILE` reads tables of joints
 
 1:1 design::wrong_type: a design is a table, not an array | write { "name": ..., "units": ..., "base": { ... }, "platform": { ... }, "legs": [ ... ] }
 
-1:15 design::syntax: Comments are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+1:15 design::syntax: Comments are not allowed | correct the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
 
-1:37 design::syntax: Unexpected token | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+1:37 design::syntax: Unexpected token | correct the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
 
 1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
 1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
 1:1 design::missing_key: `platform` is missing | add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`
-1:15 design::duplicate_key: this key stands twice | keep one of the two
+1:15 design::duplicate_key: this key is defined twice | keep one of the two
 1:37 design::wrong_type: `units` is null, not a string | write `units = "..."`
 
-1:15 design::syntax: Trailing commas are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+1:15 design::syntax: Trailing commas are not allowed | correct the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
 
 "#
     );

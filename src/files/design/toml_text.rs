@@ -18,7 +18,7 @@ pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
         let span = error.span().unwrap_or(0..0);
         let message = error.message();
         if message.contains("duplicate key") {
-            report.refuse(Code::DuplicateKey, &span, "this key stands twice", "keep one of the two");
+            report.refuse(Code::DuplicateKey, &span, "this key is defined twice", "keep one of the two");
         } else if message.contains("recursion limit") {
             too_deep(report, &span);
         } else {
@@ -30,7 +30,7 @@ pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     for (span, message) in faults {
         let line = report.line(span.start);
         if faulty_to.is_none_or(|last| (last + 1..line).any(|k| holds_toml(report.line_text(k)))) {
-            let help = "mend the TOML; strings need quotes, tables [brackets], see https://toml.io";
+            let help = "correct the TOML (https://toml.io): strings need quotes, tables [brackets]; `equipod new --points FILE` reads tables of joints";
             report.refuse(Code::Syntax, &span, message, help);
         }
         faulty_to = Some(line);

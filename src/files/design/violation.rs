@@ -189,10 +189,10 @@ impl Warning {
         match self {
             Self::UnusedJoint { name, .. } => format!("attach a leg to {name} or remove it"),
             Self::CoincidentJoints { first, second, .. } => format!(
-                "if the legs share one joint there, name {first} in all of them; {first} and {second} count as two joints"
+                "if the legs share one joint, name {first} in all of them: {first} and {second} count as two joints"
             ),
             Self::CoincidentLegs { .. } => {
-                "give each leg a pair of joints of its own: with two legs along one line five hold the platform, which is never rigid"
+                "give each leg its own pair of joints: two legs on one line hold the platform like one leg"
                     .into()
             }
             Self::LegsInsideTable { .. } => {
@@ -215,7 +215,7 @@ impl fmt::Display for Warning {
             Self::CoincidentLegs { legs: [a, b], .. } => {
                 write!(f, "legs {a} and {b} join the same two points")
             }
-            Self::LegsInsideTable { table, .. } => write!(f, "`legs` stands inside [{table}]"),
+            Self::LegsInsideTable { table, .. } => write!(f, "`legs` is a key of [{table}] here"),
             Self::RenamedKey { old, new, .. } => write!(f, "`{old}` is now `{new}`"),
         }
     }
@@ -353,7 +353,7 @@ impl<'t> Findings<'t> {
                 column: 1,
                 width: 1,
                 message: format!("{} more violations are not listed", self.unlisted),
-                help: "mend the listed ones first".into(),
+                help: "correct the listed ones first".into(),
             });
         }
         self.violations

@@ -15,7 +15,7 @@ const CHORDS: usize = 1440;
 
 /// The format `svg`.
 pub(super) static WRITER: Writer = Writer {
-    leaves_out: "what hides what: the silhouettes of all parts are seen",
+    leaves_out: "hidden lines: the silhouettes of all parts are drawn",
     ..Writer::new("drawing with three views at home, third angle, millimetres", files)
 };
 

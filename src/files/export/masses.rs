@@ -18,8 +18,8 @@ use super::Export;
 use super::text::real;
 use machine::requirements::{LegMasses, LegPart};
 
-/// Wanted share of the platform mass that moves along each rod, if the platform can spare it.
-const WANTED: f64 = 0.05;
+/// Share of the platform mass that moves along each rod, if the platform has enough mass.
+const ROD_SHARE: f64 = 0.05;
 /// Least share with the time step of the size; below it the step shrinks in proportion. `MuJoCo` simulated a bench with
 /// this share, and failed with a quarter of it.
 const ENOUGH: f64 = 0.02;
@@ -76,7 +76,7 @@ pub(super) struct ModelMasses {
     leg: LegMasses,
     /// The share of the platform mass that each rod carries in its joint.
     share: f64,
-    /// Whether the platform cannot spare it, so that it is added.
+    /// Whether the platform is too light to give it, so that it is added.
     added: bool,
     /// The time step over that of the size.
     pub(super) step: f64,
@@ -99,8 +99,8 @@ impl ModelMasses {
         let joints = &export.bodies[1].joints;
         let points = export.legs.map(|l| joints[l.platform].at.coords * metres);
         let own = leg.lengthwise();
-        let wanted = (WANTED * platform.mass - own).max(0.0);
-        let shares = std::iter::successors(Some(wanted), |share| Some(0.8 * share));
+        let missing = (ROD_SHARE * platform.mass - own).max(0.0);
+        let shares = std::iter::successors(Some(missing), |share| Some(0.8 * share));
         let spared = shares
             .take_while(|share| *share >= LEAST * platform.mass)
             .find_map(|share| platform.without(share, &points).map(|rest| (share, rest)));
@@ -163,10 +163,10 @@ impl ModelMasses {
         };
         let share = real(self.share);
         let carried = if self.added {
-            format!(". Each rod has {share} kg more, which the design doesn't have: a simulator needs it")
+            format!(". Each rod has {share} kg that the design does not have, because a simulator needs it")
         } else if self.share > 0.0 {
             format!(
-                ".\n  Each rod carries {share} kg of the platform in their joint, which moves nothing differently and keeps the simulation stable"
+                ".\n  Each rod carries {share} kg of the platform in their joint; this keeps the simulation stable and changes no motion"
             )
         } else {
             String::new()
@@ -176,7 +176,7 @@ impl ModelMasses {
 }
 
 impl Export {
-    /// Mass that each rod has only in the simulator's model, kilograms; `None` if the platform can spare it.
+    /// Mass that each rod has only in the simulator's model, kilograms; `None` if the platform is heavy enough.
     #[must_use]
     pub fn added_rod_mass(&self) -> Option<f64> {
         let masses = ModelMasses::of(self);

@@ -87,7 +87,7 @@ pub enum Unsupported {
         diameter: f64,
     },
     /// A hole of a plate overlaps another one or the outline.
-    #[error("in the plate of the {body} {first} runs into {second} by {by} (design units)")]
+    #[error("in the plate of the {body}, {first} overlaps {second} by {by} (design units)")]
     HolesMeet {
         /// The body.
         body: Body,
@@ -100,7 +100,7 @@ pub enum Unsupported {
     },
     /// A leg has no space for a body between its joints.
     #[error(
-        "leg {leg} is {length} long at home and its joints take {taken} (design units), which leaves no room for a cylinder and a rod"
+        "leg {leg} is {length} long at home and its joints take {taken} (design units), so a cylinder and a rod do not fit"
     )]
     LegTooShort {
         /// 1-based number.
@@ -111,16 +111,16 @@ pub enum Unsupported {
         taken: f64,
     },
     /// The format requires legs of variable length.
-    #[error("the format holds legs that change their lengths, and those of the design are rods on cranks")]
+    #[error("the format takes legs of variable length, but the design has rods on cranks")]
     Cranks,
     /// The format takes the drive lengths for the distances of the joints.
     #[error(
-        "the joints are not ideal (`offset` of universal joints or `screw_lead` in [hardware]), and the format has drives as long as the distances of their joints"
+        "the joints are not ideal (`offset` of universal joints or `screw_lead` in [hardware]), but the format takes drives that are as long as the distance of their joints"
     )]
     NotIdeal,
     /// The format has one greatest angle for all joints of a body.
     #[error(
-        "the joints of the {0} have different greatest angles (`cone_angle_deg`), and the format has one for all joints of a body"
+        "the joints of the {0} have different cone angles (`cone_angle_deg`), but the format takes one for all joints of a body"
     )]
     ConeOfLegs(Body),
     /// A rod is along the axis of its crank at home.
@@ -130,7 +130,7 @@ pub enum Unsupported {
         leg: usize,
     },
     /// A leg has no direction at home.
-    #[error("leg {leg} has length zero at home, and so no direction")]
+    #[error("leg {leg} has length zero at home, so its direction is undefined")]
     NoDirection {
         /// 1-based number.
         leg: usize,

@@ -249,7 +249,7 @@ impl Export {
 
     /// The bill of materials as a table.
     pub(super) fn parts_csv(&self) -> String {
-        let more = "parts; masses, lengths and diameters are empty where the design does not say them";
+        let more = "parts; masses, lengths and diameters are empty if the design does not state them";
         let mut out = commented("#", self.heading("mm").into_iter().chain([more.to_string()]));
         let _ = writeln!(out, "{}", PART_COLUMNS.join(","));
         for part in self.parts() {

@@ -57,7 +57,7 @@ impl ExportOptions {
         /// Mass of the platform with its payload, kilograms.
         fn mass(mass: f64) = Some(mass);
         /// Whether simulators compensate the weight of all bodies.
-        fn gravity_compensation(wanted: bool) = wanted;
+        fn gravity_compensation(on: bool) = on;
     }
 }
 
@@ -123,9 +123,10 @@ pub enum NoExport {
 const PLATES: &str = "[plates]";
 
 const RULE_CYLINDER: &str = "rule: half the shortest leg at home";
-const RULE_STROKE: &str = "rule: what holds a rod over the stroke, but no more than leaves room for the platform joint at the least length";
+const RULE_STROKE: &str = "rule: long enough to hold the rod over the stroke, short enough to clear the platform joint at the least length";
 
-const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
+const RULE_BALL: &str =
+    "rule: minimum of 0.05 of the size, 0.4 of the least distance of joints, 0.1 of the shortest leg at home";
 
 /// Edge of the housing as a ball diameter; with different housings, the ball that fits into each.
 fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {
@@ -202,11 +203,11 @@ impl Sizes {
         }
         let stated = plate.and_then(|p| p.height);
         if hole >= ball && stated.is_none() {
-            let why = "a ball has to be wider than the hole it sits on";
+            let why = "a ball has to be wider than the hole below it";
             return Err(NoExport::BadSize { what: "the hole", value: hole, why });
         }
         if 2.0 * margin <= hole {
-            let why = "a hole has to end inside the outline: the margin is more than half of it";
+            let why = "a hole has to lie inside the outline: the margin has to exceed half its diameter";
             return Err(NoExport::BadSize { what: "the margin", value: margin, why });
         }
         if let Some(height) = stated {

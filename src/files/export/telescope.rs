@@ -43,7 +43,7 @@ impl Telescope {
 
     /// Space between the cylinder and the ball of the platform joint at the least length; negative for a collision,
     /// zero as for [`Telescope::held`].
-    pub(super) fn room(&self) -> f64 {
+    pub(super) fn clearance(&self) -> f64 {
         self.settled(self.range[0] - self.tip - self.mouth)
     }
 

@@ -88,8 +88,8 @@ fn triangles_fill_a_polygon_with_holes() {
     // a polygon with n corners and h holes has n + 2h - 2 triangles
     assert_eq!(triangles.len(), points.len() + 2 * holes.len() - 2);
     let area: f64 = triangles.iter().map(|t| polygon_area(&t.map(|k| points[k]))).sum();
-    let wanted = polygon_area(&outer) + holes.iter().map(|h| polygon_area(h)).sum::<f64>();
-    assert!((area - wanted).abs() < 1e-10);
+    let expected = polygon_area(&outer) + holes.iter().map(|h| polygon_area(h)).sum::<f64>();
+    assert!((area - expected).abs() < 1e-10);
     assert!(triangles.iter().all(|t| polygon_area(&t.map(|k| points[k])) > 0.0), "none is turned over");
 }
 
@@ -208,7 +208,7 @@ fn hole_plans_have_a_circle_at_every_joint() {
     }
     let block = ["base plate", "material not stated", "ISO 2768-m for sizes", "datum: the cross"];
     assert!(block.iter().all(|part| text.contains(part)), "{text}");
-    assert!(text.contains("no tolerance asked for"), "{text}");
+    assert!(text.contains("no tolerance given"), "{text}");
 }
 
 #[test]
@@ -235,8 +235,8 @@ fn meshes_are_closed_and_hold_the_volume_of_the_plate() {
         let volume: f64 = corners.chunks(3).map(|t| t[0].dot(&t[1].cross(&t[2])) / 6.0).sum();
         let plate = export.bodies[1].plate().unwrap();
         let posts: f64 = plate.holes.iter().map(|h| 0.25 * PI * plate.post_diameter.powi(2) * h.post).sum();
-        let wanted = (plate.volume() + posts) * export.unit.millimetres.powi(3);
-        assert!((volume / wanted - 1.0).abs() < 2e-3, "{volume} {wanted}");
+        let expected = (plate.volume() + posts) * export.unit.millimetres.powi(3);
+        assert!((volume / expected - 1.0).abs() < 2e-3, "{volume} {expected}");
     }
 }
 
@@ -277,7 +277,7 @@ fn rods_carry_a_part_of_the_platform_and_nothing_moves_otherwise() {
     let stated = Matrix3::from_diagonal(&Vector3::new(0.9, 0.8, 0.7));
     assert!((all - 40.0).abs() < 1e-12 && (first - centre * 40.0).norm() < 1e-12);
     assert!((second - moments(40.0, centre, stated)).norm() < 1e-12);
-    // a lamina above the joints has no mass to spare
+    // a lamina above the joints has too little mass
     let export = carrying(&payload.replace("[9.0e5, 8.0e5, 7.0e5]", "[4.0e5, 3.0e5, 7.0e5]"));
     let text = text_of(&export, "mjcf", "platform.xml");
     assert_eq!(export.added_rod_mass(), Some(inertial(&text, "rod1", "mass")[0]));
@@ -460,7 +460,7 @@ fn rods_stay_in_their_cylinders_over_the_stroke() {
                 // the visible part of the rod, and the whole leg
                 assert!((tail + t.rod + t.tip - length).abs() < near);
             }
-            assert!(t.room() >= -near, "{file}: {t:?}");
+            assert!(t.clearance() >= -near, "{file}: {t:?}");
         }
     }
     // retracted at home, hardly longer than that at the least, and with joints nearly as long as the least length
@@ -669,7 +669,7 @@ fn stated_plates_are_what_is_drawn_weighed_and_listed() {
     let plate = base.plate().unwrap();
     assert!((plate.thickness - 12.0).abs() < 1e-12 && (plate.outline.margin - 40.0).abs() < 1e-12);
     assert_eq!((plate.bolt_count(), plate.all_holes().count()), (24, 30));
-    // the judged plate is the drawn one
+    // the assessed plate is the drawn one
     let solid = design.plate(Body::Base).unwrap();
     assert_eq!(solid.outline, plate.outline);
     for (hole, seat) in plate.holes.iter().zip(&solid.seats) {

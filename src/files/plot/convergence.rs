@@ -66,8 +66,8 @@ pub fn convergence_chart(figure: &ConvergenceFigure) -> String {
         let x = PixelAxis { low: times.0 - 0.2, high: times.1 + 0.2, from: left, to: left + PANEL.0 };
         let height = |value: f64| if panel == 0 { value } else { shortfall(value, best).log10() };
         let ends = range(all().map(|p| height(p.1)));
-        let spare = 0.05 * (ends.1 - ends.0).max(if panel == 0 { 1e-3 * ends.1.abs() } else { 1.0 });
-        let y = PixelAxis { low: ends.0 - spare, high: ends.1 + spare, from: TOP + PANEL.1, to: TOP };
+        let padding = 0.05 * (ends.1 - ends.0).max(if panel == 0 { 1e-3 * ends.1.abs() } else { 1.0 });
+        let y = PixelAxis { low: ends.0 - padding, high: ends.1 + padding, from: TOP + PANEL.1, to: TOP };
         for (kind, curve) in curves.iter().enumerate() {
             let heights: Vec<(f64, f64)> = curve.iter().map(|p| (p.0.log10(), height(p.1))).collect();
             draw(&mut svg, kind, &steps(&heights, &x, &y));
@@ -117,10 +117,8 @@ fn frame(svg: &mut Svg, (x, y): (&PixelAxis, &PixelAxis), panel: usize, figure: 
     let bottom = TOP + PANEL.1;
     let rows = if panel == 0 { y.ticks(6) } else { y.decades(10) };
     ticked_frame(svg, (x, y), (x.decades(7), rows), 20.0);
-    let below_best = format!(
-        "share by which it falls short of the best, {} or less at the bottom",
-        "10\u{207b}\u{b9}\u{2070}"
-    );
+    let below_best =
+        format!("relative shortfall from the best, {} or less at the bottom", "10\u{207b}\u{b9}\u{2070}");
     svg.text("", (x.from, TOP - 10.0), if panel == 0 { &figure.quantity } else { &below_best });
     svg.text("mid", (f64::midpoint(x.from, x.to), bottom + 44.0), "elapsed time, seconds");
 }

@@ -62,7 +62,7 @@ const CLEARANCE: f64 = 30.0;
 pub fn determinant_plane(plane: &OffsetPlane) -> String {
     let (x, y) = ranges(&plane.points);
     let description = format!(
-        "Contour lines of det A. It vanishes on the line {}. Horizontal axis: {}. Vertical axis: {}.",
+        "Contour lines of det A. It is zero on the line {}. Horizontal axis: {}. Vertical axis: {}.",
         plane.singular_label, plane.base.label, plane.platform.label
     );
     let mut svg = Svg::new(WIDTH, HEIGHT, &plane.title, &description);

@@ -41,7 +41,7 @@ pub fn pareto_front(figure: &FrontFigure) -> String {
     let height = TOP + SIDE + BELOW;
     let names: Vec<&str> = figure.axes.iter().map(|a| a.label.as_str()).collect();
     let description = format!(
-        "{} platforms of which none is better in every objective: {}. {}",
+        "{} platforms, none better than another in every objective: {}. {}",
         figure.members.len(),
         names.join(", "),
         figure.note
@@ -64,8 +64,8 @@ fn range(figure: &FrontFigure, k: usize) -> (f64, f64) {
         return (0.0, 1.0);
     }
     let spread = high - low;
-    let room = if spread > 1e-9 * high.abs() { 0.08 * spread } else { 0.1 * high.abs().max(1e-9) };
-    (low - room, high + room)
+    let padding = if spread > 1e-9 * high.abs() { 0.08 * spread } else { 0.1 * high.abs().max(1e-9) };
+    (low - padding, high + padding)
 }
 
 /// The label with an arrow towards better values; rotated labels run upwards.

@@ -47,7 +47,7 @@ pub fn locus_chart(figure: &LocusFigure) -> String {
     let panels = panels(&steps);
     let ends = [figure.steps.first(), figure.steps.last()].map(|s| s.map_or(0.0, |s| s.length));
     let description = format!(
-        "Complex plane of {}. One curve a pose while {} goes from {} to {}.",
+        "Complex plane of {}. One curve for each pose while {} goes from {} to {}.",
         figure.quantity, figure.parameter, ends[0], ends[1]
     );
     let width = LEFT

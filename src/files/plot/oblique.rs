@@ -34,8 +34,8 @@ impl Extent {
 
     /// Pixels per design unit that fit the points into a width and a height.
     pub(super) fn scale(&self, (width, height): (f64, f64)) -> f64 {
-        let room = |r: (f64, f64), pixels: f64| pixels / (r.1 - r.0).max(f64::MIN_POSITIVE);
-        room(self.across, width).min(room(self.up, height))
+        let scale = |r: (f64, f64), pixels: f64| pixels / (r.1 - r.0).max(f64::MIN_POSITIVE);
+        scale(self.across, width).min(scale(self.up, height))
     }
 }
 

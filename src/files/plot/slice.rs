@@ -49,7 +49,7 @@ pub fn singular_slice(figure: &SliceFigure) -> String {
     let x = PixelAxis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
     let y = PixelAxis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
     let description = format!(
-        "Where {} vanishes over {} and {}, between regions of either sign. {}",
+        "Zero line of {} over {} and {}, between regions of either sign. {}",
         figure.quantity, figure.across.label, figure.up.label, figure.note
     );
     let mut svg = Svg::new(WIDTH, HEIGHT, &figure.title, &description);

@@ -74,10 +74,10 @@ fn draw(svg: &mut Svg, figure: &StepsFigure, panel: usize, left: f64, height: &d
     let all = || drawn.iter().map(|p| p.1);
     let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
     let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
-    let spare = (0.06 * (high - low)).max(1e-3 * high.abs()).max(1e-6);
+    let padding = (0.06 * (high - low)).max(1e-3 * high.abs()).max(1e-6);
     let last = figure.steps.len().max(2) as f64;
     let x = PixelAxis { low: 0.0, high: last + 1.0, from: left, to: left + PANEL.0 };
-    let y = PixelAxis { low: low - spare, high: high + spare, from: TOP + PANEL.1, to: TOP };
+    let y = PixelAxis { low: low - padding, high: high + padding, from: TOP + PANEL.1, to: TOP };
     let taken: Vec<(f64, f64)> = drawn.iter().filter(|p| p.2).map(|p| (x.at(p.0), y.at(p.1))).collect();
     svg.polyline("level", &taken);
     for (at, value, accepted) in &drawn {

@@ -1,6 +1,6 @@
 //! Pictures of tables of many designs: fields over two columns, distributions, clouds with their fronts, parallel axes.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use super::contour::ValueGrid;
 use super::style::{PixelAxis, Svg, escape, frame, px};
@@ -89,10 +89,10 @@ fn range(values: &[f64]) -> (f64, f64) {
 }
 
 /// The range with a margin.
-fn roomy(values: &[f64]) -> (f64, f64) {
+fn padded(values: &[f64]) -> (f64, f64) {
     let (low, high) = range(values);
-    let room = 0.04 * (high - low);
-    (low - room, high + room)
+    let padding = 0.04 * (high - low);
+    (low - padding, high + padding)
 }
 
 /// The title of a point or a line: the candidate of the row, and its values to five digits.
@@ -297,7 +297,7 @@ pub(crate) fn best_rows(figure: &SweptFigure, gain: [bool; 2]) -> Vec<usize> {
 /// better in both. The title of each point has its candidate and values.
 pub fn swept_cloud(figure: &SweptFigure, gain: Option<[bool; 2]>) -> String {
     let (x, y) = (&figure.columns[0], &figure.columns[1]);
-    let (rx, ry) = (roomy(&x.values), roomy(&y.values));
+    let (rx, ry) = (padded(&x.values), padded(&y.values));
     let ax = PixelAxis { low: rx.0, high: rx.1, from: LEFT, to: LEFT + WIDE };
     let ay = PixelAxis { low: ry.0, high: ry.1, from: TOP + HIGH, to: TOP };
     let coloured = figure.columns.get(2).map(|c| (range(&c.values), c));

@@ -74,7 +74,7 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     let inside = figure.margins.iter().filter(|m| **m > 0.0).count();
     let share = 100.0 * inside as f64 / figure.margins.len().max(1) as f64;
     let description = format!(
-        "Reachable poses over {} and {}: {share:.0} % of the slice. Beyond them the limit that is missed most: {}.",
+        "Reachable poses over {} and {}: {share:.0} % of the slice. Colours outside, by the limit with the largest violation: {}.",
         figure.across.label,
         figure.up.label,
         figure.limits.iter().map(|l| l.name.as_str()).collect::<Vec<_>>().join(", ")

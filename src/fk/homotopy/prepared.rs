@@ -8,9 +8,9 @@ use num_complex::Complex64;
 
 use super::{SectionProblem, assemble, ends_of};
 use crate::bounded::{KnownSurroundings, Surroundings};
+use crate::counted::{CountVerdict, compare};
 use crate::evidence::{Bounds, attach};
 use crate::harvest::harvest;
-use crate::judge::{RealityJudgement, judge};
 use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
 use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
 use crate::solve::{ScaledFrames, mirror};
@@ -60,7 +60,7 @@ impl PreparedHomotopy {
             _ => {
                 let options = CountOptions { seed: o.seed, ..CountOptions::default() };
                 let generic = count_generic_poses(m, &options);
-                if judge(&mut found.clone(), &generic).ok()? != RealityJudgement::Complete {
+                if compare(&mut found.clone(), &generic).ok()? != CountVerdict::Complete {
                     return None;
                 }
                 (Theorem::SixLegs, Some(generic), None)
@@ -105,7 +105,7 @@ impl PreparedHomotopy {
         // a root without a certificate may be a sign of a motion: the general treatment examines it
         let open = found.roots.iter().any(|r| !r.certified());
         let Some(count) = self.count.as_ref().filter(|_| !open) else { return Ok(None) };
-        let complete = judge(&mut found, count)? == RealityJudgement::Complete;
+        let complete = compare(&mut found, count)? == CountVerdict::Complete;
         Ok(complete.then_some(found))
     }
 }

@@ -30,7 +30,7 @@ const CORRECTIONS: u32 = 12;
 pub struct NearOptions {
     /// Below this [`NearEvidence::frobenius_ratio`] the pose counts as singular.
     pub singular: f64,
-    /// Most segments the way to the new lengths is divided into. With 1 only starts in the Kantorovich ball of the new
+    /// Most segments the path to the new lengths is divided into. With 1 only starts in the Kantorovich ball of the new
     /// lengths are accepted.
     pub segments: u32,
 }
@@ -115,9 +115,9 @@ pub struct NearNumbers {
 
 /// The result of one segment.
 enum Segment {
-    /// The end of the way.
+    /// The end of the path.
     Arrived(ScaledPose),
-    /// A pose on the way, and the fraction of the remaining way up to it.
+    /// A pose on the path, and the fraction of the remaining path up to it.
     Advanced(ScaledPose, f64),
     Singular,
     Stuck,
@@ -257,7 +257,7 @@ impl NearSolver {
         }
         let part = part.min(1.0);
         let between = here.squares_after(part);
-        // of the way itself, whose beginning and end are known to rounding
+        // of the path itself, whose beginning and end are known to rounding
         let eta = part * start.eta + start.slack;
         let number = 4.0 * (start.beta + eta) * eta;
         if !(number <= PROVED) {
@@ -295,9 +295,9 @@ impl NearSolver {
         }
         let radius = local::distance(from, &place, start.epsilon);
         // rounding of the distance is some twenty units in the last place of its terms, over epsilon at most
-        let room =
+        let rounding =
             1e-14 * (1.0 + from.position.iter().chain(&place.position).fold(0.0, |m: f64, x| m.max(x.abs())));
-        (2.0 * beta * (radius + room / start.epsilon) <= PROVED).then_some(place)
+        (2.0 * beta * (radius + rounding / start.epsilon) <= PROVED).then_some(place)
     }
 
     /// Residual, condition and distance at the end.

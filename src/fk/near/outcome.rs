@@ -53,16 +53,16 @@ pub enum WhyLost {
 /// The outcome of [`NearSolver::solve`](super::NearSolver::solve).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NearOutcome {
-    /// The pose for the lengths asked for, joined to the start by a way free of singularities.
+    /// The pose for the lengths asked for, joined to the start by a path free of singularities.
     Tracked {
         /// The pose.
         pose: Pose,
         /// Its evidence.
         evidence: NearEvidence,
     },
-    /// A singularity lies on the way or at its end.
+    /// A singularity lies on the path or at its end.
     NearSingularity {
-        /// The last pose before it; its own leg lengths lie on the way.
+        /// The last pose before it; its own leg lengths lie on the path.
         pose: Pose,
         /// Part of the straight line of squared lengths that was covered, from 0 to 1.
         fraction: f64,
@@ -87,7 +87,7 @@ num::answer_words! {
     pub enum NearWord as name of NearOutcome {
         /// The pose for the lengths asked for.
         Tracked = "tracked",
-        /// A singularity lies on the way or at its end.
+        /// A singularity lies on the path or at its end.
         NearSingularity = "near_singularity",
         /// Given up.
         Lost = "lost",

@@ -25,7 +25,7 @@ fn determinant(m: &Manipulator, pose: &Pose) -> f64 {
     j.determinant()
 }
 
-/// A start with room about it: small moves from it pass no singularity.
+/// A start far from singular poses: small moves from it pass none.
 fn regular_start(m: &Manipulator, rng: &mut Rng) -> Pose {
     loop {
         let pose = moved(&default_home(m), rng, 0.3);
@@ -160,7 +160,7 @@ fn a_way_through_a_singularity_ends_before_it() {
             }
         }
     }
-    assert!(stopped >= 8, "only {stopped} singular ways were met");
+    assert!(stopped >= 8, "only {stopped} singular paths were met");
 }
 
 /// Negative control: Newton's method from the same starts does change its sheet.

@@ -21,8 +21,8 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::collect::{PoseCandidate, collect, pose_scale};
+use super::counted::compared_with_count;
 use super::evidence::{KnownCertificates, attach};
-use super::judge::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     SolutionSet, Theorem,

@@ -1,4 +1,4 @@
-//! The starts of the search for the angles of the corners: lengths, equal to those wanted or beside them, and their
+//! The starts of the search for the angles of the corners: lengths, equal to the given ones or beside them, and their
 //! known poses.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
@@ -8,7 +8,7 @@ use super::lanes::{Points, pairs, separate};
 use super::parallel::Translation;
 use super::solver::OcticSolver;
 
-/// Relative offsets, in the squares, of the neighbouring lengths whose poses are continued to the lengths wanted.
+/// Relative offsets, in the squares, of the neighbouring lengths whose poses are continued to the given lengths.
 const BESIDE: [f64; 8] = [1e-2, -1e-2, 3e-2, 3e-3, -3e-2, -3e-3, 1e-1, 1e-3];
 /// A direction without symmetry.
 const ASKEW: [f64; 6] = [0.71, -0.43, 1.0, 0.29, -0.87, 0.53];
@@ -20,9 +20,9 @@ const POLISHES: usize = 2;
 /// The same for pairs that are continued, which may still be close to each other.
 const POLISHES_BESIDE: usize = 8;
 
-/// A start of the continuation: the way to eight poses that lead to those wanted.
+/// A start of the continuation: the path to eight poses that lead to the poses of the given lengths.
 pub(super) struct Start<'a> {
-    /// At these squared lengths, in the order s14 s24 s25 s35 s36 s16, where they are not those wanted.
+    /// At these squared lengths, in the order s14 s24 s25 s35 s36 s16, where they are not the given ones.
     pub(super) beside: Option<[f64; 6]>,
     known: Option<Translation<'a>>,
 }
@@ -59,7 +59,7 @@ impl OcticSolver {
         let short = self.platform.b * self.platform.b;
         let first = Factors::new(&self.base_gram, [s25, s35], [s14, s24], short);
         let second = Factors::new(&self.turned_gram, [s16, s14], [s35, s36], self.base_gram.cc);
-        // pairs near each other are refused unless they are continued: there the continuation judges, and they may be
+        // pairs near each other are refused unless they are continued: there the continuation decides, and they may be
         // known with few digits
         let polishes = if beside.is_some() && known.is_none() { POLISHES_BESIDE } else { POLISHES };
         let (x, y) = pairs(&first, &second, known.as_ref(), polishes)?;

@@ -15,7 +15,7 @@ use platform::manipulator::Manipulator;
 /// Random starts, and how many in turn may find nothing new.
 const STARTS: usize = 1500;
 const VAIN: usize = 100;
-/// So many points, one of each conjugate pair, are looked for: six legs have at most forty isolated ones.
+/// So many points, one of each conjugate pair, are searched for: six legs have at most forty isolated ones.
 const MOST: usize = 20;
 /// Steps of one search.
 const STEPS: usize = 40;
@@ -158,7 +158,7 @@ impl FarSearch {
 
     /// The points, one of each conjugate pair: first those that are known, then new ones as they are found.
     ///
-    /// Legs that have a curve of common points at infinity have no end of them: then [`MOST`] are looked for.
+    /// Legs that have a curve of common points at infinity have no end of them: then [`MOST`] are searched for.
     pub(crate) fn points(&mut self) -> impl Iterator<Item = FarPoint> {
         let mut k = 0;
         std::iter::from_fn(move || {
@@ -171,7 +171,7 @@ impl FarSearch {
         })
     }
 
-    /// Those found so far.
+    /// The points found so far.
     pub(crate) fn known(&self) -> &[FarPoint] {
         &self.found
     }

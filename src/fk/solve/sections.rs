@@ -105,7 +105,7 @@ impl ScaledFrames {
 
     /// The span of the leg equations as far as they are independent (sines above `tolerance`), filled up to six
     /// dimensions by random real sections. The second result is the number of these: `least` or more, and general
-    /// combinations of the leg equations make room for them.
+    /// combinations of the leg equations replace as many equations.
     pub(crate) fn sliced_sections(
         &self,
         m: &Manipulator,

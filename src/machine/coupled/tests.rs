@@ -105,14 +105,14 @@ fn built(rng: &mut Rng, offsets: [f64; 2], lead: f64) -> Built {
         let side = if i % 2 == 0 { -1.0 } else { 1.0 };
         let mut around = around;
         let base = around(pair + side * 0.2, 6.0);
-        let wanted = home.position + around(pair + side * 0.85, 4.0);
+        let given = home.position + around(pair + side * 0.85, 4.0);
         // z of the frame towards the platform joint, x where it happens to be
-        let z = (wanted - base).normalize();
+        let z = (given - base).normalize();
         let aside = Vector3::new(rng.normal(), rng.normal(), rng.normal());
         let x = (aside - z * aside.dot(&z)).normalize();
         let frame = Rotation3::from_basis_unchecked(&[x, z.cross(&x), z]);
         let mut small = || rng.uniform(-0.3, 0.3);
-        let length = (wanted - base).norm() - offsets[0] - offsets[1];
+        let length = (given - base).norm() - offsets[0] - offsets[1];
         SimulatedLeg { base, frame, offsets, at: [small(), small(), length, small(), small(), small()] }
     });
     let ends = chains.map(|c| c.end(&c.at));

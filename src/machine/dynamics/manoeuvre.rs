@@ -90,7 +90,7 @@ pub enum InvalidManoeuvre {
     #[error("`{0}` is not of the form {1}")]
     Form(String, &'static str),
     /// Its freedom is unknown.
-    #[error("`{0}` is no freedom: x, y, z, roll, pitch or yaw")]
+    #[error("`{0}` is not an axis")]
     Freedom(String),
     /// One of its numbers is not a number or has the wrong sign.
     #[error("`{0}` is not {1}")]

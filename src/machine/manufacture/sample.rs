@@ -63,7 +63,7 @@ impl PoseSearch {
 #[non_exhaustive]
 pub enum ToleranceError {
     /// At a singular pose no error of the joints is small enough.
-    #[error("the workspace holds a singular pose, at which no bound on the error of the pose can be kept")]
+    #[error("the workspace contains a singular pose, where the pose error has no bound")]
     SingularPose {
         /// The pose.
         pose: Pose,

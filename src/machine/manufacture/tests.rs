@@ -311,7 +311,7 @@ fn corrected_poses_have_the_covariance_that_is_stated() {
     let scaled = DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] / (deviations[i] * deviations[j]));
     let known = MachineUncertainty::new(&deviations, &scaled).unwrap();
     let truth = space().pose(&Vector6::from_fn(|_, _| rng.uniform(-1.0, 1.0)));
-    let wanted = controller.covariance(&known, &truth, &TOOL).unwrap();
+    let expected = controller.covariance(&known, &truth, &TOOL).unwrap();
     let count = 4000;
     let mut found = Matrix6::zeros();
     for _ in 0..count {
@@ -333,7 +333,7 @@ fn corrected_poses_have_the_covariance_that_is_stated() {
         (0..36).map(|k| off(k / 6, k % 6)).fold(0.0, f64::max)
     };
     let within = 5.0 * (2.0 / f64::from(count)).sqrt();
-    assert!(worst(&wanted.matrix) < within, "{} {within}", worst(&wanted.matrix));
+    assert!(worst(&expected.matrix) < within, "{} {within}", worst(&expected.matrix));
     // without the correlations the covariance differs
     let independent = controller.covariance(&known.independent(), &truth, &TOOL).unwrap();
     assert!(worst(&independent.matrix) > 2.0 * within, "{}", worst(&independent.matrix));

@@ -134,9 +134,9 @@ mod tests {
         let together = |i: usize, j: usize| f64::from(u8::from(i == j || (along_x(i) && along_x(j))));
         let known = MachineUncertainty::new(&deviations, &DMatrix::from_fn(24, 24, together)).unwrap();
         let found = known.pose_covariance(&m, &pose, &tool).unwrap();
-        let mut wanted = Matrix6::zeros();
-        wanted[(0, 0)] = 0.01;
-        assert!((found.matrix - wanted).amax() < 1e-14, "{}", found.matrix);
+        let mut expected = Matrix6::zeros();
+        expected[(0, 0)] = 0.01;
+        assert!((found.matrix - expected).amax() < 1e-14, "{}", found.matrix);
         assert!((found.position - 0.1).abs() < 1e-13 && found.rotation < 1e-13, "{found:?}");
         // without the correlations the shift differs, and the platform turns
         let independent = known.independent().pose_covariance(&m, &pose, &tool).unwrap();
@@ -159,7 +159,7 @@ mod tests {
         let deviations: Vec<f64> = (0..24).map(|k| covariance[(k, k)].sqrt()).collect();
         let scaled = DMatrix::from_fn(24, 24, |i, j| covariance[(i, j)] / (deviations[i] * deviations[j]));
         let known = MachineUncertainty::new(&deviations, &scaled).unwrap();
-        let wanted = known.pose_covariance(&m, &pose, &Point3::origin()).unwrap();
+        let expected = known.pose_covariance(&m, &pose, &Point3::origin()).unwrap();
         let s = Sensitivity::at(&m, &pose, &Point3::origin()).unwrap();
         let count = 20_000;
         let squares: f64 = (0..count)
@@ -170,7 +170,7 @@ mod tests {
             .sum();
         let found = (squares / f64::from(count)).sqrt();
         // the mean of `count` squares is within a few hundredths
-        assert!((found / wanted.position - 1.0).abs() < 0.03, "{found} {}", wanted.position);
+        assert!((found / expected.position - 1.0).abs() < 0.03, "{found} {}", expected.position);
     }
 
     #[test]

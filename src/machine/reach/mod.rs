@@ -5,31 +5,31 @@
 //! `docs/theory/reach.md` has the bounds.
 
 mod nearest;
+mod path;
 mod projection;
 mod rays;
 mod step;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod way;
 
 use crate::requirements::{Limit, Requirements, Terms};
 use platform::geom::Pose;
 use platform::manipulator::{Leg, Manipulator};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
+pub use path::{PoseAxis, StraightPath};
 pub use rays::{FreeRay, largest_box_within, volume_of_rays};
 pub use surface::ReachedSurface;
-pub use way::{PoseAxis, StraightPath};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
 const SINGULAR: f64 = 1e-12;
-/// Greatest step of a way, as a share of the size, at the fastest joint. Forces and the sign of `det J` are sampled at
+/// Greatest step of a path, as a share of the size, at the fastest joint. Forces and the sign of `det J` are sampled at
 /// this distance.
 const LONGEST: f64 = 0.02;
-/// Shortest step of a way, as a share of the size. Near a margin of zero, steps have this length and double each time.
+/// Shortest step of a path, as a share of the size. Near a margin of zero, steps have this length and double each time.
 const SHORTEST: f64 = 1e-5;
-/// The end of the way is found to this share of the size.
+/// The end of the path is found to this share of the size.
 const RESOLUTION: f64 = 1e-12;
 /// The search along an axis ends at this many sizes, or at half a turn.
 const FARTHEST: f64 = 10.0;
@@ -48,14 +48,14 @@ pub struct Reach<'a> {
     at_home: Option<f64>,
 }
 
-/// Free travel along a way.
+/// Free travel along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
-    /// Length of the free part in the unit of the way; at its end every requirement is met within rounding.
+    /// Length of the free part in the unit of the path; at its end every requirement is met within rounding.
     pub amount: f64,
     /// The pose there.
     pub pose: Pose,
-    /// The requirement violated beyond the end; `None` if the way ends before anything binds.
+    /// The requirement violated beyond the end; `None` if the path ends before anything binds.
     pub binding: Option<Limit>,
     /// Number of evaluated poses.
     pub poses: usize,
@@ -115,7 +115,7 @@ impl<'a> Reach<'a> {
     }
 
     /// Whether every requirement is met at a pose and `det J` has the sign that it has at home. An equal sign does not
-    /// prove that a way without singular poses leads there.
+    /// prove that a path without singular poses leads there.
     #[must_use]
     pub fn allows(&self, pose: &Pose) -> bool {
         self.margins(pose).iter().all(|(limit, margin)| self.is_met(*limit, *margin, pose))
@@ -134,7 +134,7 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// Free travel of the way from its start, up to `most`; 0 where the start is not allowed.
+    /// Free travel of the path from its start, up to `most`; 0 where the start is not allowed.
     ///
     /// Margins with bounded rates cannot be violated between two steps: lengths, joint angles, clearances, keep-outs,
     /// leg speeds, the envelope, and rods and angles of cranks. The exception is a margin near zero: steps are then a
@@ -142,11 +142,11 @@ impl<'a> Reach<'a> {
     /// stiffness, natural frequency and the sign of `det J` are sampled at every step. Steps are at most a fiftieth of
     /// the size.
     #[must_use]
-    pub fn along(&self, way: &StraightPath, most: f64) -> Travel {
-        let fastest = step::fastest(way, &self.legs).max(f64::MIN_POSITIVE);
+    pub fn along(&self, path: &StraightPath, most: f64) -> Travel {
+        let fastest = step::fastest(path, &self.legs).max(f64::MIN_POSITIVE);
         let [longest, shortest, resolution] =
             [LONGEST, SHORTEST, RESOLUTION].map(|x| x * self.size / fastest);
-        let (mut t, mut pose) = (0.0, way.start);
+        let (mut t, mut pose) = (0.0, path.start);
         let mut margins = self.margins(&pose);
         let mut poses = 1;
         if let Some((limit, _)) = self.violated_of(margins.clone(), &pose).first() {
@@ -154,25 +154,25 @@ impl<'a> Reach<'a> {
         }
         let mut least = shortest;
         while t < most {
-            let safe = self.safe_step(way, &pose, &margins);
+            let safe = self.safe_step(path, &pose, &margins);
             let step = safe.clamp(least, longest.max(least)).min(most - t);
             least = if safe < least { (2.0 * least).min(longest) } else { shortest };
             let next = if step < most - t { t + step } else { most };
-            let there = way.at(next);
+            let there = path.at(next);
             margins = self.margins(&there);
             poses += 1;
             if margins.iter().any(|(limit, margin)| !self.is_met(*limit, *margin, &there)) {
-                return self.between(way, t, next, resolution, poses);
+                return self.between(path, t, next, resolution, poses);
             }
             (t, pose) = (next, there);
         }
         Travel { amount: t, pose, binding: None, poses }
     }
 
-    /// The end of the way between an allowed and a forbidden place.
+    /// The end of the path between an allowed and a forbidden place.
     fn between(
         &self,
-        way: &StraightPath,
+        path: &StraightPath,
         mut met: f64,
         mut violated: f64,
         resolution: f64,
@@ -183,15 +183,15 @@ impl<'a> Reach<'a> {
             if middle <= met || middle >= violated {
                 break;
             }
-            if self.allows(&way.at(middle)) {
+            if self.allows(&path.at(middle)) {
                 met = middle;
             } else {
                 violated = middle;
             }
             poses += 1;
         }
-        let binding = self.violated(&way.at(violated)).first().map(|(limit, _)| *limit);
-        Travel { amount: met, pose: way.at(met), binding, poses }
+        let binding = self.violated(&path.at(violated)).first().map(|(limit, _)| *limit);
+        Travel { amount: met, pose: path.at(met), binding, poses }
     }
 
     /// Free travel of each of the six numbers of a pose until a requirement binds, with the others fixed. `None` where
@@ -208,17 +208,17 @@ impl<'a> Reach<'a> {
         })
     }
 
-    /// The free travel of a way backwards and forwards: over half a turn where the platform turns, else over ten sizes.
+    /// The free travel of a path backwards and forwards: over half a turn if the platform turns, else over ten sizes.
     #[must_use]
-    pub fn both_ways(&self, way: &StraightPath) -> [Travel; 2] {
-        let most = if way.turn.norm() > 0.0 { std::f64::consts::PI } else { FARTHEST * self.size };
-        [self.along(&way.reversed(), most), self.along(way, most)]
+    pub fn both_ways(&self, path: &StraightPath) -> [Travel; 2] {
+        let most = if path.turn.norm() > 0.0 { std::f64::consts::PI } else { FARTHEST * self.size };
+        [self.along(&path.reversed(), most), self.along(path, most)]
     }
 
     /// Distance of two poses: `sqrt(|p - p'|^2 + (L angle)^2)` with the length `L` of [`Reach::new`].
     #[must_use]
     pub fn distance(&self, from: &Pose, to: &Pose) -> f64 {
-        let way = StraightPath::between(from, to);
-        way.velocity.norm().hypot(self.length * way.turn.norm())
+        let path = StraightPath::between(from, to);
+        path.velocity.norm().hypot(self.length * path.turn.norm())
     }
 }

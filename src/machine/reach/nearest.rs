@@ -95,8 +95,8 @@ impl Reach<'_> {
         } else {
             Vec::new()
         };
-        let way = self.along(&StraightPath::between(&self.home, pose), 1.0);
-        let straight_from_home = way.amount > 1.0 - 10.0 * STATIONARY;
+        let path = self.along(&StraightPath::between(&self.home, pose), 1.0);
+        let straight_from_home = path.amount > 1.0 - 10.0 * STATIONARY;
         NearestPose { pose: *pose, distance, binding, stationary, straight_from_home }
     }
 
@@ -114,18 +114,18 @@ impl Reach<'_> {
         let mut rng = Purpose::NEAREST_POSES.rng(o.seed);
         let mut starts: Vec<Pose> =
             [&self.home, asked].into_iter().filter_map(|p| self.restored(p)).collect();
-        let way = StraightPath::between(&self.home, asked);
+        let path = StraightPath::between(&self.home, asked);
         let mut far = self.distance(&self.home, asked);
         if starts.is_empty() {
             far = far.max(self.size);
         }
-        let wanted = starts.len() + o.starts;
+        let needed = starts.len() + o.starts;
         let mut led_back = 0;
         for _ in 0..TRIES * o.starts.max(1) {
-            if starts.len() >= wanted.max(1) {
+            if starts.len() >= needed.max(1) {
                 break;
             }
-            let pose = self.drawn(&way.at(rng.unit()), 0.5 * far, &mut rng);
+            let pose = self.drawn(&path.at(rng.unit()), 0.5 * far, &mut rng);
             if self.ends_at(&pose) {
                 starts.push(pose);
             } else if starts.is_empty() && led_back < LED_BACK {
@@ -210,9 +210,11 @@ impl Reach<'_> {
         let mut distance = self.distance(&pose, asked);
         let mut radius = distance.min(self.size);
         for _ in 0..steps {
-            let way = StraightPath::between(&pose, asked);
+            let path = StraightPath::between(&pose, asked);
             let wish =
-                Vector6::from_fn(|k, _| if k < 3 { way.velocity[k] } else { self.length * way.turn[k - 3] });
+                Vector6::from_fn(
+                    |k, _| if k < 3 { path.velocity[k] } else { self.length * path.turn[k - 3] },
+                );
             let mut spaces = self.half_spaces(&pose, radius);
             // the trust region of the steps, a box
             for k in 0..6 {

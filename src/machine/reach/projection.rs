@@ -28,10 +28,10 @@ pub(super) fn project(point: &Vector6<f64>, spaces: &[HalfSpace], tolerance: f64
     for _ in 0..SWEEPS {
         let mut moved = 0.0_f64;
         for (space, m) in scaled.iter().zip(&mut multipliers) {
-            let wanted = (*m + space.bound - space.row.dot(&x)).max(0.0);
-            x += space.row * (wanted - *m);
-            moved = moved.max((wanted - *m).abs());
-            *m = wanted;
+            let multiplier = (*m + space.bound - space.row.dot(&x)).max(0.0);
+            x += space.row * (multiplier - *m);
+            moved = moved.max((multiplier - *m).abs());
+            *m = multiplier;
         }
         if !(moved > tolerance) {
             break;

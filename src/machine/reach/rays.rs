@@ -1,4 +1,4 @@
-//! Straight ways in all directions from a pose, and the part of the surrounding space that they reach.
+//! Straight paths in all directions from a pose, and the part of the surrounding space that they reach.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use super::{FARTHEST, Reach, StraightPath};
 use crate::requirements::Limit;
 use platform::geom::Pose;
 
-/// A way in one direction.
+/// A path in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeRay {
     /// Unit vector, base frame.
@@ -33,7 +33,7 @@ fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
 const BOX_STEPS: (usize, usize) = (24, 4);
 
 impl Reach<'_> {
-    /// Ways from a pose at its orientation, in `count` directions spread evenly; where the pose is not allowed all of
+    /// Paths from a pose at its orientation, in `count` directions spread evenly; where the pose is not allowed all of
     /// them end at once.
     #[must_use]
     pub fn shifts(&self, from: &Pose, count: usize) -> Vec<FreeRay> {

@@ -1,13 +1,13 @@
-//! Steps of a way over which no margin can reach zero.
+//! Steps of a path over which no margin can reach zero.
 //!
-//! `v` and `w` are the velocities of the way, `o` is the pivot, and a leg has `c = R (b - o)`, `q = R o + p - a` and
+//! `v` and `w` are the velocities of the path, `o` is the pivot, and a leg has `c = R (b - o)`, `q = R o + p - a` and
 //! the line `d = c + q`:
 //!
 //! ```text
 //! |d'| <= V = |v| + |w x c|,   |d''| <= A = |w| |w x c|,
 //! ```
 //!
-//! both constant along the way, since `c` turns about `w`. Seen from the platform the line is `b + R^T q`, hence
+//! both constant along the path, since `c` turns about `w`. Seen from the platform the line is `b + R^T q`, hence
 //! `V = |v| + |w x q|` and `A = |w| |w x q| + 2 |w| |v|`, where `|w x q|` grows by at most `|w| |v|` in a unit of `t`.
 //! With `u = d / |d|`:
 //!
@@ -20,7 +20,7 @@
 use nalgebra::Vector3;
 
 use super::{Reach, StraightPath};
-use crate::requirements::{CrankRoom, HingeAngle, Limit, Term, TermKind};
+use crate::requirements::{CrankClearances, HingeAngle, Limit, Term, TermKind};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Leg};
 
@@ -38,7 +38,7 @@ struct LineMotion {
     cap: f64,
 }
 
-/// A leg at a place of the way.
+/// A leg at a place of the path.
 struct LegPlace {
     /// `R b`.
     arm: Vector3<f64>,
@@ -52,10 +52,10 @@ struct LegPlace {
 }
 
 impl LegPlace {
-    fn of(leg: &Leg, way: &StraightPath, pose: &Pose) -> Self {
-        let (v, w) = (&way.velocity, &way.turn);
+    fn of(leg: &Leg, path: &StraightPath, pose: &Pose) -> Self {
+        let (v, w) = (&path.velocity, &path.turn);
         let origin_arm = pose.rotation * leg.platform.coords;
-        let pivot = pose.rotation * way.pivot;
+        let pivot = pose.rotation * path.pivot;
         let arm = origin_arm - pivot;
         let q = pose.position + pivot - leg.base.coords;
         let line = arm + q;
@@ -124,32 +124,32 @@ fn lasts(margin: f64, rate: f64) -> f64 {
 ///
 /// While the rod closes, `|d| <= r + l`, `||d|^2 - r^2 - l^2| <= 2 r l` and `|d.n| <= l`, hence
 /// `|(s^2)'| <= 2 l V (2 + l / r)`; and `|q'| <= V l / (r s)`. When the rod ceases to close, its own margins end the
-/// way.
-fn crank_step(room: &CrankRoom, kind: TermKind, margin: f64, speed: f64) -> f64 {
-    let rate = 2.0 * room.rod * speed * (2.0 + room.rod / room.length);
+/// path.
+fn crank_step(crank: &CrankClearances, kind: TermKind, margin: f64, speed: f64) -> f64 {
+    let rate = 2.0 * crank.rod * speed * (2.0 + crank.rod / crank.length);
     match kind {
-        TermKind::CrankTransmission => lasts(room.above_least, rate),
-        TermKind::TipAngle => lasts(room.lean, speed),
+        TermKind::CrankTransmission => lasts(crank.above_least, rate),
+        TermKind::TipAngle => lasts(crank.lean, speed),
         // s keeps half of its value
         _ => {
-            let turning = 2.0 * speed * room.rod / (room.length * room.square.max(0.0).sqrt());
-            lasts(margin.to_radians(), turning).min(lasts(0.75 * room.square, rate))
+            let turning = 2.0 * speed * crank.rod / (crank.length * crank.square.max(0.0).sqrt());
+            lasts(margin.to_radians(), turning).min(lasts(0.75 * crank.square, rate))
         }
     }
 }
 
-/// The greatest speed of a platform joint on a way.
-pub(super) fn fastest(way: &StraightPath, legs: &[Leg; 6]) -> f64 {
-    let arm = |leg: &Leg| way.start.rotation * (leg.platform.coords - way.pivot);
-    let turned = |leg: &Leg| way.turn.cross(&arm(leg)).norm();
-    way.velocity.norm() + legs.iter().map(turned).fold(0.0, f64::max)
+/// The greatest speed of a platform joint on a path.
+pub(super) fn fastest(path: &StraightPath, legs: &[Leg; 6]) -> f64 {
+    let arm = |leg: &Leg| path.start.rotation * (leg.platform.coords - path.pivot);
+    let turned = |leg: &Leg| path.turn.cross(&arm(leg)).norm();
+    path.velocity.norm() + legs.iter().map(turned).fold(0.0, f64::max)
 }
 
 impl Reach<'_> {
-    /// A step from a pose of the way over which no margin with a bounded rate reaches zero. Infinite if only forces,
+    /// A step from a pose of the path over which no margin with a bounded rate reaches zero. Infinite if only forces,
     /// stiffness and the sign of `det J` remain.
-    pub(super) fn safe_step(&self, way: &StraightPath, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
-        let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], way, pose));
+    pub(super) fn safe_step(&self, path: &StraightPath, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
+        let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], path, pose));
         let steps = margins.iter().map(|(limit, margin)| match limit {
             Limit::Term(term) => self.step_of(*term, *margin, &places, pose),
             Limit::Singular => f64::INFINITY,
@@ -223,8 +223,8 @@ impl Reach<'_> {
             TermKind::MinRodLength | TermKind::MaxRodLength => lasts(margin, base.speed),
             TermKind::CrankTransmission | TermKind::CrankAngle | TermKind::TipAngle => self
                 .terms
-                .crank_room(term.first, pose)
-                .map_or(f64::INFINITY, |room| crank_step(&room, term.kind, margin, base.speed)),
+                .crank_clearances(term.first, pose)
+                .map_or(f64::INFINITY, |crank| crank_step(&crank, term.kind, margin, base.speed)),
             // forces and stiffness have no bound near singular poses; the others do not depend on the pose
             _ => f64::INFINITY,
         }

@@ -7,13 +7,13 @@ use nalgebra::Vector3;
 use super::{FreeRay, Reach};
 use platform::geom::Pose;
 
-/// The boundary of the positions that straight paths reach at one orientation. Every way from the middle ends on it, so
-/// that it has no folds.
+/// The boundary of the positions that straight paths reach at one orientation. Every path from the middle ends on it,
+/// so it has no folds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachedSurface {
     /// The pose in the middle.
     pub from: Pose,
-    /// The ways to its corners.
+    /// The paths to its corners.
     pub rays: Vec<FreeRay>,
     /// Corners of the triangles, counter-clockwise seen from outside.
     pub triangles: Vec<[usize; 3]>,

@@ -59,7 +59,7 @@ fn only_lengths(m: &Manipulator, home: &Pose, share: f64) -> Requirements {
     }
 }
 
-/// A way of mixed velocities from a pose about home.
+/// A path of mixed velocities from a pose about home.
 fn drawn(home: &Pose, rng: &mut Rng) -> StraightPath {
     let mut vector = |x: f64| Vector3::from_fn(|_, _| rng.uniform(-x, x));
     let start =
@@ -84,22 +84,22 @@ fn one_number_of_a_pose_moves_and_the_others_stay() {
     }
 }
 
-/// The requirements that end random ways about home, each compared with a search in small steps.
-fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usize) -> BTreeSet<TermKind> {
+/// The requirements that end random paths about home, each compared with a search in small steps.
+fn ends_of_paths(m: &Manipulator, required: &Requirements, home: &Pose, paths: usize) -> BTreeSet<TermKind> {
     let reach = Reach::new(m, required, home, 1.0);
     assert!(reach.allows(home), "{:?}", reach.violated(home));
     let mut rng = Rng::new(4);
     let mut kinds = BTreeSet::new();
-    let mut judged = 0;
-    while judged < ways {
-        let way = drawn(home, &mut rng);
-        if !reach.allows(&way.start) {
+    let mut checked = 0;
+    while checked < paths {
+        let path = drawn(home, &mut rng);
+        if !reach.allows(&path.start) {
             continue;
         }
-        judged += 1;
-        let found = reach.along(&way, 3.0);
+        checked += 1;
+        let found = reach.along(&path, 3.0);
         let step = 1e-3;
-        let first = (1..=3000).find(|k| !reach.allows(&way.at(f64::from(*k) * step)));
+        let first = (1..=3000).find(|k| !reach.allows(&path.at(f64::from(*k) * step)));
         assert!(reach.allows(&found.pose));
         // the end agrees with the search within one of its steps
         let last = (found.amount / step).floor();
@@ -110,7 +110,7 @@ fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usi
             found.amount
         );
         let Some(limit) = found.binding else { continue };
-        assert!(!reach.allows(&way.at(found.amount + 1e-9)), "what binds is violated beyond");
+        assert!(!reach.allows(&path.at(found.amount + 1e-9)), "what binds is violated beyond");
         if let Limit::Term(term) = limit {
             kinds.insert(term.kind);
         }
@@ -124,17 +124,17 @@ fn the_free_part_of_a_way_is_that_of_a_fine_search() {
     let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let mut required = required(&m, &home);
-    let mut kinds = ends_of_ways(&m, &required, &home, 60);
+    let mut kinds = ends_of_paths(&m, &required, &home, 60);
     // without limits of lengths and joint angles the others bind
     required.hardware =
         Hardware { leg_length: None, base_cone_angle: None, platform_cone_angle: None, ..required.hardware };
-    kinds.extend(ends_of_ways(&m, &required, &home, 60));
+    kinds.extend(ends_of_paths(&m, &required, &home, 60));
     required.hardware.max_leg_force = None;
-    kinds.extend(ends_of_ways(&m, &required, &home, 60));
+    kinds.extend(ends_of_paths(&m, &required, &home, 60));
     required.hardware.max_leg_speed = None;
-    kinds.extend(ends_of_ways(&m, &required, &home, 60));
+    kinds.extend(ends_of_paths(&m, &required, &home, 60));
     required.keep_outs.clear();
-    kinds.extend(ends_of_ways(&m, &required, &home, 60));
+    kinds.extend(ends_of_paths(&m, &required, &home, 60));
     assert!(kinds.len() >= 6, "{kinds:?}");
 }
 
@@ -193,11 +193,11 @@ fn a_way_from_a_limit_goes_inwards_and_not_outwards() {
     let required = required(&m, &home);
     let reach = Reach::new(&m, &required, &home, 1.0);
     for axis in PoseAxis::ALL {
-        let way = StraightPath::axis(&home, axis);
-        let end = reach.along(&way, 3.0);
-        let out = reach.along(&StraightPath { start: end.pose, ..way }, 3.0);
+        let path = StraightPath::axis(&home, axis);
+        let end = reach.along(&path, 3.0);
+        let out = reach.along(&StraightPath { start: end.pose, ..path }, 3.0);
         assert!(out.amount < 1e-8, "{}: {}", axis.name(), out.amount);
-        let back = reach.along(&StraightPath { start: end.pose, ..way.reversed() }, end.amount);
+        let back = reach.along(&StraightPath { start: end.pose, ..path.reversed() }, end.amount);
         assert!((back.amount - end.amount).abs() < 1e-12, "{}: {:?}", axis.name(), back);
     }
     let beyond = Pose { position: home.position + Vector3::z() * 5.0, ..home };
@@ -289,7 +289,7 @@ fn without_an_allowed_pose_there_is_none_nearest() {
     assert!(reach.nearest(&asked, &NearestPoseOptions::default()).is_none());
 }
 
-/// Ways end where an angle of a universal joint reaches its limit, and not before.
+/// Paths end where an angle of a universal joint reaches its limit, and not before.
 #[test]
 fn universal_joints_end_ways_where_a_fine_search_finds_it() {
     let m = symmetric_hexapod(2.0, 1.0);
@@ -309,6 +309,6 @@ fn universal_joints_end_ways_where_a_fine_search_finds_it() {
         platform_universal: Some(joint([45.0, 75.0])),
         ..Hardware::default()
     };
-    let kinds = ends_of_ways(&m, &Requirements { hardware, ..Requirements::default() }, &home, 12);
+    let kinds = ends_of_paths(&m, &Requirements { hardware, ..Requirements::default() }, &home, 12);
     assert!(kinds.len() >= 2, "{kinds:?}");
 }

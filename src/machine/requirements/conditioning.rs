@@ -15,7 +15,7 @@ pub struct LeastConditioning {
     pub pose: Pose,
 }
 
-/// The least inverse condition number over the poses that [`assess`](super::assess()) looks at first: home, those
+/// The least inverse condition number over the poses that [`assess`](super::assess()) examines first: home, those
 /// listed, and points of the region. Poses between the sampled ones may have a smaller value.
 #[must_use]
 pub fn least_conditioning(

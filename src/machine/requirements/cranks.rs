@@ -82,7 +82,7 @@ struct CrankAt {
 
 /// The remaining ranges of a crank, as bounds for short ways.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct CrankRoom {
+pub(crate) struct CrankClearances {
     /// Length of the crank, design units.
     pub length: f64,
     /// Length of the rod, design units.
@@ -241,13 +241,13 @@ impl Terms<'_> {
     }
 
     /// The remaining reach, transmission and lean of a crank; `None` for legs of variable length.
-    pub(crate) fn crank_room(&self, i: usize, pose: &Pose) -> Option<CrankRoom> {
+    pub(crate) fn crank_clearances(&self, i: usize, pose: &Pose) -> Option<CrankClearances> {
         let cranks = self.required.cranks.as_ref()?;
         let crank = &cranks.legs[i];
         let here = crank.at(&self.manipulator.legs()[i], pose);
         let least = crank.rod * cranks.min_transmission_angle_deg.to_radians().sin();
         let most = cranks.tip_angle_deg.map_or(f64::INFINITY, |limit| crank.rod * limit.to_radians().sin());
-        Some(CrankRoom {
+        Some(CrankClearances {
             length: crank.length,
             rod: crank.rod,
             square: here.left,

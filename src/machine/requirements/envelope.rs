@@ -85,7 +85,7 @@ impl Envelope {
 
 /// Half extents of the space of a joint along the axes of its body's frame, and its radius; one of them is 0.
 #[must_use]
-pub fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
+pub fn extent(housing: Option<Housing>) -> (Vector3<f64>, f64) {
     match housing {
         None => (Vector3::zeros(), 0.0),
         Some(Housing::Sphere(diameter)) => (Vector3::zeros(), 0.5 * diameter),
@@ -96,7 +96,7 @@ pub fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
 /// Radius of the ball that contains the space of a joint in every orientation.
 #[must_use]
 pub fn ball(housing: Option<Housing>) -> f64 {
-    let (half, radius) = room(housing);
+    let (half, radius) = extent(housing);
     half.norm() + radius
 }
 
@@ -114,8 +114,8 @@ mod tests {
         // the corner of a housing 4 by 8: (3 + 2, 4 + 4)
         let corner = circle.margin(at, &Vector3::new(2.0, 4.0, 1.0), 0.0);
         assert!((corner - (10.0 - 89f64.sqrt())).abs() < 1e-14);
-        let room = Envelope::Box { min: Point3::new(0.0, 0.0, 0.0), max: Point3::new(5.0, 9.0, 100.0) };
-        assert!((room.margin(at, &none, 0.0) - 1.0).abs() < 1e-15);
-        assert!((room.margin(at, &none, 1.5) + 0.5).abs() < 1e-15, "outside is negative");
+        let inside = Envelope::Box { min: Point3::new(0.0, 0.0, 0.0), max: Point3::new(5.0, 9.0, 100.0) };
+        assert!((inside.margin(at, &none, 0.0) - 1.0).abs() < 1e-15);
+        assert!((inside.margin(at, &none, 1.5) + 0.5).abs() < 1e-15, "outside is negative");
     }
 }

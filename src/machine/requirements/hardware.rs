@@ -1,6 +1,6 @@
 //! Sizes and limits of joints, legs and drives.
 
-use super::envelope::room;
+use super::envelope::extent;
 use super::term::TermKind;
 use super::universal::{HingeAngle, UniversalJoint};
 use nalgebra::{Unit, Vector3};
@@ -33,7 +33,7 @@ impl Housing {
     /// way out. The gap is this value minus `r + r'`; spheres have `|d| - r - r'`.
     #[must_use]
     pub fn gap<N: OrderedNumber>(&self, other: &Self, d: [N; 3]) -> N {
-        let ((half, ball), (other_half, other_ball)) = (room(Some(*self)), room(Some(*other)));
+        let ((half, ball), (other_half, other_ball)) = (extent(Some(*self)), extent(Some(*other)));
         let zero = N::from(0.0);
         let g: [N; 3] = std::array::from_fn(|k| d[k].abs() - (N::from(half[k]) + N::from(other_half[k])));
         let apart = N::norm(g.map(|x| x.max(zero)));

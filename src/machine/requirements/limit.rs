@@ -54,7 +54,7 @@ impl<'a> Limits<'a> {
 
     /// Whether `det J` limits the workspace; not when it vanishes at home.
     #[must_use]
-    pub fn judges_singularity(&self) -> bool {
+    pub fn checks_singularity(&self) -> bool {
         self.at_home.is_some()
     }
 
@@ -118,7 +118,7 @@ mod tests {
         let home = default_home(&m);
         let nothing = Requirements::default();
         let limits = Limits::new(&m, &nothing, &home);
-        assert!(limits.judges_singularity());
+        assert!(limits.checks_singularity());
         assert!((limits.at(&home).share - 1.0).abs() < 1e-12);
         // det J changes its sign after a quarter turn about the axis of symmetry
         let turned = |deg: f64| Pose {
@@ -129,6 +129,6 @@ mod tests {
         let beyond = limits.at(&turned(120.0));
         assert!(beyond.share < 0.0 && beyond.limit == Some(Limit::Singular));
         let singular = Limits::new(&m, &nothing, &turned(90.0));
-        assert!(!singular.judges_singularity() && singular.at(&home).limit.is_none());
+        assert!(!singular.checks_singularity() && singular.at(&home).limit.is_none());
     }
 }

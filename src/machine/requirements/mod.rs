@@ -37,10 +37,10 @@ pub use bodies::MovingBodies;
 pub use bound::prove_telling;
 pub use bound::{AssessStage, MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
 pub use conditioning::{LeastConditioning, least_conditioning};
-pub(crate) use cranks::CrankRoom;
+pub(crate) use cranks::CrankClearances;
 pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
 pub use envelope::{Envelope, Envelopes};
-pub use envelope::{ball, room};
+pub use envelope::{ball, extent};
 pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
 pub use hardware::{
@@ -151,19 +151,19 @@ impl Requirements {
     }
 
     /// `true` for a natural frequency with leg masses and joint offsets. The motion of such legs is not modelled, so
-    /// the frequency is not judged.
+    /// the frequency is not assessed.
     #[must_use]
     pub fn leaves_out_moving_legs(&self) -> bool {
-        let wanted = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
+        let required = self.platform_stiffness.is_some_and(|s| s.natural_frequency.is_some());
         let moving = self.vibrating.as_ref().is_some_and(|v| v.bodies.leg != LegMasses::default());
-        wanted && moving && self.hardware.is_coupled()
+        required && moving && self.hardware.is_coupled()
     }
 
     /// The required least stiffness or natural frequency, in the unit of its margin; `None` without one, and for other
     /// kinds.
     #[must_use]
     pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {
-        self.platform_stiffness.and_then(|wanted| wanted.least(kind))
+        self.platform_stiffness.and_then(|required| required.least(kind))
     }
 
     /// The reference value that makes margins of different kinds comparable: the size of the design (lengths), 90

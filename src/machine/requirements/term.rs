@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Point3, Unit, Vector3};
 
 use super::Requirements;
 use super::coupled::{CoupledLegs, DriveState, NoDriveLength};
-use super::envelope::{ball, room};
+use super::envelope::{ball, extent};
 use super::hardware::{Housing, JointAxes, LegBody, LegSegment};
 use super::keep_out::KeepOutShape;
 use super::load::HeldLines;
@@ -43,9 +43,9 @@ num::answer_words! {
         /// Greatest leg speed minus the speed in the worst direction of motion.
         LegSpeed = "leg_speed" | "leg speed, maximum",
         /// Gap between two housings of the base, or distance of joint centres minus the least one.
-        BaseSpacing = "base_spacing" | "spacing of base joints",
+        BaseSpacing = "base_spacing" | "distance of base joints",
         /// Gap between two housings of the platform, or distance of joint centres minus the least one.
-        PlatformSpacing = "platform_spacing" | "spacing of platform joints",
+        PlatformSpacing = "platform_spacing" | "distance of platform joints",
         /// Distance of a base joint with its housing inside the envelope of the base.
         BaseEnvelope = "base_envelope" | "envelope of base",
         /// Distance of a platform joint with its housing inside the envelope of the platform.
@@ -348,7 +348,7 @@ impl<'a> Terms<'a> {
             {
                 let housings = self.required.hardware.housings_at(body, &used, i);
                 let inside = housings.into_iter().map(|housing| {
-                    let (half, radius) = room(housing);
+                    let (half, radius) = extent(housing);
                     envelope.margin(joint.coords.into(), &half, radius)
                 });
                 let margin = inside.fold(f64::INFINITY, f64::min);
@@ -398,8 +398,8 @@ impl<'a> Terms<'a> {
         self.some_at(pose, |kinds| kinds.contains(&kind)).into_iter().filter(move |(t, _)| t.kind == kind)
     }
 
-    /// The margins at a pose of the groups of kinds that `wanted` accepts.
-    fn some_at(&self, pose: &Pose, wanted: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
+    /// The margins at a pose of the groups of kinds that `accepts` allows.
+    fn some_at(&self, pose: &Pose, accepts: impl Fn(&[TermKind]) -> bool) -> Vec<(Term, f64)> {
         let mut out = Vec::new();
         if let Some(cranks) = &self.required.cranks {
             self.cranks(cranks, pose, &mut out);
@@ -408,10 +408,10 @@ impl<'a> Terms<'a> {
         let joints: [(Point3<f64>, Point3<f64>); 6] =
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
         let legs = self.legs_at(&joints, pose);
-        if wanted(&TermKind::OF_LEG_LINES) || wanted(&TermKind::HINGES) {
+        if accepts(&TermKind::OF_LEG_LINES) || accepts(&TermKind::HINGES) {
             self.lengths_and_cone_angles(&legs, pose, &mut out);
         }
-        if wanted(&TermKind::CLEARANCES) {
+        if accepts(&TermKind::CLEARANCES) {
             self.clearances(&legs.ends, pose, &mut out);
         }
         for (term, margin) in &mut out {
@@ -420,13 +420,13 @@ impl<'a> Terms<'a> {
                 *margin = f64::NEG_INFINITY;
             }
         }
-        if wanted(&[TermKind::LegForce, TermKind::LegSpeed]) {
+        if accepts(&[TermKind::LegForce, TermKind::LegSpeed]) {
             self.drives(&legs, pose, &mut out);
         }
-        if wanted(&[TermKind::MachineEnvelope]) {
+        if accepts(&[TermKind::MachineEnvelope]) {
             self.machine(&joints, &mut out);
         }
-        if wanted(&TermKind::OF_PLATFORM) {
+        if accepts(&TermKind::OF_PLATFORM) {
             self.stiffness(pose, &mut out);
         }
         out
@@ -473,19 +473,19 @@ impl<'a> Terms<'a> {
 
     /// Stiffness of the platform on its legs, and its natural frequency.
     fn stiffness(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
-        let Some(wanted) = self.required.platform_stiffness else { return };
+        let Some(required) = self.required.platform_stiffness else { return };
         let rows = self.drive_rows(pose, self.manipulator.size());
         let mut keep = |kind, value: f64, least: f64| {
             out.push((Term { kind, first: 0, second: 0 }, value - least));
         };
-        if wanted.linear.is_some() || wanted.angular.is_some() {
+        if required.linear.is_some() || required.angular.is_some() {
             let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
             let found = softest_of(rows.as_ref(), self.manipulator.size(), leg);
-            let _ = wanted.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
-            let _ = wanted.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
+            let _ = required.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
+            let _ = required.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
         }
         if let (Some(least), Some(masses), false) =
-            (wanted.natural_frequency, &self.required.vibrating, self.required.leaves_out_moving_legs())
+            (required.natural_frequency, &self.required.vibrating, self.required.leaves_out_moving_legs())
         {
             let mass = mass_matrix(self.manipulator, &masses.bodies, pose);
             let lowest = lowest_of(rows.as_ref(), self.manipulator.size(), &mass, masses.leg);

@@ -253,8 +253,8 @@ fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
             .map(|kind| (margin(&found, kind).value, margin(&found, kind).standing))
     };
     let wide = [100.0, 90.0, 1e4, 100.0];
-    let room = least(&with(wide[0], wide[1], wide[2], wide[3]));
-    let [a, b, c, d]: [f64; 4] = std::array::from_fn(|k| wide[k] - room[k].0);
+    let margins = least(&with(wide[0], wide[1], wide[2], wide[3]));
+    let [a, b, c, d]: [f64; 4] = std::array::from_fn(|k| wide[k] - margins[k].0);
     for share in [1.0 - 1e-16, 1.0, 1.0 + 2e-16] {
         for (_, standing) in least(&with(a * share, b * share, c * share, d * share)) {
             assert_eq!(standing, Standing::AtLimit);

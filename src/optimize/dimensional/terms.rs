@@ -499,7 +499,7 @@ impl<'a> RequirementTerms<'a> {
             let safety_margin = self.required.safety_margin(kind);
             let at = body.of((&ends.base, &ends.platform));
             for i in self.different_housings(body) {
-                let (half, ball) = requirements::room(self.required.hardware.housing(body, i));
+                let (half, ball) = requirements::extent(self.required.hardware.housing(body, i));
                 envelope.sides(Sloped::point(&at[i]), (&half, ball), &mut |part, margin| {
                     let (mut pull, g) = (P::none(), margin.slope / self.size);
                     match body {

@@ -36,7 +36,7 @@ pub enum InvalidPose {
     #[error("the last row of the matrix is {0:?}, not [0, 0, 0, 1]")]
     LastRow([f64; 4]),
     /// A quaternion whose norm is not 1.
-    #[error("the quaternion has norm {0}, not 1")]
+    #[error("the quaternion has norm {0:.4}, not 1")]
     QuaternionNorm(f64),
     /// A text that does not have six or seven numbers.
     #[error("{0}")]

@@ -1,7 +1,7 @@
-//! The joints for which a judgement is proved.
+//! The joints for which a verdict is proved.
 
 num::words! {
-    /// The level of a judgement, with the same three words everywhere.
+    /// The level of a verdict, with the same three words everywhere.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[cfg_attr(
         feature = "serde",

@@ -94,10 +94,7 @@ impl std::fmt::Display for NoExactCurve {
         match self {
             Self::OtherFlats => write!(f, "as written the joints do not have these flats"),
             Self::Irrational => {
-                write!(
-                    f,
-                    "the joints have square roots in their coordinates; curves are split for fractions only"
-                )
+                write!(f, "coordinates of the joints have square roots, and exact factors need fractions")
             }
             Self::TooLong { bits } => {
                 write!(

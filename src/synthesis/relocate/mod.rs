@@ -7,7 +7,7 @@
 //! A regular move does not change the span of the six leg vectors. So **the families never change** under moves, and
 //! single moves in a suitable order reach every platform equivalent to a given one (`docs/theory/moves.md`).
 //!
-//! [`relocate`] moves legs, [`Chain`] composes successive moves, and [`search`](mod@search) looks for equivalent
+//! [`relocate`] moves legs, [`Chain`] composes successive moves, and [`search`](mod@search) searches for equivalent
 //! platforms that meet requirements.
 
 mod names;
@@ -91,7 +91,7 @@ impl Relocation {
 #[non_exhaustive]
 pub enum RelocateError {
     /// The family does not exist.
-    #[error("there is no family {}, the platform has {count}", index + 1)]
+    #[error("there is no family {}; the platform has {count} families", index + 1)]
     NoSuchFamily {
         /// The requested index, from 0.
         index: usize,
@@ -99,7 +99,7 @@ pub enum RelocateError {
         count: usize,
     },
     /// A family has another number of parameters.
-    #[error("family {} has {expected} parameter(s), but {given} were given", family + 1)]
+    #[error("family {} needs {expected} parameters, but {given} were given", family + 1)]
     ParameterCount {
         /// The family, from 0.
         family: usize,

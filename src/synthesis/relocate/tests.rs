@@ -98,9 +98,9 @@ fn holds(map: &AffineLegMap, from: &Manipulator, to: &Manipulator, rng: &mut Rng
     (0..10).all(|_| {
         let pose = Pose { rotation: random_rotation(rng), position: p(rng) * from.size() };
         let s = pose.squared_lengths(from).unwrap();
-        let wanted = pose.squared_lengths(to).unwrap();
+        let expected = pose.squared_lengths(to).unwrap();
         let image = map.apply(&s).unwrap();
-        image.get().iter().zip(wanted.get()).all(|(x, y)| (x - y).abs() < 1e-9 * unit)
+        image.get().iter().zip(expected.get()).all(|(x, y)| (x - y).abs() < 1e-9 * unit)
     })
 }
 

@@ -66,7 +66,7 @@ pub fn hold_at(m: &Manipulator, pose: &Pose) -> PoseHold {
 }
 
 /// The sign of `det J` with moments about the mean of the platform ends and lengths over the size of the platform. A
-/// small platform over a large base is thus judged by its own size. `None` if the determinant may be zero within
+/// small platform over a large base is thus compared with its own size. `None` if the determinant may be zero within
 /// rounding.
 ///
 /// Rows `[u_i, (r_i x u_i) / rho]` have norms of at most `sqrt(7)` and errors of at most `err`. The determinant error
@@ -129,15 +129,15 @@ pub fn singular_along<'a>(
                     open = Some(SingularOnPath { curve, at, pose, evidence: SingularEvidence::Rounding });
                 }
                 (None, Some(_)) => {}
-                (Some(after), Some(found)) => return Some(judged(m, found, before, Some(after))),
+                (Some(after), Some(found)) => return Some(passage(m, found, before, Some(after))),
                 (Some(sign), None) => before = Some(sign),
             }
         }
     }
-    open.map(|found| judged(m, found, before, None))
+    open.map(|found| passage(m, found, before, None))
 }
 
-fn judged(
+fn passage(
     m: &Manipulator,
     found: SingularOnPath,
     before: Option<Sign>,

@@ -1,4 +1,4 @@
-//! The judge of problems with requirements: builds the platform and looks for its worst poses with code that the
+//! The judge of problems with requirements: builds the platform and searches for its worst poses with code that the
 //! optimiser does not use.
 
 use std::collections::BTreeMap;
@@ -54,7 +54,7 @@ pub(crate) struct DimensionalJudge {
     bounds: Vec<(f64, f64)>,
     /// Way of home for a unit of height.
     lift: Vector3<f64>,
-    /// Points of the cube of poses to look at; worse ones that are found join them.
+    /// Points of the cube of poses to examine; worse ones that are found join them.
     held: RwLock<Vec<Vector6<f64>>>,
     /// Least value of an earlier objective.
     floor: Option<(Objective, f64)>,
@@ -113,7 +113,7 @@ impl DimensionalJudge {
         self.problem.space.with_home(home)
     }
 
-    /// Poses that are looked at: listed ones, and those of the held points.
+    /// Poses that are examined: listed ones, and those of the held points.
     fn poses(&self, home: Pose) -> Vec<Pose> {
         let space = self.space(home);
         let held = self.held.read().map(|h| h.clone()).unwrap_or_default();

@@ -22,7 +22,7 @@ pub(crate) trait Judge: Sync {
     fn is_feasible(&self, x: &[f64]) -> bool {
         self.violation(x) <= 0.0
     }
-    /// The value of a feasible point that may be the best so far, looked at more closely; `None` when that finds a
+    /// The value of a feasible point that may be the best so far, examined more closely; `None` when that finds a
     /// violation.
     fn confirm(&self, x: &[f64]) -> Option<f64> {
         Some(self.value(x))

@@ -151,9 +151,9 @@ fn proved_margins_of_cranks_hold_over_the_workspace() {
     let reach = found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::MinRodLength).unwrap();
     assert_eq!(reach.verdict, MarginVerdict::Met, "{reach:?}");
     // one limit moved beyond the least margin found is violated, and is told so
-    let wanted =
+    let expected =
         found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::CrankTransmission).unwrap();
-    let more = wanted.found.value + 20.0 + 0.5;
+    let more = expected.found.value + 20.0 + 0.5;
     let text = design
         .text()
         .replace("min_transmission_angle_deg = 20", &format!("min_transmission_angle_deg = {more}"));

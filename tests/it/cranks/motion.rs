@@ -10,7 +10,7 @@ use crate::cli_frame::equipod;
 
 /// The free motion of the head, against a walk in small steps by other code.
 #[test]
-fn free_ways_of_cranks_end_where_a_limit_of_theirs_does() {
+fn free_paths_of_cranks_end_where_a_limit_of_theirs_does() {
     let (code, doc) = asked(&["limits", HEAD, "--at", "2,-3,180,4,-2,5"]);
     assert_eq!((code, &doc["allowed"]), (Some(0), &true.into()), "{doc}");
     let preset = std::fs::read_to_string(HEAD).unwrap();

@@ -13,7 +13,7 @@
 //! EQUIPOD_FUZZ_CASES=50 cargo test --profile evidence --test it mutated_inputs
 //! ```
 //!
-//! The targets of `tests/fuzz` look for inputs by coverage in the same readers.
+//! The targets of `tests/fuzz` search for inputs by coverage in the same readers.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -66,7 +66,7 @@ fn first_fault(
 }
 
 /// The fault in the end of the program, if there is one.
-fn judge(out: &Output) -> Result<(), String> {
+fn verdict_of(out: &Output) -> Result<(), String> {
     let fault = |what: &str| {
         let shown = |bytes: &[u8]| String::from_utf8_lossy(bytes).chars().take(400).collect::<String>();
         Err(format!("{what}: {:?} {} {}", out.status, shown(&out.stdout), shown(&out.stderr)))
@@ -91,7 +91,7 @@ fn within(limits: [u32; 2]) -> Command {
     command
 }
 
-/// Runs the program with `--json` and judges how it ends.
+/// Runs the program with `--json` and checks how it ends.
 fn program(args: &[&str]) -> Result<(), String> {
     let computes = ["fk", "calibrate", "build", "report"].contains(&args[0]);
     let child = within([PROCESSOR_SECONDS[usize::from(computes)], MEMORY])
@@ -127,7 +127,7 @@ fn program(args: &[&str]) -> Result<(), String> {
             None => std::thread::sleep(Duration::from_millis(2)),
         }
     };
-    judge(&Output { status, stdout: stdout.join().unwrap(), stderr: stderr.join().unwrap() })
+    verdict_of(&Output { status, stdout: stdout.join().unwrap(), stderr: stderr.join().unwrap() })
 }
 
 /// A file in a folder of its own.
@@ -357,10 +357,10 @@ fn runs_beyond_their_limits_are_ended() {
     assert!(!small.status.success(), "{small:?}");
 }
 
-/// The ends of a run that the judge has to refuse.
+/// The ends of a run that the check has to refuse.
 #[cfg(unix)]
 #[test]
-fn the_judge_refuses_panics_kills_and_wrong_documents() {
+fn the_check_refuses_panics_kills_and_wrong_documents() {
     use std::os::unix::process::ExitStatusExt;
     let ended = |wait: i32, stdout: &str| Output {
         status: std::process::ExitStatus::from_raw(wait),
@@ -370,13 +370,13 @@ fn the_judge_refuses_panics_kills_and_wrong_documents() {
     let yes = r#"{"schema_version":1,"warnings":[]}"#;
     let no = r#"{"schema_version":1,"error":{"code":"a::b","message":"c"},"warnings":[]}"#;
     assert!(
-        judge(&ended(0, yes)).is_ok()
-            && judge(&ended(3 << 8, yes)).is_ok()
-            && judge(&ended(2 << 8, no)).is_ok()
+        verdict_of(&ended(0, yes)).is_ok()
+            && verdict_of(&ended(3 << 8, yes)).is_ok()
+            && verdict_of(&ended(2 << 8, no)).is_ok()
     );
     let bad =
         [(0, no), (2 << 8, yes), (4 << 8, no), (101 << 8, no), (9, yes), (0, ""), (0, "[]"), (0, "{}{}")];
     for (wait, stdout) in bad {
-        assert!(judge(&ended(wait, stdout)).is_err(), "{wait} {stdout}");
+        assert!(verdict_of(&ended(wait, stdout)).is_err(), "{wait} {stdout}");
     }
 }

@@ -206,7 +206,7 @@ fn missed(
     others: &[ComplexPose],
 ) -> usize {
     let mut absent: Vec<Root> = Vec::new();
-    let mut look = |refined: NewtonEnd, near: bool| {
+    let mut consider = |refined: NewtonEnd, near: bool| {
         let known = holds(roots, &refined.point) || holds(&absent, &refined.point);
         if near && refined.converged && refined.proper && !known {
             let (point, radius) = (refined.point, radius(&refined));
@@ -220,7 +220,7 @@ fn missed(
     for root in roots {
         let conjugate = root.point.conjugate();
         if !holds(roots, &conjugate) {
-            look(equations.refine(&conjugate), true);
+            consider(equations.refine(&conjugate), true);
         }
     }
     let mirror = PlanarReflections::of(&problem.manipulator);
@@ -229,7 +229,7 @@ fn missed(
         let start = equations.point(&pose);
         if equations.residual(&start) <= RESIDUAL && !holds_nearly(roots, &start) {
             let refined = equations.refine(&start);
-            look(refined, is_regular(&start, &refined));
+            consider(refined, is_regular(&start, &refined));
         }
     }
     absent.len()

@@ -186,13 +186,13 @@ mod tests {
         assert_eq!(again.to_toml(), text);
         let known = again.machine_uncertainty().unwrap();
         for row in rows.iter().take(10) {
-            let wanted = pose_deviation(&found.model, &found.unknowns, &found.root, &row.pose).unwrap();
+            let expected = pose_deviation(&found.model, &found.unknowns, &found.root, &row.pose).unwrap();
             let of = |u: &MachineUncertainty| {
                 u.pose_covariance(again.manipulator(), &row.pose, &Point3::origin()).unwrap()
             };
             let (kept, independent) = (of(&known), of(&known.independent()));
-            assert!((kept.position / wanted.position - 1.0).abs() < 1e-5, "{kept:?} {wanted:?}");
-            assert!((kept.rotation / wanted.rotation - 1.0).abs() < 1e-5, "{kept:?} {wanted:?}");
+            assert!((kept.position / expected.position - 1.0).abs() < 1e-5, "{kept:?} {expected:?}");
+            assert!((kept.rotation / expected.rotation - 1.0).abs() < 1e-5, "{kept:?} {expected:?}");
             assert!(independent.position > 2.0 * kept.position, "{independent:?} {kept:?}");
         }
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::judging::{AssessReport, deciding};
+use super::assessing::{AssessReport, deciding};
 use super::moving::{MotionMasses, MotionReport, PlatformMotion};
 use crate::Design;
 use machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
@@ -85,7 +85,7 @@ impl std::fmt::Display for NoAllowance {
         match self {
             Self::Error(why) => why.fmt(f),
             Self::Cranks => f.write_str(
-                "the legs are rods on cranks, and joints are toleranced of legs that change their lengths",
+                "the legs are rods on cranks; joint tolerances exist for legs of variable length only",
             ),
         }
     }

@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
+use super::assessing::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
 use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
 use crate::Design;
 use files::design::{DesignUnits, Drive};

@@ -8,7 +8,7 @@ use fk::{FkOptions, Threads};
 use num::Cancel;
 use platform::geom::SamplePlan;
 use synthesis::LegMapOutcome;
-use verify::{Sample, Verification, VerifyError, VerifyRun, judge, verify_each};
+use verify::{Sample, Verification, VerifyError, VerifyRun, decide_map, verify_each};
 
 /// The default number of sample poses.
 pub const SAMPLES: usize = 10;
@@ -79,8 +79,8 @@ impl<'a> VerifyOptions<'a> {
 
     /// Sets a function that sees each sample in order as soon as it is solved, and may end the comparison.
     #[must_use]
-    pub fn on_sample(mut self, look: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
-        self.on_sample = Some(Box::new(look));
+    pub fn on_sample(mut self, observe: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
+        self.on_sample = Some(Box::new(observe));
         self
     }
 }
@@ -114,8 +114,8 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
     let VerifyOptions { samples, seed, run, on_sample } = options;
     let plan = sample_plan(a, samples, seed);
     let fk = FkOptions::new().seed(seed);
-    let mut look = on_sample.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
-    let found = verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut look);
+    let mut observe = on_sample.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
+    let found = verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut observe);
     let found = found.map_err(|e| match e {
         VerifyError::Cancelled => Error::Cancelled,
         other => other.into(),
@@ -151,7 +151,7 @@ impl ComparedDesigns {
 /// Designs in different units; a decomposition that does not converge.
 pub fn leg_map(from: &Design, to: &Design) -> Result<LegMapOutcome, Error> {
     same_units(from, to)?;
-    Ok(judge(from.manipulator(), to.manipulator())?)
+    Ok(decide_map(from.manipulator(), to.manipulator())?)
 }
 
 fn same_units(a: &Design, b: &Design) -> Result<(), Error> {

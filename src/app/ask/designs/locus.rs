@@ -194,13 +194,13 @@ fn default_pair(m: &Manipulator) -> Option<(usize, usize)> {
     let pairs = m.pairs();
     let topology = Topology::unordered(pairs.map(|p| p.0), pairs.map(|p| p.1));
     let numbered = topology.legs();
-    let wanted = topology.trilateration().virtual_legs.first().copied();
+    let virtual_leg = topology.trilateration().virtual_legs.first().copied();
     let free = || {
         let all =
             (0..topology.base_joints()).flat_map(|a| (0..topology.platform_joints()).map(move |b| (a, b)));
         all.into_iter().find(|p| !numbered.contains(p))
     };
-    let (a, b) = wanted.or_else(free)?;
+    let (a, b) = virtual_leg.or_else(free)?;
     // joints of the topology are numbered as they appear in the legs
     let base = numbered.iter().position(|l| l.0 == a).map(|leg| pairs[leg].0);
     base.zip(numbered.iter().position(|l| l.1 == b).map(|leg| pairs[leg].1))

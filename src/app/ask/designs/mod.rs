@@ -1,5 +1,6 @@
 //! The questions that are put to a design with names, units and requirements.
 
+mod assessing;
 mod at_pose;
 pub mod calibrating;
 mod comparing;
@@ -13,7 +14,6 @@ pub mod exporting;
 mod file_io;
 mod frames;
 mod holding;
-mod judging;
 mod locus;
 mod moved_legs;
 mod moving;
@@ -35,18 +35,18 @@ pub mod whole;
 
 use crate::Error;
 
+pub use assessing::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
 pub use at_pose::{AtPoseOptions, AtPoseReport, DrivesAt, HeldWrench, NoAtPose, StuckLeg};
 pub use comparing::{DesignFigures, FigureOptions, Separation};
 pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
 #[cfg(feature = "optimize")]
 pub use exploring::{
-    ExploreJudgement, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
+    ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
     ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
 };
 pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;
-pub use judging::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
 pub use moved_legs::{
     InvalidMove, LegMoveRequest, MoveOptions, MovedAtOnce, MovesReport, NamedFamily, NoMoves,

@@ -14,7 +14,7 @@ use synthesis::relocate::{
     Chain, LegMove, RelocateError, Relocation, counted_from, family_between, relocate,
 };
 use synthesis::{LegMapTolerances, Relation};
-use verify::judge;
+use verify::decide_map;
 
 /// The end of a leg is at a joint within this share of the size of the design.
 const STAYS: f64 = 1e-9;
@@ -46,7 +46,7 @@ pub enum InvalidMove {
     #[error("`{0}` is not a move")]
     Form(String),
     /// It names no leg.
-    #[error("`{0}` is not a leg: they are numbered 1 to 6")]
+    #[error("`{0}` is not the number of a leg")]
     Leg(String),
     /// A parameter is no number.
     #[error(transparent)]
@@ -199,7 +199,7 @@ impl Design {
         let last = steps.last().and_then(|step| step.design.clone());
         if let Some(new) = &last {
             self.keeps_fixed(new)?;
-            chain.direct = judge(self.manipulator(), new.manipulator())?;
+            chain.direct = decide_map(self.manipulator(), new.manipulator())?;
         }
         let made: usize = relocations.iter().map(|r| r.moved.len()).sum();
         let together = options.together;
@@ -211,13 +211,13 @@ impl Design {
     fn step(
         &self,
         current: &Self,
-        wanted: &[LegMoveRequest],
+        requests: &[LegMoveRequest],
         search: ComponentOptions,
     ) -> Result<MovedAtOnce, NoMoves> {
         let found = current.replaceable_legs(&ReplaceableOptions::all(search))?.found;
         let mut moves = Vec::new();
         let (mut families, mut written) = (Vec::new(), Vec::new());
-        for request in wanted {
+        for request in requests {
             let (family, formulas) = self.family_meant(&request.along, current, &found)?;
             let parameters = request.parameters.iter().map(Share::nearest).collect();
             moves.push(LegMove { leg: request.leg, family, parameters, formulas });
@@ -230,10 +230,10 @@ impl Design {
             Err(RelocateError::Linalg(why)) => return Err(why.into()),
             Err(why) => return Err(NoMoves::Move { why, families: current.families_in_words(&found)? }),
         };
-        let shares: Vec<Share> = wanted.iter().flat_map(|request| request.parameters.clone()).collect();
+        let shares: Vec<Share> = requests.iter().flat_map(|request| request.parameters.clone()).collect();
         let design = current.with_legs_of(&relocation.assembled, &shares);
         if let Some(new) = &design {
-            relocation.map = judge(current.manipulator(), new.manipulator())?;
+            relocation.map = decide_map(current.manipulator(), new.manipulator())?;
         }
         Ok(MovedAtOnce { relocation, families, written, design })
     }
@@ -286,14 +286,20 @@ impl Design {
     /// A decomposition that does not converge.
     pub fn families_in_words(&self, found: &Components) -> Result<String, LinalgError> {
         if found.components.is_empty() {
-            return Ok("no leg of this platform can be moved".into());
+            return Ok("no leg of this platform is replaceable".into());
         }
         let mut entries = Vec::new();
         for (k, c) in found.components.iter().enumerate() {
             let legs: Vec<String> = c.support.iter().map(|leg| (leg.get() + 1).to_string()).collect();
             let name = self.family_name(found, k)?.map_or(String::new(), |name| format!(" {name}"));
-            let (kind, dimension, legs) = (c.type_name(), c.dimension, legs.join(" "));
-            entries.push(format!("{}{name} ({kind}, {dimension} parameter(s), legs {legs})", k + 1));
+            let parameters =
+                if c.dimension == 1 { "1 parameter".into() } else { format!("{} parameters", c.dimension) };
+            entries.push(format!(
+                "{}{name} ({}, {parameters}, legs {})",
+                k + 1,
+                c.type_name(),
+                legs.join(" ")
+            ));
         }
         Ok(format!("families, with the legs they can replace: {}", entries.join("; ")))
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::judging::regular_region;
+use super::assessing::regular_region;
 use crate::Design;
 use machine::reach::{FreeRay, largest_box_within, volume_of_rays};
 use machine::requirements::{AssessOptions, Limit, Requirements, assess, prove};
@@ -141,7 +141,7 @@ struct Around<'a> {
 }
 
 /// The verdict on a region.
-enum JudgedRegion {
+enum RegionVerdict {
     Free,
     Violated(Limit, f64),
     Undecided,
@@ -169,22 +169,22 @@ impl Around<'_> {
     }
 
     /// Assesses a region: all requirements that depend on the pose, and the sign of `det J`.
-    fn judge(&self, space: &PoseSpace) -> JudgedRegion {
+    fn assess(&self, space: &PoseSpace) -> RegionVerdict {
         if let Some((limit, margin)) = self.shown(space) {
-            return JudgedRegion::Violated(limit, margin);
+            return RegionVerdict::Violated(limit, margin);
         }
         let (m, options) = (self.design.manipulator(), self.options());
         let proof = prove(m, self.required, space, &options, CELLS);
         let bounds = || proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed());
         let violated = |b: &&machine::requirements::MarginBound| b.verdict.is_met() == Some(false);
         if let Some(b) = bounds().find(violated) {
-            return JudgedRegion::Violated(Limit::Term(b.found.term), b.found.value);
+            return RegionVerdict::Violated(Limit::Term(b.found.term), b.found.value);
         }
         let regularity = regular_region(m, self.required, space, CELLS, self.seed);
         match regularity.is_regular() {
-            Some(false) => JudgedRegion::Violated(Limit::Singular, 0.0),
-            Some(true) if bounds().all(|b| b.verdict.is_met() == Some(true)) => JudgedRegion::Free,
-            _ => JudgedRegion::Undecided,
+            Some(false) => RegionVerdict::Violated(Limit::Singular, 0.0),
+            Some(true) if bounds().all(|b| b.verdict.is_met() == Some(true)) => RegionVerdict::Free,
+            _ => RegionVerdict::Undecided,
         }
     }
 
@@ -198,13 +198,13 @@ impl Around<'_> {
         // from this size on nothing is proved
         let (mut doubtful, mut size) = (ray.free, ray.free * (1.0 - INSIDE));
         for _ in 0..ROUNDS {
-            match self.judge(&space(size)) {
-                JudgedRegion::Free => found.proved = size,
-                JudgedRegion::Violated(limit, margin) => {
+            match self.assess(&space(size)) {
+                RegionVerdict::Free => found.proved = size,
+                RegionVerdict::Violated(limit, margin) => {
                     (found.searched, found.binding) = (size, Some((limit, margin)));
                     doubtful = size;
                 }
-                JudgedRegion::Undecided => doubtful = size,
+                RegionVerdict::Undecided => doubtful = size,
             }
             if found.proved >= doubtful * (1.0 - CLOSE) {
                 break;

@@ -13,7 +13,7 @@ use synthesis::relocate::search::{
     SearchVerdict, Targets, search,
 };
 use synthesis::relocate::{Assembled, JointOrigin, spanning_joints};
-use verify::judge;
+use verify::decide_map;
 
 /// Default least distance of two joints, as a share of the size.
 const SPACING_SHARE: f64 = 0.01;
@@ -96,8 +96,8 @@ impl MovedPlatform {
 
     /// Gives the platform a name and a description, and the leg lengths at the pose of the given design.
     fn finish(&mut self, given: &Design, number: usize) {
-        let (c, judged) = (&self.candidate, self.assessed.as_ref());
-        let words = targets_in_words(c.fulfilled, judged.map(|a| (a.met(), a.names(a.met()))));
+        let (c, assessed) = (&self.candidate, self.assessed.as_ref());
+        let words = targets_in_words(c.fulfilled, assessed.map(|a| (a.met(), a.names(a.met()))));
         let Some(out) = &mut self.design else { return };
         out.name = format!("{}, rearranged {number}", given.name);
         out.description = Some(format!(
@@ -111,12 +111,12 @@ impl MovedPlatform {
     }
 }
 
-/// The requested properties and requirements that a platform has and misses. The argument `judged` tells whether all
+/// The requested properties and requirements that a platform has and misses. The argument `assessed` says whether all
 /// requirements are met, with the names of the requirements of this verdict.
 #[must_use]
-pub fn targets_in_words(targets: bool, judged: Option<(Option<bool>, String)>) -> String {
+pub fn targets_in_words(targets: bool, assessed: Option<(Option<bool>, String)>) -> String {
     let targets = if targets { "every target met" } else { "not every target met" };
-    match judged {
+    match assessed {
         None => targets.to_owned(),
         Some((Some(true), _)) => format!("{targets}, all requirements met"),
         Some((Some(false), names)) => format!("{targets}, requirements violated: {names}"),
@@ -153,6 +153,15 @@ impl MoveSearchReport {
     }
 }
 
+/// The subject and verb of a sentence about this number of platforms.
+fn platforms_meet(count: usize) -> String {
+    if count == 1 {
+        "1 equivalent platform meets".to_owned()
+    } else {
+        format!("{count} equivalent platforms meet")
+    }
+}
+
 /// The outcome in a sentence.
 impl std::fmt::Display for MoveSearchReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -161,19 +170,21 @@ impl std::fmt::Display for MoveSearchReport {
             SearchVerdict::Found => {
                 let on_target = self.platforms.iter().filter(|f| f.candidate.fulfilled).count();
                 let count = self.platforms.iter().filter(|f| f.is_fulfilled()).count();
-                let judged = self.platforms.iter().any(|f| f.assessed.is_some());
+                let assessed = self.platforms.iter().any(|f| f.assessed.is_some());
                 match self.word() {
-                    SearchWord::Found if judged => {
-                        write!(f, "{count} equivalent platform(s) meet every target and meet the requirements of the design")
+                    SearchWord::Found if assessed => {
+                        write!(f, "{} every target and the requirements of the design", platforms_meet(count))
                     }
-                    SearchWord::Found => write!(f, "{count} equivalent platform(s) meet every target"),
+                    SearchWord::Found => write!(f, "{} every target", platforms_meet(count)),
                     SearchWord::Violated => write!(
                         f,
-                        "{on_target} equivalent platform(s) meet every target, and each of them violates requirements of the design"
+                        "{} every target, but each violates requirements of the design",
+                        platforms_meet(on_target)
                     ),
                     _ => write!(
                         f,
-                        "{on_target} equivalent platform(s) meet every target, and none of them is proved to meet the requirements of the design"
+                        "{} every target, but none is proved to meet the requirements of the design",
+                        platforms_meet(on_target)
                     ),
                 }
             }
@@ -187,15 +198,20 @@ impl std::fmt::Display for MoveSearchReport {
                 write!(f, "impossible: the other end of every leg at hole {} is at infinity", h + 1)
             }
             SearchVerdict::Impossible(Impossibility::NotByThoseLegs(h)) => {
-                write!(f, "impossible: a leg at hole {} can replace none of the legs of that joint", h + 1)
+                write!(
+                    f,
+                    "impossible: no leg of the joint at hole {} can be replaced by a leg that ends there",
+                    h + 1
+                )
             }
             SearchVerdict::Impossible(Impossibility::SharedJoints(least)) => write!(
                 f,
-                "impossible: every equivalent platform has at least {least} shared joint(s): all replaceable legs are known, and six independent \
-                 ones always share that many"
+                "impossible: every equivalent platform has at least {least} shared {}. All replaceable legs are known, and six independent \
+                 legs always share that many",
+                if least == 1 { "joint" } else { "joints" }
             ),
             SearchVerdict::Impossible(Impossibility::HolesTogether) => f.write_str(
-                "impossible: all replaceable legs are known, and no six independent ones have ends at all the holes",
+                "impossible: all replaceable legs are known, and no six independent legs reach all the holes",
             ),
             SearchVerdict::Undecided => write!(
                 f,
@@ -220,7 +236,7 @@ impl Design {
     ) -> Result<MoveSearchReport, SearchError> {
         let mut outcome = search(self.manipulator(), families, &self.targets(targets), options)?;
         let candidates = std::mem::take(&mut outcome.candidates).into_iter();
-        let platforms = candidates.map(|c| self.judged_move(families, c, options.seed));
+        let platforms = candidates.map(|c| self.assessed_move(families, c, options.seed));
         let mut platforms = platforms.collect::<Result<Vec<_>, _>>()?;
         platforms.sort_by_key(|f| !f.is_fulfilled());
         for (k, platform) in platforms.iter_mut().enumerate() {
@@ -229,7 +245,7 @@ impl Design {
         Ok(MoveSearchReport { outcome, platforms })
     }
 
-    fn judged_move(
+    fn assessed_move(
         &self,
         families: &Components,
         candidate: Candidate,
@@ -238,7 +254,7 @@ impl Design {
         let parameters = candidate.placements.iter().flat_map(|p| p.parameters.iter().copied());
         let shares: Vec<Share> = parameters.filter_map(Share::shortest).collect();
         let design = self.with_legs_of(&candidate.assembled, &shares);
-        let on_joints = design.as_ref().and_then(|d| judge(self.manipulator(), d.manipulator()).ok());
+        let on_joints = design.as_ref().and_then(|d| decide_map(self.manipulator(), d.manipulator()).ok());
         let sources = candidate.placements.iter().map(|p| self.source_name(families, p.source));
         Ok(MovedPlatform {
             sources: sources.collect::<Result<_, _>>()?,

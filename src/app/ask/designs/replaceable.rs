@@ -87,15 +87,15 @@ impl Design {
     ) -> Result<ReplaceableLegs, NoReplaceableLegs> {
         let found = components(self.manipulator(), options.search)?;
         let count = found.components.len();
-        let wanted = match options.family {
+        let chosen = match options.family {
             None => 0..count,
             Some(k) if k < count => k..k + 1,
             Some(k) => {
                 return Err(NoReplaceableLegs::Family { name: self.name.clone(), count, number: k + 1 });
             }
         };
-        let mut families = Vec::with_capacity(wanted.len());
-        for index in wanted {
+        let mut families = Vec::with_capacity(chosen.len());
+        for index in chosen {
             // each family has its own stream, so that `family` does not change the legs
             let mut rng = Purpose::SAMPLED_LEGS.item(options.search.seed, index as u64);
             let mut samples = Vec::new();

@@ -158,7 +158,7 @@ pub struct FirstSearch<'a> {
 #[derive(Debug, Clone)]
 pub struct DesignOnHoles {
     /// The platform that was rounded.
-    pub wanted: Design,
+    pub given: Design,
     /// The grids and the effort of the search.
     pub choices: RoundingChoices,
     /// Both roundings of it.
@@ -208,13 +208,13 @@ impl DesignOnHoles {
 /// [`Error`] of an invalid search; [`NoRounding`] inside if the grids are unusable.
 #[cfg(feature = "optimize")]
 pub fn on_stated_holes(
-    wanted: &Design,
+    given: &Design,
     grids: &[Option<Grid>; 2],
     first: Option<FirstSearch<'_>>,
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Result<DesignOnHoles, NoRounding>, Error> {
-    let mut best = match round_once(wanted, grids, options, progress)? {
+    let mut best = match round_once(given, grids, options, progress)? {
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
@@ -258,13 +258,13 @@ fn widen(required: &mut Requirements, missed: &AssessReport) {
 /// Rounds once, and optimises the free variables again if a limit or safety margin is violated.
 #[cfg(feature = "optimize")]
 fn round_once(
-    wanted: &Design,
+    given: &Design,
     grids: &[Option<Grid>; 2],
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Result<DesignOnHoles, NoRounding>, Error> {
     let choices = RoundingChoices::on(grids, options.seed);
-    let rounding = match wanted.rounded(&choices) {
+    let rounding = match given.rounded(&choices) {
         Ok(rounding) => rounding,
         Err(why) => return Ok(Err(why)),
     };
@@ -273,7 +273,7 @@ fn round_once(
     let mut best: Option<(RoundingWay, Fitted)> = None;
     // joints stay on their lines if this meets the requirements
     for (way, m) in [exact, nearest].into_iter().flatten() {
-        let fitted = fit(wanted.on_holes(way, m, grids), options, progress)?;
+        let fitted = fit(given.on_holes(way, m, grids), options, progress)?;
         if best.as_ref().is_none_or(|(_, old)| rank(fitted.1.as_ref()) > rank(old.1.as_ref())) {
             best = Some((way, fitted));
         }
@@ -285,8 +285,8 @@ fn round_once(
         Some((way, (design, assessed, refitted))) => (Some((way, design)), assessed, refitted),
         None => (None, None, Vec::new()),
     };
-    let wanted = wanted.clone();
-    Ok(Ok(DesignOnHoles { wanted, choices, rounding, found, assessed, refitted, passes: 1 }))
+    let given = given.clone();
+    Ok(Ok(DesignOnHoles { given, choices, rounding, found, assessed, refitted, passes: 1 }))
 }
 
 /// A design, its assessment, and the variables optimised again.
@@ -318,9 +318,9 @@ fn fit(
     let found = checked(&asked, &problem, s, options.into())?.design;
     let mut again = design.clone();
     (again.home, again.hardware) = (found.home, found.hardware);
-    let judged = again.assessed(options.seed);
-    if rank(judged.as_ref()) > rank(assessed.as_ref()) {
-        return Ok((again, judged, free));
+    let reassessed = again.assessed(options.seed);
+    if rank(reassessed.as_ref()) > rank(assessed.as_ref()) {
+        return Ok((again, reassessed, free));
     }
     Ok((design, assessed, Vec::new()))
 }

@@ -64,7 +64,7 @@ pub enum NoSelfMotion {
     #[error("no sections leave no pose to start from: with lengths the curves are found by sections")]
     NoStart,
     /// Forward kinematics failed.
-    #[error("looking for further poses: {0}")]
+    #[error("searching for further poses: {0}")]
     Poses(#[from] FkError),
 }
 

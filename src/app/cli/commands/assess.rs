@@ -34,7 +34,7 @@ pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Fa
     let design = context.load_with_cranks(&args.design)?;
     if Context::coupled_of(&design)?.is_some() && design.requirements().leaves_out_moving_legs() {
         let message = format!(
-            "{}: `natural_frequency_hz` counts masses of legs, and how these move about joints that are not ideal (`offset`, `screw_lead`) is not known",
+            "{}: `natural_frequency_hz` includes the masses of the legs, whose motion about joints that are not ideal (`offset`, `screw_lead`) is unknown",
             design.name
         );
         let help =

@@ -60,7 +60,7 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
     let pose = poses::parse(&args.pose, &frames, "--pose", "at::bad_pose")?;
     let point = match &args.point {
         None => frames.convention.pivot_on_platform(),
-        Some(text) => frames.convention.axes() * Vector3::from(given::<3>(text, "--point")?),
+        Some(text) => frames.convention.axes() * Vector3::from(given::<3>(text, "--point", "X,Y,Z")?),
     };
     if !(args.step > 0.0 && args.step.is_finite()) {
         return Err(Failure::refused("at::bad_numbers", "--step is not a positive number"));
@@ -69,8 +69,12 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
         pose,
         point,
         axes: args.axes,
-        wrench: args.wrench.as_deref().map(|text| given(text, "--wrench")).transpose()?,
-        efforts: args.forces.as_deref().map(|text| given(text, "--forces")).transpose()?,
+        wrench: args
+            .wrench
+            .as_deref()
+            .map(|text| given(text, "--wrench", "FX,FY,FZ,TX,TY,TZ"))
+            .transpose()?,
+        efforts: args.forces.as_deref().map(|text| given(text, "--forces", "F1,..,F6")).transpose()?,
         leg: args.leg.map(|leg| usize::from(leg) - 1),
         directions: args.nearest_singular.then_some(args.directions as usize),
         seed: if args.nearest_singular { context.seed() } else { 0 },
@@ -84,9 +88,10 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
     Ok(Answer::new(exit, answer, text))
 }
 
-fn given<const N: usize>(text: &str, option: &str) -> Result<[f64; N], Failure> {
+/// The numbers of an option of this form.
+fn given<const N: usize>(text: &str, option: &str, form: &str) -> Result<[f64; N], Failure> {
     numbers::parse(text).ok_or_else(|| {
-        let message = format!("{option}: `{text}` is not {N} finite numbers separated by commas");
-        Failure::refused("at::bad_numbers", message)
+        Failure::refused("at::bad_numbers", numbers::fault(option, text, N))
+            .with_help(format!("give {N} numbers separated by commas: {form}"))
     })
 }

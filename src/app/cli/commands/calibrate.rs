@@ -150,7 +150,7 @@ impl CalibrateArgs {
             }
         }
         if self.loss == LossArg::Squares {
-            context.no_effect("loss_of", "squares doubt nothing")?;
+            context.no_effect("loss_of", "the loss of squares rejects no measurement")?;
         }
         Ok(())
     }
@@ -238,7 +238,7 @@ fn reason(found: &Calibration) -> String {
 fn failure_of(error: &Error) -> Failure {
     let Error::Calibration(why) = error else {
         return Failure::new(Exit::No, "calibrate::bad_machine", error.to_string())
-            .with_help("the measurements belong to no machine of this kind: check their columns and units");
+            .with_help("no such machine fits the measurements: check their columns and units");
     };
     match why {
         CalibrationError::BadNoise { .. } => Failure::refused("calibrate::bad_noise", why.to_string())
@@ -252,7 +252,7 @@ fn failure_of(error: &Error) -> Failure {
             .with_help("give --identified above 0, for instance 0.01"),
         CalibrationError::NoClosedForm => {
             Failure::new(Exit::No, "calibrate::no_closed_form", why.to_string()).with_help(
-                "begin at the design (--start nominal), or measure 17 poses or more that turn about all axes",
+                "start at the design (--start nominal), or measure at least 17 poses with rotations about all axes",
             )
         }
         _ => Failure::refused(BAD_MEASUREMENTS, why.to_string()),
@@ -285,7 +285,7 @@ fn frames(
     }
     let nominal = design.leg_model();
     CarriedFrames::between(&found.model, &nominal).map(Some).ok_or_else(|| {
-        let message = "the joints of a body lie on a line, so that any turn about it fits";
+        let message = "the joints of a body lie on a line, so every rotation about the line fits";
         Failure::new(Exit::No, "calibrate::no_frames", message).with_help("leave out --frames design")
     })
 }

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Fai
     let design = match context.load_six_or_five(&args.design, parse)? {
         SixOrFive::Six(design) => design,
         SixOrFive::Five(five) => {
-            context.no_effect("details", "the answer about five legs has none")?;
+            context.no_effect("details", "the answer about five legs has no details")?;
             return Ok(pentapod::check(&five, context));
         }
     };

@@ -94,7 +94,7 @@ pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
 }
 
 /// The requested formats, each once, in the order of the list.
-fn wanted(args: &ExportArgs) -> Vec<ExportFormat> {
+fn requested(args: &ExportArgs) -> Vec<ExportFormat> {
     let all = args.to.iter().any(|t| t == "all");
     let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
     ExportFormat::ALL.into_iter().filter(asked).collect()
@@ -107,11 +107,11 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 /// The diameter of the zone for the centre of each hole, if an accuracy is requested: joints are at their holes.
 fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<Option<f64>, Failure> {
     let Some(bound) = &args.bound else {
-        context.no_effect("tool", "it is the point whose accuracy --bound asks for")?;
+        context.no_effect("tool", "it is the point that --bound is about")?;
         return Ok(None);
     };
-    if !wanted(args).iter().any(|f| [ExportFormat::Dxf, ExportFormat::Csv].contains(f)) {
-        context.no_effect("bound", "only hole plans, dxf, and tables, csv, say how far joints may be off")?;
+    if !requested(args).iter().any(|f| [ExportFormat::Dxf, ExportFormat::Csv].contains(f)) {
+        context.no_effect("bound", "only the formats dxf and csv state joint tolerances")?;
     }
     let radius = tolerances::joint_radius(design, (bound, &args.tool), context.seed())?;
     Ok(Some(2.0 * radius))
@@ -121,12 +121,12 @@ fn hole_places(args: &ExportArgs, design: &Design, context: &Context) -> Result<
 pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let coupled = Context::coupled_of(&design)?.is_some();
-    if args.bound.is_some() || (coupled && !wanted(args).iter().any(|f| f.writer().takes_coupled)) {
+    if args.bound.is_some() || (coupled && !requested(args).iter().any(|f| f.writer().takes_coupled)) {
         // refuses cranks and joints that are not ideal at their place in the file: either no requested format holds
         // them, or their tolerances are unknown
         context.load(&args.design)?;
     }
-    let asked = |formats: &[ExportFormat]| wanted(args).iter().any(|format| formats.contains(format));
+    let asked = |formats: &[ExportFormat]| requested(args).iter().any(|format| formats.contains(format));
     let simulated = asked(&[ExportFormat::Mjcf, ExportFormat::Sdf, ExportFormat::Urdf]);
     if !simulated {
         context.no_effect("mass", "only the formats of simulators (mjcf, sdf, urdf) hold masses")?;
@@ -141,7 +141,7 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
     }
     files::make_folder(&args.output)?;
     let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), Sheet::new());
-    for format in wanted(args) {
+    for format in requested(args) {
         let Writer { purpose, leaves_out, .. } = *format.writer();
         let (files, outcome) = match export.files(format) {
             Ok(made) => {
@@ -163,7 +163,7 @@ pub(crate) fn run(args: &ExportArgs, context: &mut Context) -> Result<Answer, Fa
         };
         formats.push(FormatRecord { format: format.to_string(), purpose: purpose.into(), files, outcome });
     }
-    // only legs that change their lengths are assessed
+    // only legs of variable length are assessed
     let assessment = if design.has_cranks() { None } else { AssessAnswer::of(&design, context.seed()) };
     let assessment = assessment.map(|found| if simulated { found.without_assumptions() } else { found });
     let mut lead = if design.has_cranks() {

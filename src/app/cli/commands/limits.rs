@@ -56,7 +56,7 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
     let to = args.to.as_ref().map(|text| poses::parse(text, &frames, "--to", BAD_POSE)).transpose()?;
     let surface = args.surface.as_ref().map(|path| surface_format(path)).transpose()?;
     if !args.workspace {
-        context.no_effect("rays", "the size of the workspace is not asked for (--workspace)")?;
+        context.no_effect("rays", "--workspace is not given")?;
     }
     // every allowed pose has the sign of det J at home
     if let Some(home) = design.singular_at(&poses::home(&design)) {
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
     let asked = to.unwrap_or(at);
     let all = allowed && reach.allows(&asked);
     if all {
-        context.no_effect("starts", "all poses asked for are allowed")?;
+        context.no_effect("starts", "all given poses are allowed")?;
     }
     let options = NearestPoseOptions {
         starts: args.starts as usize,

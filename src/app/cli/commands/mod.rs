@@ -47,10 +47,11 @@ use super::output::Answer;
 use super::reference;
 
 /// The way from another design to commands for octahedral designs.
-const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform for this command and states the error of using it;";
+const NEAREST: &str =
+    "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with its error;";
 
 /// The commands for a design that is not octahedral.
-const GENERAL: &str = "`equipod explore`, `check`, `assess`, `fk` and `view` take every design; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move DESIGN --search --spacing MIN` finds its equivalents with separate joints";
+const GENERAL: &str = "`equipod equivalents components` and `equipod equivalents move DESIGN --search --spacing MIN` find replaceable legs and equivalents of every design";
 
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]

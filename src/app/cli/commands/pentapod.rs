@@ -45,7 +45,7 @@ pub(super) fn fk(design: &FiveLegs, lengths: Option<&str>, context: &Context) ->
     let report = about_five_legs(design, Some(lengths), context.seed());
     if let Some(message) = report.without_line() {
         return Err(Failure::refused("fk::five_legs", message)
-            .with_help("add a sixth leg; `equipod check` says which ones decouple the platform"));
+            .with_help("add a sixth leg; `equipod check` lists legs that decouple the platform"));
     }
     let exit = if matches!(report.poses, Some(Ok(_))) { Exit::Yes } else { Exit::Inconclusive };
     Ok(answered(exit, &report))

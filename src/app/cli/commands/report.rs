@@ -102,8 +102,11 @@ fn design_of(file: &ReportFile) -> Option<Design> {
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::refused("report::not_readable", format!("{} cannot be read: {error}", path.display()))
-        .with_help("name a folder with results, for instance that of `explore`")
+    Failure::refused(
+        "report::not_readable",
+        format!("{} cannot be read: {}", path.display(), files::in_words(error)),
+    )
+    .with_help("name a folder with results, for instance that of `explore`")
 }
 
 /// All files of a folder, except an earlier page at the path of this one. Any other file there is an input, and is not

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Fa
     let (a, b) = (context.load(&args.a)?, context.load(&args.b)?);
     same_units(&a, &b, "verify::different_units")?;
     let second = args.frames.apply(&a, &b, context)?;
-    let map = second.judged(a.manipulator()).map_err(|e| failure_of(&e.into()))?;
+    let map = second.compared(a.manipulator()).map_err(|e| failure_of(&e.into()))?;
     if let Some(none) = second.refuted()
         && map.relation == Relation::Unrelated
     {

@@ -88,8 +88,8 @@ fn beside(design: Option<&Path>) -> PathBuf {
 const MOST_CORE: u64 = 64 << 20;
 
 /// The module to put into the page.
-fn core(wanted: Option<&Path>) -> Result<Option<Vec<u8>>, Failure> {
-    let Some(path) = wanted else { return Ok(Some(CORE.to_vec())) };
+fn core(given: Option<&Path>) -> Result<Option<Vec<u8>>, Failure> {
+    let Some(path) = given else { return Ok(Some(CORE.to_vec())) };
     if path == Path::new("none") {
         return Ok(None);
     }

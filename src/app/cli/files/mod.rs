@@ -56,7 +56,7 @@ pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..valid].split(|b| *b == b'\n').count();
-        let message = format!("{} is not UTF-8 text: line {line} has other bytes", shown(path));
+        let message = format!("{} is not UTF-8 text: see line {line}", shown(path));
         Failure::refused("file::not_utf8", message).with_help("save the file as UTF-8")
     })
 }
@@ -73,7 +73,7 @@ pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Failure> {
 fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> {
     let shown = shown(path);
     let unreadable = |error: &std::io::Error| {
-        Failure::refused("file::not_readable", format!("{shown} cannot be read: {error}"))
+        Failure::refused("file::not_readable", format!("{shown} cannot be read: {}", in_words(error)))
             .with_help("check the path and its permissions")
     };
     let too_large = || {
@@ -240,7 +240,7 @@ pub(crate) fn check_arguments(matches: &ArgMatches, json: bool) -> Result<(), Fa
         return Err(written_twice(Path::new("standard output")));
     }
     if standard == 1 && json {
-        let message = "standard output cannot hold a file beside the document of --json";
+        let message = "standard output cannot take a file in addition to the document of --json";
         return Err(
             Failure::refused("file::standard_output", message).with_help("name a file, or leave out --json")
         );
@@ -273,12 +273,15 @@ fn is_device(path: &Path) -> bool {
 /// Exit 2: `file::not_writable`.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     if is_standard(path) {
-        let message = "this command writes several files, and standard output is one";
+        let message = "this command writes several files, but standard output takes one";
         return Err(Failure::refused("file::standard_output", message).with_help("name a folder"));
     }
     std::fs::create_dir_all(path).map_err(|error| {
-        Failure::refused("file::not_writable", format!("{} cannot be made: {error}", path.display()))
-            .with_help("check the folder and its permissions")
+        Failure::refused(
+            "file::not_writable",
+            format!("{} cannot be made: {}", path.display(), in_words(&error)),
+        )
+        .with_help("check the folder and its permissions")
     })
 }
 
@@ -324,8 +327,11 @@ pub(crate) fn record_text(record: &impl Serialize) -> Result<String, Failure> {
 /// Exit 2: `file::not_readable`, `file::too_large`.
 pub(crate) fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     let unreadable = |error: std::io::Error| {
-        Failure::refused("file::not_readable", format!("{} cannot be read: {error}", path.display()))
-            .with_help("check the path and its permissions")
+        Failure::refused(
+            "file::not_readable",
+            format!("{} cannot be read: {}", path.display(), in_words(&error)),
+        )
+        .with_help("check the path and its permissions")
     };
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(unreadable)?;
@@ -372,15 +378,21 @@ fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
     let there = if metadata.len() > MAX_BYTES { None } else { std::fs::read_to_string(path).ok() };
     if there.is_some_and(|old| is_design(&old)) && !is_design(text) {
         let message =
-            format!("{} is a design and would be overwritten by something that is none", path.display());
+            format!("{} is a design and would be overwritten by another kind of file", path.display());
         return Err(Failure::refused("file::overwrites_design", message).with_help("name another file"));
     }
     Ok(())
 }
 
+/// An error of the system without its number, and without the name of the file beside which a new one is written.
+pub(crate) fn in_words(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_owned()
+}
+
 /// The failure of a write; a full disk is not the fault of the arguments.
 pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
-    let message = format!("{shown} cannot be written: {error}");
+    let message = format!("{shown} cannot be written: {}", in_words(error));
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             Failure::new(Exit::Internal, "file::disk_full", message)

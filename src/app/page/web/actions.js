@@ -1,6 +1,6 @@
-// What the page does when asked: paths, modes, self-motions, files.
+// The actions of the page: paths, modes, self-motions, files.
 
-/** Milliseconds without a movement after which the modes are looked for. */
+/** Milliseconds without a movement after which the modes are searched for. */
 const RESTED = 300;
 
 Object.assign(App.prototype, {
@@ -58,7 +58,7 @@ Object.assign(App.prototype, {
     this.rested();
   },
 
-  /** When the platform has come to rest, its modes are looked for. */
+  /** When the platform has come to rest, its modes are searched for. */
   rested() {
     if (this.listed === "stale" && !this.player.running && this.core.live) this.findModes(RESTED);
   },
@@ -96,9 +96,9 @@ Object.assign(App.prototype, {
     const whose = this.pattern ? "the equivalent platform" : "the platform";
     if (found.error || !found.poses.length) {
       const why = found.error ? found.error.message
-        : found.dimension > 1 ? `it moves with ${found.dimension} freedoms here` : `the legs of ${whose} hold it at this pose; choose offsets with det A = 0`;
+        : found.dimension > 1 ? `it moves with ${found.dimension} freedoms at this pose` : `the legs of ${whose} hold it at this pose; choose offsets with det A = 0`;
       $("motion-words").textContent = found.dimension === null
-        ? "Undecided: tracing found no self-motion, and no argument of second order excludes one."
+        ? "Undecided: tracing found no self-motion, and the second order excludes none."
         : `No self-motion: ${why}.`;
       this.path = "workspace";
       $("path").value = "workspace";
@@ -106,7 +106,7 @@ Object.assign(App.prototype, {
     }
     this.motion = found;
     $("motion-words").textContent = `Self-motion: ${found.poses.length} poses of ${whose} with the same six leg lengths (to ${show(found.length_error, 2)} of the size), `
-      + (found.closed ? "a closed curve." : `a curve that is followed to where it is ${found.end}.`)
+      + (found.closed ? "a closed curve." : `a curve, traced until it is ${found.end}.`)
       + (this.pattern ? " The legs of the original change." : "");
     this.move(0);
   },
@@ -127,7 +127,7 @@ Object.assign(App.prototype, {
     $("motion-words").textContent = "";
   },
 
-  /** The steps to the leg map with the offsets shown, where they are wanted. */
+  /** The steps to the leg map with the offsets shown, if they are open. */
   derive() {
     if (!this.pattern || !$("derivation-details").open) return;
     const key = JSON.stringify(this.chosen);
@@ -163,7 +163,7 @@ Object.assign(App.prototype, {
     this.soon();
   },
 
-  /** Where over the plane of offsets a requirement is violated in the workspace: a quick look, then a finer one. It stays the same while the mark alone moves. */
+  /** Where over the plane of offsets a requirement is violated in the workspace: a quick check, then a finer one. It stays the same while the mark alone moves. */
   shade() {
     const { axes } = this.plane;
     const others = this.offsets.map((t, k) => (axes.includes(k) ? null : t));
@@ -185,7 +185,7 @@ Object.assign(App.prototype, {
     });
   },
 
-  /** The singular positions with the orientation shown, where they are wanted. */
+  /** The singular positions with the orientation shown, if they are open. */
   findLocus() {
     this.located = null;
     this.locus = null;
@@ -220,7 +220,7 @@ Object.assign(App.prototype, {
       : "With this orientation no position about home is singular.";
   },
 
-  /** The requirements over the workspace: a quick look, then what `equipod assess` does. */
+  /** The requirements over the workspace: a quick check, then what `equipod assess` does. */
   assess() {
     this.limits = null;
     if (!this.core.live) return;
@@ -293,7 +293,7 @@ Object.assign(App.prototype, {
     const { modes } = this;
     if (!modes || modes.error || !modes.modes.length) $("modes").replaceChildren();
     else Tables.modes(this.open, modes, this.here(), this.compared, (name, k) => this.chooseMode(name, k));
-    // while others are looked for, that is said
+    // while others are searched for, that is said
     this.captionGhost();
     if (!this.tasks.modes.job) $("modes-words").textContent = this.modesInWords();
   },
@@ -310,9 +310,9 @@ Object.assign(App.prototype, {
     if (modes.error) return modes.error.message;
     const of = !this.pattern ? "the platform" : this.modesOf === "second" ? "the equivalent" : "the original";
     const count = modes.solution_set === "positive_dimensional"
-      ? `For exactly these lengths ${of} has a whole curve of complex poses; ${modes.modes.length ? `${modes.modes.length} real ones on it are listed` : "no real one was found on it"}. Isolated poses beside the curve (the one shown may be one) are not listed: move the platform a little and ask again.`
-      : `${modes.modes.length} real of ${modes.finite} finite complex poses of ${of}, by the ${modes.method} method; the list is ${modes.proved ? "proved complete" : "not proved complete"}, ${modes.modes.filter((m) => m.certified).length} real ones are certified.`;
-    return this.listed === "stale" ? `${count} These are the poses for the ${this.cranks ? "angles" : "lengths"} at which they were found; the platform has moved since.` : count;
+      ? `At exactly these lengths ${of} has a curve of complex poses; ${modes.modes.length ? `${modes.modes.length} real poses on it are listed` : "no real pose was found on it"}. Isolated poses beside the curve are not listed (the pose shown may be one): move the platform a little and solve again.`
+      : `${modes.modes.length} real poses of ${modes.finite} finite complex poses of ${of} (method ${modes.method}). The list is ${modes.proved ? "proved complete" : "not proved complete"}; ${modes.modes.filter((m) => m.certified).length} real poses are certified.`;
+    return this.listed === "stale" ? `${count} The platform has moved since: the poses belong to the earlier ${this.cranks ? "angles" : "lengths"}.` : count;
   },
 
   captionGhost() {

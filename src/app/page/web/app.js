@@ -16,13 +16,13 @@ class App {
     this.settle = later(160, () => this.slow(true));
     const say = (id, words) => () => { $(id).textContent = words; };
     this.tasks = {
-      modes: new Task(say("modes-words", "Looking for all poses with these leg lengths …")),
+      modes: new Task(say("modes-words", "Searching for all poses with these leg lengths …")),
       confirm: new Task(say("modes-words", "Solving for both platforms …")),
-      motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
+      motion: new Task(say("motion-words", "Searching for a self-motion through this pose …")),
       worst: new Task(() => { this.worst = null; this.soon(); }),
-      limits: new Task(() => this.soon(), "judging"),
-      feasible: new Task(() => this.soon(), "judging"),
-      locus: new Task(say("locus-words", "Looking for the singular positions …")),
+      limits: new Task(() => this.soon(), "assessing"),
+      feasible: new Task(() => this.soon(), "assessing"),
+      locus: new Task(say("locus-words", "Searching for the singular positions …")),
       derivation: new Task(say("derivation-words", "Solving for both platforms …")),
     };
     this.listen();

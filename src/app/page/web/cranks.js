@@ -62,8 +62,8 @@ const Cranks = {
   table({ list, out_of_reach: missing }, units) {
     $("map-details").hidden = true;
     $("lengths-words").textContent = missing ? `${Cranks.missing(missing, units)} There are no angles at this pose.`
-      : "Both angles hold the platform; the kept one is on the side that the design names, the other one is dashed in the picture. At a transmission of 0 both are one and the crank is singular.";
-    const rows = list.map((c, k) => row([legName(k + 1), [el("b", {}, `${show(c.angle_deg, 6)} ●`), el("small", {}, `${c.elbow}, kept`)], show(c.other_angle_deg, 6),
+      : "Both angles hold the platform. The first one is on the elbow side of the design; the other one is dashed in the picture. At a transmission of 0 both coincide, and the crank is singular.";
+    const rows = list.map((c, k) => row([legName(k + 1), [el("b", {}, `${show(c.angle_deg, 6)} ●`), el("small", {}, `${c.elbow}, design`)], show(c.other_angle_deg, 6),
       c.limit_margin_deg === null ? "no limits" : el("span", { class: c.limit_margin_deg < 0 ? "bad" : null }, show(c.limit_margin_deg, 4)), show(c.transmission, 4), show(c.to_singular_deg, 4)]));
     $("lengths").replaceChildren(...(rows.length ? [heading(["", "angle [°]", "other side [°]", "to its limit [°]", "trans\u00admission", "to singular [°]"]), el("tbody", {}, ...rows)] : []));
   },

@@ -1,6 +1,6 @@
 // The requirements over the whole workspace: what `equipod assess` answers for the design shown.
 
-/** A quick look first; then the numbers of poses, searches and cells that `equipod assess` begins with: a page cannot go on for minutes. */
+/** A quick check first; then the numbers of poses, searches and cells that `equipod assess` begins with: a page cannot go on for minutes. */
 const ROUGH = { points: 500, searches: 1, cells: 0 };
 const THOROUGH = { points: 5000, searches: 3, cells: 6000 };
 
@@ -43,9 +43,9 @@ const Limits = {
     const whose = state.platforms.length > 1 ? "the equivalent" : "the platform";
     if (!app.core.live) return "The least margin of each requirement at the pose shown, not over the workspace; below zero the requirement is violated.";
     if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being checked.`;
-    if (limits.error) return limits.error.code === "nothing_required" ? "The design requires nothing: it has no [hardware], loads or keep-outs." : limits.error.message;
+    if (limits.error) return limits.error.code === "nothing_required" ? "The design has no requirements: no [hardware], loads or keep-outs." : limits.error.message;
     const over = limits.assessed_poses.stated ? `over ${limits.poses} poses of the workspace` : "at home";
-    if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof are on their way" : "a browser with workers looks at more of them"}.`;
+    if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof follow" : "a browser with workers examines more poses"}.`;
     return `Least margins of ${whose}, which ${limits.explanation}; below zero a requirement is violated.`;
   },
 };

@@ -1,6 +1,6 @@
 // det A over two offsets: signs as tints, the line on which it vanishes, where the workspace is not feasible, the current point.
 
-/** Where requirements are violated: points a side and points of the workspace, a quick look first. */
+/** Where requirements are violated: points a side and points of the workspace, a quick check first. */
 const SHADE = { rough: { points: 21, samples: 30 }, fine: { points: 61, samples: 250 } };
 /** Pixels between two lines of the hatching. */
 const HATCH = 7;
@@ -72,7 +72,7 @@ class Plane {
     const [i, j] = this.axes.map((k) => pattern.offsets[k].name);
     const [x, y] = this.axes.map((k) => show(offsets[k]));
     this.words.textContent = `The mark is at ${i} = ${x}, ${j} = ${y}, where det A = ${show(det)}. On the heavy line det A = 0; plus and minus show its sign. `
-      + (plane.zero.length ? "" : "It does not vanish in this square.");
+      + (plane.zero.length ? "" : "There is no such line in this square.");
   }
 
   tint(c) {
@@ -141,21 +141,21 @@ class Plane {
     c.stroke();
   }
 
-  /** What is known of the platforms of the plane, and of the one next to the mark, in words. */
+  /** The requirements on the platforms of the plane, and on the platform next to the mark, in words. */
   static words(feasible, at) {
     if (!feasible) return "Checking requirements ..";
     if (feasible.error) return feasible.error.code === "nothing_required" ? "" : feasible.error.message;
     const { points: n, low, high, poses, violated } = feasible;
-    const looked = `at one of ${poses} poses of the workspace`;
+    const where = `at one of ${poses} poses of the workspace`;
     const free = violated.some((kind) => kind === null);
     const kinds = [...new Set(violated)].filter(Boolean).join("; ");
-    const all = !kinds ? `No requirement is violated ${looked}.` : free
-      ? `Hatched: a requirement (${kinds}) is violated ${looked}; inside the green line none is.`
-      : `Hatched: everywhere in this square a requirement (${kinds}) is violated ${looked}.`;
+    const all = !kinds ? `No requirement is violated ${where}.` : free
+      ? `Hatched: a requirement (${kinds}) is violated ${where}; inside the green line none is.`
+      : `Hatched: everywhere in this square a requirement (${kinds}) is violated ${where}.`;
     const [column, row] = at.map((t) => Math.round(((t - low) / (high - low)) * (n - 1)));
     if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
     const here = violated[row * n + column];
-    const next = here ? `violates: ${here}` : "violates none at these poses; the assessment at the top of the page has the proof for the mark";
+    const next = here ? `violates: ${here}` : "violates none at these poses; the assessment at the top of the page proves it for the mark";
     return `${all} The platform next to the mark ${next}.`;
   }
 

@@ -1,6 +1,6 @@
 // Surfaces of triangles in a picture, far ones first, and det A = 0 over three offsets.
 
-/** Points a side at which the core looks for a surface. */
+/** Points a side at which the core searches for a surface. */
 const SURFACE = { points: 25 };
 
 /** A colour of the style sheet in red, green and blue. */
@@ -62,7 +62,7 @@ class Space {
     const names = axes.map((k) => pattern.offsets[k].name);
     this.words.textContent = surface.triangles.length
       ? `On the surface det A = 0 over ${names.join(", ")}, the other offsets as they are. The mark is the platform shown, where det A = ${show(det)}; the dashed square is the plane above.`
-      : `det A does not vanish in this cube over ${names.join(", ")}, the other offsets as they are.`;
+      : `det A is not zero in this cube over ${names.join(", ")}, the other offsets as they are.`;
   }
 
   paint() {

@@ -102,11 +102,11 @@ class Task {
     if (this.job?.sent) this.send();
   }
 
-  /** Says on the root element whether something is being computed, and where: judgements over the workspace, which take longest, apart. */
+  /** Says on the root element whether something is being computed, and where: assessments over the workspace, which take longest, apart. */
   static mark() {
     const { dataset } = document.documentElement;
     const atWork = new Set([...Task.working].map((task) => task.word));
-    for (const word of ["busy", "judging"]) {
+    for (const word of ["busy", "assessing"]) {
       if (atWork.has(word)) dataset[word] = Task.possible ? "worker" : "page";
       else delete dataset[word];
     }

@@ -156,7 +156,7 @@ class LegMap:
         Raises
         ------
         DesignError
-            Where there is no map, or a squared length comes out negative: no pose has these lengths.
+            There is no map, or a squared length is negative, so no pose has these lengths.
         """
         if self.A is None or self.c is None:
             raise DesignError("there is no leg map between these designs", code="map")
@@ -205,7 +205,7 @@ class Equivalent:
 
 @dataclass(frozen=True)
 class Margins:
-    """By how much requirements are met at poses; a violation below zero.
+    """Margins of requirements at poses; a negative margin is a violation.
 
     Attributes
     ----------
@@ -270,9 +270,9 @@ class SkippedRow(NamedTuple):
     row : int
         Its number, from 0.
     status : str
-        ``near_singularity``, ``lost``, or ``refused`` where the row is no set of lengths.
+        ``near_singularity``, ``lost``, or ``refused`` if the row is no set of lengths.
     fraction : float
-        How far the pose came on the straight line of squared lengths, or of angles, from the row reached before.
+        Fraction reached of the straight line of squared lengths, or of angles, from the last row reached.
     reason : str or None
         Why the pose was lost, or the row was refused.
     """
@@ -284,20 +284,20 @@ class SkippedRow(NamedTuple):
 
 
 class Track(NamedTuple):
-    """What became of following poses through lengths, or through angles of cranks.
+    """Poses that follow leg lengths, or angles of cranks.
 
     Attributes
     ----------
     status : str
-        ``tracked``, ``near_singularity`` or ``lost``; of rows that were skipped also ``refused``.
+        ``tracked``, ``near_singularity`` or ``lost``; ``refused`` for rows that were skipped.
     T : ndarray, float64, shape (4, 4) or (n, 4, 4)
-        The pose reached; of several lengths the poses of those that were reached.
+        The pose reached; for several lengths, the poses of the rows reached.
     residual : float or ndarray, shape (n,)
         Largest errors of the leg equations over the squared size.
     frobenius_ratio : float or ndarray, shape (n,)
-        How far from singular the poses are: ``6 / (|J| |J^-1|)``, 1 at best, 0 at a singular pose; of cranks that of the rods.
+        Distance from singular poses: ``6 / (|J| |J^-1|)``, 1 at best, 0 at a singular pose; for cranks, the value of the rods.
     fraction : float
-        How far on the straight line of squared lengths, or of angles, to the last ones, 1 where they were reached.
+        Fraction reached of the straight line of squared lengths, or of angles, to the last ones; 1 if they were reached.
     reason : str or None
         Why the pose was lost.
     rows : ndarray, int64, shape (n,), or None
@@ -347,12 +347,12 @@ class Tracker:
 
     @property
     def T(self) -> Floats:
-        """Where the platform is, shape (4, 4)."""
+        """The pose of the platform, shape (4, 4)."""
         return self._native.transform()
 
     @property
     def transform(self) -> Floats:
-        """Where the platform is, shape (4, 4); the same as ``T``."""
+        """The pose of the platform, shape (4, 4); the same as ``T``."""
         return self.T
 
     def step(self, lengths: npt.ArrayLike) -> Track:
@@ -580,7 +580,7 @@ class Design:
         Raises
         ------
         DesignError
-            What the reader of design files refuses: an unknown key, a value of another kind.
+            A fault of the design, for example an unknown key or a value of a wrong type.
 
         Examples
         --------
@@ -701,7 +701,7 @@ class Design:
         frames : Frames, optional
             The convention.
         form : {"angles", "quaternion"}
-            What stands behind the position.
+            The form of the rotation after the position.
 
         Returns
         -------
@@ -716,7 +716,7 @@ class Design:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What is allowed in the file but often a slip."""
+        """Entries of the file that are allowed but often mistakes."""
         return tuple(self._native.warnings())
 
     @property
@@ -847,7 +847,7 @@ class Design:
         seed, method, pose_count
             As for `fk`.
         real_only : bool
-            Keep the real poses alone, as float64: a fraction of the memory. All poses are looked for all the same, so that
+            Keep only the real poses, as float64, in less memory. All poses are computed nevertheless, so that
             `completeness` says what it says of the whole; ``undecided`` counts the poses that may be real or not.
 
         Returns
@@ -875,7 +875,7 @@ class Design:
         return Tracker(self._native.tracker(np.ascontiguousarray(pose).reshape(1, 4, 4)), self)
 
     def margins(self, poses: PoseLike) -> Margins:
-        """By how much the requirements are met at poses; for the whole workspace, with proof, there is `assess`.
+        """Margins of the requirements at poses; `assess` proves them for the whole workspace.
 
         Parameters
         ----------
@@ -903,10 +903,10 @@ class Design:
     def assess(
         self, *, points: int = 5000, steps: int = 10, searches: int = 3, cells: int | None = None, seed: int = 1
     ) -> AssessAnswer:
-        """By how much the requirements of the design are met over its whole workspace.
+        """Margins of the requirements of the design over its whole workspace, with proof.
 
-        ``cells`` is the greatest number of cells of the workspace for the proof of a kind of requirement; by default 6000, and 60,000 where these leave it undecided.
-        ``met`` is True where that is proved, False where a violation is, None where neither is.
+        ``cells`` is the greatest number of cells of the workspace for the proof of a kind of requirement; by default 6000, then 60,000 if the result is undecided.
+        ``met`` is True if all requirements are proved, False if a violation is proved, and None otherwise.
         """
         from .records import AssessAnswer
 
@@ -917,7 +917,7 @@ class Design:
         return AssessAnswer.from_json(found)
 
     def limits(self, at: PoseLike | None = None, *, to: PoseLike | None = None, options: Sequence[str] = ()) -> LimitsAnswer:
-        """How far the platform may move from a pose along every axis before a requirement binds, and which one.
+        """Free travel of the platform from a pose along every axis, and the requirements that limit it.
 
         Parameters
         ----------
@@ -983,7 +983,7 @@ class Design:
             return AtAnswer(ask([*words, *options]))
 
     def singular_poses(self, pose: PoseLike | None = None, *, options: Sequence[str] = ()) -> SingularPosesAnswer:
-        """Where the platform gives way: signs of det J, and a box of poses proved to have no singular one.
+        """Singular poses: signs of det J, and a box of poses proved to have none.
 
         Parameters
         ----------
@@ -1092,20 +1092,20 @@ class Design:
         seed : int
         threads : int, optional
         extension : float, optional
-            How far a joint may lie out on the extension of its edge, in edge lengths.
+            Greatest distance of a joint beyond the end of its edge, in edge lengths.
         drives : path, optional
-            A table of drives, as for :meth:`drives`: the platform is searched with each drive that could win, and the design has the chosen one, the cheapest with which the requirements are met where every drive has a price. ``answer.drive_search`` says what came of each.
+            A table of drives, as for :meth:`drives`: the platform is searched with each drive that could win. The design has the chosen drive: the cheapest that meets the requirements, if every drive has a price. ``answer.drive_search`` has the result of each drive.
         time_limit : float, optional
-            Seconds after which the search has ended, with the best so far, and that is assessed.
+            Seconds after which the search ends; the best platform so far is assessed.
         progress : callable or bool, optional
             Is given lines of text; True writes them on one line.
 
         Returns
         -------
         design : Design or None
-            The best platform found. Where none that meets the requirements was found, it is the one that misses them least; None where there is neither.
+            The best platform found, or the one with the least violation if none meets the requirements; None if there is neither.
         answer : OptimizeAnswer
-            What became of the search: ``answer.status``. After an interrupt it is the best so far.
+            ``answer.status`` is the outcome of the search. After an interrupt the answer is the best so far.
         """
         from .records import OptimizeAnswer
 
@@ -1136,10 +1136,10 @@ class Design:
         Parameters
         ----------
         output : path
-            The folder. It is made where it does not exist; the results of an earlier run are replaced, and a file of yours that a result would replace is refused.
+            The folder, made if missing. Results of an earlier run are replaced; the run is refused if it would replace another file.
         seed : int
         extension : float, optional
-            How far a joint may lie out on the extension of its edge, in edge lengths.
+            Greatest distance of a joint beyond the end of its edge, in edge lengths.
         drives : path, optional
             A table of drives, as for :meth:`optimize`. For octahedral designs; another design with a table is refused.
         options : sequence of str
@@ -1189,7 +1189,7 @@ class Design:
     def tolerances(
         self, length: float, degrees: float, *, options: Sequence[str] = (), progress: Progress | bool | None = None
     ) -> TolerancesAnswer:
-        """How far joints may be off while the pose stays within `length` and `degrees`.
+        """Joint errors allowed for a pose error of at most `length` and `degrees`.
 
         Parameters
         ----------
@@ -1237,7 +1237,7 @@ class Design:
         Returns
         -------
         MotionAnswer
-            ``met`` is False where a requirement is violated at an instant looked at.
+            ``met`` is False if a requirement is violated at a sampled instant.
         """
         from .records import MotionAnswer
 
@@ -1259,7 +1259,7 @@ class Design:
         options: Sequence[str] = (),
         progress: Progress | bool | None = None,
     ) -> DrivesAnswer:
-        """Which drives of a table fit the design, the cheapest first.
+        """The drives of a table that fit the design, the cheapest first.
 
         Parameters
         ----------
@@ -1303,7 +1303,7 @@ class Design:
         poses : pose_like, shape (n, 4, 4)
             As they were measured.
         lengths : array_like, shape (n, 6)
-            What the legs showed at them.
+            The lengths measured at these poses.
         sigma_length, sigma_position : float, optional
             Standard deviations of a length and of each coordinate of a position, design units. Without the first one lengths count as equally uncertain and poses as
             exact, and how much is estimated.
@@ -1350,7 +1350,7 @@ class Design:
     def _made(
         self, command: str | tuple[str, ...], options: Sequence[str], progress: Progress | bool | None
     ) -> tuple[Design | None, dict[str, Any]]:
-        """What a command that writes a design makes, with its answer."""
+        """The design that a command writes, with its answer."""
         words = [command] if isinstance(command, str) else list(command)
         with Workshop() as shop:
             file, out = shop.file("design.toml", self._native), shop.path / "out.toml"

@@ -1,4 +1,4 @@
-"""What notebooks show: figures and live pages."""
+"""Figures and live pages for notebooks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is raised for bad input."""
+"""Exceptions for bad input."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Sequence
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong with a design text, and where.
+    """A fault of a design text, with its place.
 
     Attributes
     ----------
@@ -17,9 +17,9 @@ class Fault:
     line, column : int
         Place in the text, from 1.
     message : str
-        What is wrong.
+        The fault.
     help : str
-        What to do about it.
+        The remedy.
     """
 
     code: str

@@ -28,7 +28,7 @@ class Frames:
     pivot : tuple of float, shape (3,), optional
         Point of the platform whose position poses state, platform frame.
     relative_to : {"base", "home"}, optional
-        What poses are measured from.
+        The origin of poses.
     up : {"z", "y"}, optional
         The axis that points up.
 
@@ -63,7 +63,7 @@ class Frames:
         numbers : array_like, shape (..., 6) or (..., 7)
             Position and angles, or position and quaternion.
         home : pose_like, shape (4, 4), optional
-            Needed where poses count from home.
+            Needed if poses count from home.
 
         Returns
         -------
@@ -82,9 +82,9 @@ class Frames:
         ----------
         poses : array_like, shape (..., 4, 4)
         home : pose_like, shape (4, 4), optional
-            Needed where poses count from home.
+            Needed if poses count from home.
         form : {"angles", "quaternion"}
-            What stands behind the position.
+            The form of the rotation after the position.
 
         Returns
         -------
@@ -103,7 +103,7 @@ class Frames:
         ----------
         poses : array_like, shape (..., 4, 4)
         home : pose_like, shape (4, 4), optional
-            Needed where poses count from home.
+            Needed if poses count from home.
         """
         array = as_matrices(poses)
         return self._written(array, home)[3].reshape(array.shape[:-2])

@@ -125,12 +125,12 @@ class Pentapod:
         return self._native.lengths()
 
     def check(self, *, seed: int = 1) -> PentapodAnswer:
-        """What the legs hold, where they lose it, and which sixth legs decouple the platform.
+        """The line that the legs hold, its singular poses, and the sixth legs that decouple the platform.
 
         Parameters
         ----------
         seed : int
-            Of the lengths for which poses are counted.
+            Seed of the lengths for which poses are counted.
 
         Returns
         -------

@@ -17,19 +17,19 @@ _FLOAT64 = np.dtype(np.float64)
 
 @runtime_checkable
 class HasMatrix(Protocol):
-    """What has ``as_matrix()``: ``Rotation`` and ``RigidTransform`` of ``scipy.spatial.transform``."""
+    """An object with ``as_matrix()``, such as ``Rotation`` and ``RigidTransform`` of ``scipy.spatial.transform``."""
 
     def as_matrix(self) -> Any: ...
 
 
 Found = TypeVar("Found")
 
-#: What a pose, or many, may be given as.
+#: The forms in which poses can be given.
 PoseLike = Union[npt.ArrayLike, HasMatrix]
 
 
 def given(found: Found | None) -> Found:
-    """What the native module computes from an array that has been made for it."""
+    """The result of the native module for an array made for it."""
     if found is None:
         raise TypeError("an array of float64, row by row, was made and not taken")
     return found
@@ -37,7 +37,7 @@ def given(found: Found | None) -> Found:
 
 def as_matrices(poses: PoseLike) -> Floats:
     """Poses as an array of float64 with shape (..., 4, 4); no copy where it is one already."""
-    # what a loop hands over again and again: the look for `as_matrix` costs more than the mathematics
+    # what a loop hands over again and again: the lookup of `as_matrix` costs more than the mathematics
     if type(poses) is np.ndarray and poses.dtype == _FLOAT64 and poses.shape[-2:] == (4, 4) and poses.flags.c_contiguous:
         return poses
     given = poses.as_matrix() if isinstance(poses, HasMatrix) else poses

@@ -81,9 +81,9 @@ def ask(arguments: Sequence[str], progress: Progress | bool | None = None) -> di
     Answers of no (exit code 1) and of not known (3) are documents as those of yes. The first interrupt asks the command for the best so far. Where there is
     none, and at the second interrupt, `KeyboardInterrupt` is raised.
     """
-    look = shown if progress is True else progress or None
-    code, text, said = _core.ask(["equipod", *arguments, "--json", *(["--quiet"] if look is None else [])], look)
-    if look is shown:
+    observer = shown if progress is True else progress or None
+    code, text, said = _core.ask(["equipod", *arguments, "--json", *(["--quiet"] if observer is None else [])], observer)
+    if observer is shown:
         sys.stderr.write("\r\x1b[K")
     if not text:
         raise CommandError(said or f"the command ended with exit code {code}")
@@ -100,7 +100,7 @@ def ask(arguments: Sequence[str], progress: Progress | bool | None = None) -> di
 
 
 def text_of(arguments: Sequence[str]) -> str:
-    """What a command writes to standard output."""
+    """The standard output of a command."""
     code, text, said = _core.ask(["equipod", *arguments, "--quiet"], None)
     if code in (2, 4):
         raise (DesignError if code == 2 else CommandError)(said.strip(), code="command")

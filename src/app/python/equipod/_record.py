@@ -1,4 +1,4 @@
-"""What all answers have in common."""
+"""The common base of all answers."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _short(value: Any, limit: int = 60) -> str:
 
 
 def _reader(hint: Any) -> Reader:
-    """What makes a value of a type from what JSON has for it."""
+    """A function that converts a JSON value to a type."""
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
     if origin in (typing.Union, types.UnionType):
         records = [p for p in parts if isinstance(p, type) and issubclass(p, Record)]

@@ -78,11 +78,11 @@ class Solutions(Sequence[Solution]):
     T : ndarray, complex128, shape (n, 4, 4)
         The poses.
     real : ndarray, bool, shape (n,)
-        Which of them are real; those that are not decided count as not real, see `reality`.
+        True for real poses; undecided poses count as not real, see `reality`.
     reality : ndarray, int8, shape (n,)
         1 real, 0 not real, -1 undecided.
     certified : ndarray, bool, shape (n,)
-        Which have a proof.
+        True for poses with a certificate.
     residual : ndarray, float64, shape (n,)
         Largest errors of the leg equations over the squared size of the design.
     multiplicity : ndarray, uint32, shape (n,)
@@ -116,13 +116,13 @@ class Solutions(Sequence[Solution]):
 
     @cached_property
     def real(self) -> npt.NDArray[np.bool_]:
-        """Which poses are real; bool, shape (n,)."""
+        """True for real poses; bool, shape (n,)."""
         real: npt.NDArray[np.bool_] = self.reality == 1
         return real
 
     @cached_property
     def certified(self) -> npt.NDArray[np.bool_]:
-        """Which poses have a proof; bool, shape (n,)."""
+        """True for poses with a certificate; bool, shape (n,)."""
         return self._native.certified()
 
     @cached_property
@@ -177,7 +177,7 @@ class Solutions(Sequence[Solution]):
         ----------
         pose : array_like, shape (4, 4)
         length : float, optional
-            What a turn of one radian weighs as, in units of length; the largest ``|p|`` of the real poses when absent.
+            The length that a rotation of one radian counts as; the largest ``|p|`` of the real poses when absent.
 
         Returns
         -------
@@ -302,7 +302,7 @@ class BatchSolutions(Sequence["RowPoses"]):
     T : ndarray, complex128, shape (n, 4, 4)
         The poses of all rows; float64 where real poses alone are kept.
     offsets : ndarray, int64, shape (rows + 1,)
-        Where the poses of each row begin, and the end.
+        Index of the first pose of each row, and of the end.
     reality : ndarray, int8, shape (n,)
         1 real, 0 not real, -1 undecided.
     real, certified : ndarray, bool, shape (n,)
@@ -339,7 +339,7 @@ class BatchSolutions(Sequence["RowPoses"]):
 
     @property
     def complete(self) -> npt.NDArray[np.bool_]:
-        """Which rows have all their poses, by proof or modulo random primes; bool, shape (rows,)."""
+        """True for rows whose poses are complete, by proof or modulo random primes; bool, shape (rows,)."""
         return self.completeness >= 1
 
     @property
@@ -348,7 +348,7 @@ class BatchSolutions(Sequence["RowPoses"]):
         return np.flatnonzero(self.completeness == -1)
 
     def reason(self, row: int) -> str:
-        """What is known of completeness in a row, or why it failed."""
+        """The evidence for the completeness of a row, or why it failed."""
         return self._reasons[int(self._reason[row])]
 
     def counts(self, *, real: bool = False) -> npt.NDArray[np.int64]:
@@ -438,7 +438,7 @@ class RowPoses:
     completeness : str
         ``proved``, ``modular``, ``unproved`` or ``failed``.
     reason : str
-        What is known of completeness, or why the row failed.
+        The evidence for completeness, or why the row failed.
     """
 
     T: npt.NDArray[np.complex128] | Floats

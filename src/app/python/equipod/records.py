@@ -255,6 +255,8 @@ class AssessAnswer(Record):
     schema_version: int
     #: The name of the assessed design.
     name: str
+    #: The unit of lengths, as in `pose`.
+    length_unit: str
     #: The role of the design in this answer.
     role: DesignRoleWord
     #: The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved.

@@ -29,7 +29,7 @@ Plan = str | os.PathLike[str] | Mapping[str, Any]
 
 
 def status(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """What is done of a sweep and what is missing, as ``equipod sweep status``: all parts are read and compared with their digests."""
+    """The finished and the missing parts of a sweep, as ``equipod sweep status``: all parts are read and compared with their digests."""
     return ask(["sweep", "status", os.fspath(folder)])
 
 
@@ -106,7 +106,7 @@ def run(
 
     `client` is a ``dask.distributed.Client``; without one a ``LocalCluster`` is started, with a worker for each processor, and closed at the end. The folder has to be
     one that all workers see under the same name. A worker that dies costs the shard at work, which Dask gives to another one. `threads` is how many each shard
-    uses. `shards` is needed where the folder is new and the default of ``equipod sweep run`` is not wanted.
+    uses. `shards` is needed for a new folder with a number of shards other than the default of ``equipod sweep run``.
 
     :raises DesignError: a plan that is refused, or a folder that holds another sweep
     :raises CommandError: a shard that failed on every worker it was given to

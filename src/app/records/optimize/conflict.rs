@@ -89,11 +89,9 @@ impl GiveRecord {
     fn new(design: &Design, g: &Give) -> Self {
         let (what, unit) = words(design, g.demand);
         let message = match g.alone {
-            Some(x) if x > 0.0 => {
-                format!("{what}: would have to give by {} {unit}", amount(x)).trim_end().to_string()
-            }
-            Some(_) => format!("{what}: would have to give by no more than the spare of the search"),
-            None => format!("{what}: alone it cannot resolve the conflict, however much it gives"),
+            Some(x) if x > 0.0 => format!("{what}: relax it by {} {unit}", amount(x)).trim_end().to_string(),
+            Some(_) => format!("{what}: relax it by less than the tolerance of the search"),
+            None => format!("{what}: relaxing it alone does not resolve the conflict"),
         };
         Self {
             name: g.demand.into(),
@@ -110,7 +108,7 @@ pub(super) fn amount(x: f64) -> String {
     num::shown::rounded(x, 3)
 }
 
-/// A constraint in words, and the unit in which it gives.
+/// A constraint in words, and the unit of its relaxation.
 pub(super) fn words(design: &Design, d: Demand) -> (String, String) {
     match d {
         Demand::Requirement(kind) => (kind.label().to_owned(), design.unit_of(kind.quantity())),

@@ -135,7 +135,7 @@ fn reason(driven: &DrivenPlatform) -> Option<String> {
         margins(driven).iter().filter(|m| m.net_margin.0 < 0.0 && !m.at_limit).map(of).collect();
     let listed = if missed.is_empty() { String::new() } else { format!(": {}", missed.join(", ")) };
     Some(match &report.outcome {
-        _ if report.interrupted => "the search was told to end".to_owned(),
+        _ if report.interrupted => "the search was interrupted".to_owned(),
         DimensionalOutcome::Infeasible(c) => {
             let demands = ConflictRecord::new(&driven.design, c).requirements;
             let sentences: Vec<String> = demands.into_iter().map(|g| g.message).collect();
@@ -143,11 +143,11 @@ fn reason(driven: &DrivenPlatform) -> Option<String> {
         }
         DimensionalOutcome::Undecided(_) => {
             format!(
-                "no platform was found that meets the requirements; what comes nearest misses some{listed}"
+                "no platform was found that meets the requirements; the nearest one violates some{listed}"
             )
         }
         _ if missed.is_empty() => "not all requirements are proved for the platform found".to_owned(),
-        _ => format!("the platform found misses requirements{listed}"),
+        _ => format!("the platform found violates requirements{listed}"),
     })
 }
 
@@ -194,11 +194,11 @@ impl SearchedDriveRecord {
             DriveOutcome::Weaker(other) => {
                 out.outcome = DriveSearchWord::Weaker;
                 out.reason = Some(format!(
-                    "not searched: it can do nothing that {other} cannot, with which no start met the requirements"
+                    "not searched: it is no stronger than {other}, with which no start met the requirements"
                 ));
             }
             DriveOutcome::NotTried => {
-                out.reason = Some("not searched: the search was told to end".to_owned());
+                out.reason = Some("not searched: the search was interrupted".to_owned());
             }
         }
         out
@@ -215,15 +215,14 @@ impl DriveSearchRecord {
         let how = match search.ranking {
             DriveRanking::Price => "the cheapest drive with which the requirements are met",
             DriveRanking::Objective => {
-                "the drive with the best first objective of those with which the requirements are met (not every drive has a price)"
+                "the drive with the best first objective among those that meet the requirements (not every drive has a price)"
             }
         };
-        let ended =
-            if search.interrupted { ", as far as the search came until it was told to end" } else { "" };
+        let ended = if search.interrupted { "; the search was interrupted" } else { "" };
         let message = match chosen {
             Some(name) => format!("{name} is {how}{ended}"),
             None => format!(
-                "with none of {} drives was a platform found that is proved to meet the requirements{ended}",
+                "no platform found with any of {} drives is proved to meet the requirements{ended}",
                 drives.len()
             ),
         };

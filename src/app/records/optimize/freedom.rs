@@ -87,24 +87,24 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
     };
     match outcome {
         FreedomWord::Resolved => {
-            format!("with {what} the requirements can be met, proved for the platform found")
+            format!("with {what}, the requirements can be met: proved for the platform found")
         }
         FreedomWord::Undecided => format!(
-            "with {what} a platform was found that violates nothing at the sampled poses; not all is proved"
+            "with {what}, the platform found violates no requirement at the sampled poses; not all is proved"
         ),
         FreedomWord::Unresolved if !opened.eased.is_empty() => {
             let less = |e: &RelaxedRequirement| {
                 let (name, unit) = super::conflict::words(design, e.demand);
                 let [to, from] = [e.to, e.from].map(super::conflict::amount);
-                format!("{name}: would have to give by {to} {unit} in place of {from} {unit}")
+                format!("{name}: relax it by {to} {unit} instead of {from} {unit}")
             };
             let list: Vec<String> = opened.eased.iter().map(less).collect();
             format!(
-                "|det A| >= {DEFAULT_MIN_ABS_DET}, a default of the search, takes part: without it {}",
+                "|det A| >= {DEFAULT_MIN_ABS_DET}, a default of the search, is part of the conflict. Without it, {}",
                 list.join(", ")
             )
         }
-        FreedomWord::Unresolved => format!("{what} alone did not resolve it from any start"),
-        FreedomWord::NotTried => format!("{what} was not tried: the search was told to end"),
+        FreedomWord::Unresolved => format!("{what} alone did not resolve the conflict from any start"),
+        FreedomWord::NotTried => format!("{what} was not tried, because the search was interrupted"),
     }
 }

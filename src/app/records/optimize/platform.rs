@@ -117,7 +117,7 @@ impl FoundPlatformRecord {
             joint_axes: Some(JointAxesRecord { base: axes(&s.axes[0]), platform: axes(&s.axes[1]) }),
             search_margins: Some(SearchMarginsRecord {
                 abs_det: det.map(|det| Number(det.abs() - min_abs_det)),
-                bounds: Number(s.variables.iter().map(room).fold(f64::INFINITY, f64::min)),
+                bounds: Number(s.variables.iter().map(to_bounds).fold(f64::INFINITY, f64::min)),
             }),
             local_optimality: Some(LocalOptimalityRecord {
                 converged: s.converged,
@@ -184,7 +184,7 @@ impl FoundPlatformRecord {
             objectives: Some(objectives),
             constraint_margins: Some(MarginRecord::searched(&c.design, &c.assessment)),
             requirements_met: c.met(),
-            assessment: judged_as(c, DesignRoleWord::Optimised),
+            assessment: assessed_as(c, DesignRoleWord::Optimised),
             verify: c.verification.as_ref().map(VerifiedRecord::from),
             worst_pose: c
                 .worst_pose
@@ -197,12 +197,12 @@ impl FoundPlatformRecord {
 }
 
 /// The assessment of a platform in its role.
-fn judged_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
+fn assessed_as(c: &Checked, role: DesignRoleWord) -> Option<AssessAnswer> {
     c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found).with_role(role))
 }
 
 /// Distance of a variable from its nearer bound.
-fn room(v: &ChosenVariable) -> f64 {
+fn to_bounds(v: &ChosenVariable) -> f64 {
     (v.value - v.bounds[0]).min(v.bounds[1] - v.value)
 }
 
@@ -240,7 +240,7 @@ impl OptimumRecord {
             objectives: ObjectiveRecord::all(design, &s.objectives, c),
             variables: s.variables.clone(),
             requirements_met: c.met(),
-            assessment: judged_as(c, DesignRoleWord::Optimised),
+            assessment: assessed_as(c, DesignRoleWord::Optimised),
             design: (&c.design).into(),
             output: output.map(str::to_owned),
         }
@@ -265,7 +265,7 @@ impl NearestPlatformRecord {
         Self {
             variables: s.variables.clone(),
             constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
-            assessment: judged_as(c, DesignRoleWord::Closest),
+            assessment: assessed_as(c, DesignRoleWord::Closest),
             design: (&c.design).into(),
         }
     }

@@ -1,6 +1,6 @@
 //! Margins of the requirements of a design; this table leads every answer that assesses a design.
 
-use super::poses::{POSE, place, pose};
+use super::poses::{POSE, place, pose, units};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use machine::requirements::{MarginVerdict, TermKind};
@@ -20,7 +20,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.line("The proved margin is a lower bound over the poses assessed; the least margin was found at the worst pose.");
     if found.met.is_none() {
         sheet.line(
-            "Poses between the sampled ones may violate what is not proved; more --cells may prove it.",
+            "Poses between the sampled ones may violate the unproved requirements; more --cells may prove them.",
         );
     }
     sheet.add(assumptions(found));
@@ -42,7 +42,7 @@ fn key_numbers(sheet: &mut Sheet, found: &AssessAnswer) {
         say!(sheet, "Tightest requirement: {} (margin {margin}{share} % of {whole}).", t.name.label());
     }
     let said = &found.regular_explanation;
-    let at = place(found.regular.pose.as_ref());
+    let at = format!("{}{}", place(found.regular.pose.as_ref()), units(&found.length_unit, "deg"));
     sheet.line(match found.regular.status {
         RegularityWord::Proved => format!("{said}."),
         RegularityWord::ChangesSign => format!("{said}, {POSE} = {at}."),
@@ -62,24 +62,24 @@ pub fn verdict(name: &str, found: Option<&AssessAnswer>, place: &str) -> Sheet {
             sheet.line(sentence(found));
             say!(sheet, "Margins and worst poses: {place}");
         }
-        None => nothing_required(&mut sheet, name),
+        None => no_requirements(&mut sheet, name),
     }
     sheet
 }
 
-fn nothing_required(sheet: &mut Sheet, name: &str) {
+fn no_requirements(sheet: &mut Sheet, name: &str) {
     say!(
         sheet,
-        "{name} requires nothing: it has no limits of lengths, joint angles, clearances, forces or speeds"
+        "{name} has no requirements: the file limits no length, joint angle, clearance, force or speed"
     );
 }
 
-/// The sentence, the table and what is assumed; a design that requires nothing is told so in a line.
+/// The sentence, the table and what is assumed; a design without requirements gets one line.
 #[must_use]
 pub fn requirements(name: &str, found: Option<&AssessAnswer>) -> Sheet {
     let Some(found) = found else {
         let mut sheet = Sheet::new();
-        nothing_required(&mut sheet, name);
+        no_requirements(&mut sheet, name);
         return sheet;
     };
     let mut sheet = requirements_without_assumptions(found);
@@ -137,18 +137,18 @@ pub struct MarginsAtPose<'a> {
 #[must_use]
 pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_>]) -> Table {
     // a column for the safety margin, if the design requires one on any limit
-    let reserved = found.is_some_and(|f| f.requirements.iter().any(|m| m.safety_margin.0 > 0.0));
+    let with_margin = found.is_some_and(|f| f.requirements.iter().any(|m| m.safety_margin.0 > 0.0));
     let mut columns = vec![left("requirement", 17)];
     if found.is_some() {
         columns.extend([left("status", 9).gap(2), right("least margin", 0).gap(2)]);
-        columns.extend(reserved.then(|| right("after safety margin", 0).gap(2).minor()));
+        columns.extend(with_margin.then(|| right("after safety margin", 0).gap(2).minor()));
         columns.push(right("proved margin", 0).gap(2).minor());
     }
     columns.push(left("unit", 0));
-    if found.is_some() {
+    if let Some(found) = found {
         columns.extend([
             left("binds at", 0).gap(2).minor(),
-            left(format!("worst pose {POSE} [deg]"), 0).gap(2).minor(),
+            left(format!("worst pose {POSE}{}", units(&found.length_unit, "deg")), 0).gap(2).minor(),
         ]);
     }
     columns.extend(here.iter().map(|at| left(at.title, 0).gap(2)));
@@ -160,7 +160,10 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
         let mut cells = vec![name.into()];
         if found.is_some() {
             cells.extend(
-                [status, margin].into_iter().chain(reserved.then_some(after_safety_margin)).chain([proved]),
+                [status, margin]
+                    .into_iter()
+                    .chain(with_margin.then_some(after_safety_margin))
+                    .chain([proved]),
             );
         }
         cells.push(unit.into());
@@ -210,7 +213,7 @@ pub fn requirements_table(found: Option<&AssessAnswer>, here: &[MarginsAtPose<'_
     table
 }
 
-/// The cells of a requirement over all poses judged.
+/// The cells of a requirement over all poses assessed.
 fn over_poses(m: &MarginRecord) -> [Cell; 6] {
     let (tone, margin) = match () {
         () if m.at_limit => (Tone::AtLimit, 0.0),
@@ -222,11 +225,11 @@ fn over_poses(m: &MarginRecord) -> [Cell; 6] {
         x if x.is_finite() => figure(x),
         _ => "none".into(),
     };
-    let short = if m.safety_margin_kept == Some(false) { Tone::No } else { Tone::Plain };
+    let tone_after = if m.safety_margin_kept == Some(false) { Tone::No } else { Tone::Plain };
     [
-        Cell::toned(m.status.name().replace('_', " "), tone),
+        Cell::toned(m.status.label(), tone),
         Cell::from(figure(margin)).at(m.pose.as_ref()),
-        Cell::toned(figure(m.net_margin.0), short),
+        Cell::toned(figure(m.net_margin.0), tone_after),
         proved.into(),
         m.between.join(", ").into(),
         place(m.pose.as_ref()).into(),
@@ -236,11 +239,11 @@ fn over_poses(m: &MarginRecord) -> [Cell; 6] {
 /// The margin at a single pose with its legs or joints.
 fn margin_at_pose(m: &MarginRecord) -> Cell {
     let number = if m.at_limit { "0, at the limit".to_owned() } else { figure(m.margin.0) };
-    judged(m, format!("{number} ({})", m.between.join(", ")))
+    toned(m, format!("{number} ({})", m.between.join(", ")))
 }
 
-/// Whether a margin is kept, in a cell.
-pub(super) fn judged(margin: &MarginRecord, text: impl Into<String>) -> Cell {
+/// A cell whose tone says whether the margin is met.
+pub(super) fn toned(margin: &MarginRecord, text: impl Into<String>) -> Cell {
     let tone = match () {
         () if margin.at_limit => Tone::AtLimit,
         () if margin.violates() => Tone::No,

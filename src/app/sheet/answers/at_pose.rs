@@ -1,45 +1,43 @@
 //! Forces, small motions and stiffness at one pose.
 
-use super::limits::named;
-use super::poses::{without_rounding, words, written};
+use super::poses::{units, without_rounding, words, written};
 use crate::figure::figure;
-use crate::{Sheet, Table, left, right};
+use crate::{Cell, Sheet, Table, Tone, left, right};
 use records::{
-    AtPoseAnswer, HeldWrenchRecord, NearestSingularPoseRecord, Number, PoseInFrames, ResolutionRecord,
-    SmallMotionRecord, StuckLegRecord,
+    AtPoseAnswer, HeldWrenchRecord, LimitRecord, NearestSingularPoseRecord, Number, PoseInFrames,
+    ResolutionRecord, SmallMotionRecord, StuckLegRecord,
 };
 
 /// The answer of `at`.
 #[must_use]
 pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     let mut out = Sheet::new();
-    say!(out, "{} at {} = {}", answer.name, words(&answer.frames), pose(&answer.in_frames));
+    let at = format!("{} = {}", words(&answer.frames), pose(answer, &answer.in_frames));
+    let name = &answer.name;
     if let Some(missing) = &answer.out_of_reach {
-        say!(out, "The rod of leg {} does not reach.", missing.leg);
+        say!(out, "{name} does not reach {at}: the rod of leg {} is too short or too long.", missing.leg);
         return out;
     }
+    match (answer.singular, answer.violated.len()) {
+        (Some(evidence), _) => say!(out, "{name} is SINGULAR at {at}: {evidence}."),
+        (None, 0) => say!(out, "{name} violates no requirement at {at}."),
+        (None, 1) => say!(out, "{name} VIOLATES 1 limit at {at}."),
+        (None, n) => say!(out, "{name} VIOLATES {n} limits at {at}."),
+    }
+    if let (None, Some(x)) = (answer.singular, answer.inverse_condition) {
+        say!(out, "Conditioning {} (1 at best, 0 at a singular pose).", figure(x.0));
+    }
     match (&answer.lengths, &answer.angles_deg) {
-        (Some(lengths), _) => say!(out, "lengths ({}): {}", answer.length_unit, listed(*lengths)),
-        (None, Some(angles)) => say!(out, "angles of the cranks (deg): {}", listed(*angles)),
+        (Some(lengths), _) => say!(out, "Leg lengths: {} {}", listed(*lengths), answer.length_unit),
+        (None, Some(angles)) => say!(out, "Crank angles: {} deg", listed(*angles)),
         (None, None) => {}
     }
-    for limit in &answer.violated {
-        let unit = limit.unit.as_deref().unwrap_or("of det J at home");
-        say!(out, "NOT ALLOWED: {} is missed by {} {unit}", named(limit), figure(-limit.margin.0));
-    }
-    match answer.singular {
-        Some(evidence) => say!(out, "SINGULAR: {evidence}"),
-        None => {
-            if let Some(x) = answer.inverse_condition {
-                say!(out, "conditioning {}", figure(x.0));
-            }
-        }
-    }
+    violations(&mut out, &answer.violated);
     forces(&mut out, answer);
     if let Some(found) = &answer.stiffness {
         say!(
             out,
-            "\nLeast stiffness at the point: {} {}/{} against a force, {} {} {}/rad against a torque.",
+            "\nMinimum stiffness at the point: {} {}/{} against a force, {} {} {}/rad against a torque.",
             figure(found.linear.0),
             answer.force_unit,
             answer.length_unit,
@@ -63,9 +61,10 @@ pub fn at_pose(answer: &AtPoseAnswer) -> Sheet {
     }
     say!(
         out,
-        "Vectors have the axes of the {}; wrenches, shifts and stiffness are about the platform point {}.",
+        "Vectors have the axes of the {}. Wrenches, motions and stiffness are about the platform point {} {}.",
         answer.axes,
-        listed(answer.point.map(|x| x.0))
+        listed(answer.point.map(|x| x.0)),
+        answer.length_unit
     );
     out
 }
@@ -74,9 +73,24 @@ fn listed(numbers: impl IntoIterator<Item = f64>) -> String {
     numbers.into_iter().map(figure).collect::<Vec<_>>().join(", ")
 }
 
-fn pose(found: &PoseInFrames) -> String {
-    let many = if found.angles_unique { "" } else { " (angles not unique)" };
-    written(found).map(figure).join(",") + many
+/// A row for each violated limit, the worst first.
+pub(super) fn violations(out: &mut Sheet, violated: &[LimitRecord]) {
+    let columns = [left("violated limit", 0), left("binds at", 0).gap(2), right("margin", 9).gap(2)];
+    let mut table = Table::new(columns.into_iter().chain([left("unit", 0)]));
+    for limit in violated {
+        let unit = limit.unit.as_deref().unwrap_or("of det J at home");
+        let margin = Cell::toned(figure(limit.margin.0), Tone::No);
+        table.row([limit.label().into(), limit.between.join(", ").into(), margin, unit.into()]);
+    }
+    if !violated.is_empty() {
+        out.space();
+    }
+    out.table(table);
+}
+
+fn pose(answer: &AtPoseAnswer, found: &PoseInFrames) -> String {
+    let many = if found.angles_unique { "" } else { ", angles not unique" };
+    written(found).map(figure).join(",") + &units(&answer.length_unit, &answer.frames.angles) + many
 }
 
 fn row(name: &str, numbers: &[Number], unit: &str) -> Vec<String> {
@@ -94,9 +108,9 @@ fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
     let torque = format!("{} {}", answer.force_unit, answer.length_unit);
     if !answer.held.is_empty() {
         let what =
-            if turns { "Torques of the cranks" } else { "Forces of the legs, positive where they push," };
-        say!(out, "\n{what} that hold a wrench on the platform:");
-        let mut table = columns("wrench", ["1", "2", "3", "4", "5", "6"]);
+            if turns { "Torques of the cranks" } else { "Forces of the legs, positive in compression," };
+        say!(out, "\n{what} that balance each load:");
+        let mut table = columns("load", ["1", "2", "3", "4", "5", "6"]);
         for HeldWrenchRecord { load, forces, .. } in &answer.held {
             let name = load.as_deref().unwrap_or("--wrench");
             let unit = if turns { &torque } else { &answer.force_unit };
@@ -111,15 +125,15 @@ fn forces(out: &mut Sheet, answer: &AtPoseAnswer) {
         let [force, moment] = [wrench.force, wrench.torque].map(|v| listed(v.map(|x| x.0)));
         say!(
             out,
-            "\nThe forces of --forces hold force {force} {} and torque {moment} {torque}.",
+            "\nThe forces of --forces balance the force {force} {} and the torque {moment} {torque}.",
             answer.force_unit
         );
     }
 }
 
 fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
-    say!(out, "\nMotion of the point for a step of {} {}:", figure(found.step), found.step_unit);
-    let mut table = columns("step of", ["dx", "dy", "dz", "about x", "about y", "about z"]);
+    say!(out, "\nMotion of the point for one step of {} {}:", figure(found.step), found.step_unit);
+    let mut table = columns("drive", ["dx", "dy", "dz", "about x", "about y", "about z"]);
     let unit = format!("{length}, deg");
     let mut line = |name: &str, motion: &SmallMotionRecord| {
         let groups = [motion.shift, motion.turn_deg].map(|group| without_rounding(group.map(|x| x.0), 0.0));
@@ -129,44 +143,48 @@ fn resolution(out: &mut Sheet, found: &ResolutionRecord, length: &str) {
     for (leg, motion) in found.drives.iter().enumerate() {
         line(&format!("leg {}", leg + 1), motion);
     }
-    line("all, at most +-", &found.all);
+    line("all together, up to +-", &found.all);
     out.table(table);
 }
 
 fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
     say!(
         out,
-        "\nLeg {}, stuck: five motions remain. Change of its length for one unit of each number of the pose alone:",
+        "\nIf leg {} is stuck, five motions remain. Travel of its drive for one unit of each coordinate alone:",
         found.leg
     );
-    let words = ["x", "y", "z", "a", "b", "c"];
-    let rates = words.iter().zip(&found.rates).map(|(word, rate)| format!("{word} {}", figure(rate.0)));
+    let angles = if answer.frames.is_usual() { ["roll", "pitch", "yaw"] } else { ["a", "b", "c"] };
+    let words = ["x", "y", "z"].into_iter().chain(angles);
+    let (length, angle) = (&answer.length_unit, &answer.frames.angles);
+    let travel = if answer.angles_deg.is_some() { "deg" } else { length };
+    let rates = words.zip(&found.rates).enumerate().map(|(k, (word, rate))| {
+        let per = if k < 3 { length } else { angle };
+        format!("{word} {} {travel}/{per}", figure(rate.0))
+    });
     out.line(rates.collect::<Vec<_>>().join(", "));
     if let Some(screw) = &found.screw {
         let [direction, point] = [screw.direction, screw.point].map(|v| listed(v.map(|x| x.0)));
         match screw.pitch {
             Some(pitch) => say!(
                 out,
-                "Leg {}, free with the others locked: the platform rotates about {direction} through {point} and shifts by {} {} per radian.",
+                "If leg {} is free and the others are locked, the platform turns about the axis {direction} through {point} {length} and advances by {} {length}/rad.",
                 found.leg,
-                figure(pitch.0),
-                answer.length_unit
+                figure(pitch.0)
             ),
             None => say!(
                 out,
-                "Leg {}, free with the others locked: the platform shifts along {direction}.",
+                "If leg {} is free and the others are locked, the platform moves along {direction}.",
                 found.leg
             ),
         }
     }
-    for way in [&found.shorter, &found.longer] {
-        if let Some(last) = way.last() {
+    for path in [&found.shorter, &found.longer] {
+        if let Some(last) = path.last() {
             say!(
                 out,
-                "  with the leg {} {} long the pose is {}",
+                "  With the drive at {} {travel} the pose is {}",
                 figure(last.length),
-                answer.length_unit,
-                pose(&last.in_frames)
+                pose(answer, &last.in_frames)
             );
         }
     }
@@ -174,7 +192,7 @@ fn stuck(out: &mut Sheet, answer: &AtPoseAnswer, found: &StuckLegRecord) {
 
 fn nearest(out: &mut Sheet, answer: &AtPoseAnswer, found: &NearestSingularPoseRecord) {
     let which = if found.stationary {
-        "The nearest singular pose, locally,"
+        "The nearest singular pose (local optimum)"
     } else {
         "The nearest singular pose found"
     };
@@ -184,8 +202,8 @@ fn nearest(out: &mut Sheet, answer: &AtPoseAnswer, found: &NearestSingularPoseRe
     };
     say!(
         out,
-        "\n{which} is {}, {} {} away (a radian counts as {} {}); {proof}.",
-        pose(&found.in_frames),
+        "\n{which} is {}, {} {} away (1 rad counts as {} {}); {proof}.",
+        pose(answer, &found.in_frames),
         figure(found.distance),
         answer.length_unit,
         figure(found.characteristic_length),

@@ -9,9 +9,9 @@ use records::{CalibrateAnswer, CalibrateOutcome, CalibrationFrames, CalibrationR
 /// The greatest number of unobservable changes written out.
 const CHANGES: usize = 12;
 
-/// The answer of `calibrate`; `wanted`: a design file was requested.
+/// The answer of `calibrate`; `with_file`: a design file was requested.
 #[must_use]
-pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
+pub fn calibrate(answer: &CalibrateAnswer, with_file: bool) -> Sheet {
     let word = match answer.outcome {
         CalibrateOutcome::Calibrated => "calibrated",
         CalibrateOutcome::NotIdentifiable => "not identifiable",
@@ -31,16 +31,18 @@ pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
     if !answer.next_poses.is_empty() {
         say!(
             out,
-            "\nposes to measure {}: x, y, z ({units}), {} ({}); factor by which it shrinks the deviations; greatest deviation left",
-            if answer.calibration.is_some() { "next" } else { "first" },
-            if answer.frames.is_usual() { "roll, pitch, yaw" } else { "a, b, c" },
-            answer.frames.angles
+            "\nposes to measure {}; each multiplies the standard deviations of the joints by its factor and leaves the greatest deviation shown:",
+            if answer.calibration.is_some() { "next" } else { "first" }
         );
         if !answer.frames.is_usual() {
             say!(out, "{}", answer.frames.sentence);
         }
-        let columns = (0..6).map(|_| right("", 7));
-        let mut table = Table::new(columns.chain([right("", 0).gap(2), left("", 0).gap(2)]));
+        let position = ["x", "y", "z"].map(|axis| format!("{axis} {units}"));
+        let names = if answer.frames.is_usual() { ["roll", "pitch", "yaw"] } else { ["a", "b", "c"] };
+        let angles = names.map(|angle| format!("{angle} {}", answer.frames.angles));
+        let columns = position.into_iter().chain(angles).map(|title| right(title, 9));
+        let gains = [right("factor", 0).gap(2), right(format!("deviation {units}"), 0).gap(2)];
+        let mut table = Table::new(columns.chain(gains));
         for next in &answer.next_poses {
             let numbers = next.in_frames.position.iter().chain(&next.in_frames.angles).map(|x| figure(x.0));
             let gains = [figure(next.shrinks.0), figure(next.greatest_deviation.0)];
@@ -52,7 +54,7 @@ pub fn calibrate(answer: &CalibrateAnswer, wanted: bool) -> Sheet {
         Some(path) => {
             say!(out, "wrote {path}");
         }
-        None if wanted => out.line("no design was written"),
+        None if with_file => out.line("No design was written."),
         None => {}
     }
     out
@@ -62,7 +64,7 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     if let Some([i, j]) = found.exchanged_legs {
         say!(
             out,
-            "LEGS EXCHANGED? The lengths of legs {i} and {j} are five times nearer to the design when they change places: look at the wiring or the columns of the table."
+            "LEGS EXCHANGED? The lengths of legs {i} and {j} are five times nearer to the design when they change places: check the wiring, or the columns of the table."
         );
     }
     let source = match found.noise.source {
@@ -89,12 +91,12 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
         figure(found.noise.rotation_deg.0)
     );
     let begun = match found.start.taken {
-        StartName::Nominal => "started at the design",
-        StartName::ClosedForm => "started at the linear equations, without the design",
+        StartName::Nominal => "start: the design",
+        StartName::ClosedForm => "start: the solution of the linear equations, without the design",
     };
     let other = match found.start.agree {
         Some(true) => "; the other start gives the same machine",
-        Some(false) => "; the other start gives another machine, which fits worse",
+        Some(false) => "; the other start gives another machine with greater residuals",
         None => "",
     };
     say!(out, "{begun}{other}");
@@ -103,7 +105,7 @@ fn facts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
             let p = <[f64; 3]>::from(m.motion.position).map(figure);
             say!(
                 out,
-                "{body} moved to the frame of the design: shift {} {units}, rms difference {} {units}",
+                "{body} moved into the frame of the design: by {} {units}; rms difference of the joints {} {units}",
                 p.join(", "),
                 figure(m.rms)
             );
@@ -116,10 +118,10 @@ fn residuals(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     let columns = [left(format!("residuals [{units}]"), 15)].into_iter().chain(numbers);
     let mut table = Table::new(columns.chain([left("where", 0).gap(2)]));
     let rows = [
-        ("before", Some(&found.before)),
-        ("after", Some(&found.after)),
-        ("pose left out", Some(&found.leave_one_out)),
-        ("check", found.check.as_ref()),
+        ("before the fit", Some(&found.before)),
+        ("after the fit", Some(&found.after)),
+        ("leave-one-out", Some(&found.leave_one_out)),
+        ("check measurements", found.check.as_ref()),
     ];
     for (name, residuals) in rows {
         let Some(ResidualsRecord { rms, greatest, .. }) = residuals else { continue };
@@ -130,7 +132,7 @@ fn residuals(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     out.space();
     out.table(table);
     let chi = &found.chi_square;
-    let probability = chi.probability.map_or(String::new(), |p| format!(", probability {}", figure(p)));
+    let probability = chi.probability.map_or(String::new(), |p| format!(", p-value {}", figure(p)));
     say!(out, "chi-square {} with {} degrees of freedom{probability}", figure(chi.value), chi.freedoms);
 }
 
@@ -167,7 +169,7 @@ fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     if let Some(poses) = &found.computed_poses {
         say!(
             out,
-            "\nPoses computed with this machine have standard deviations of at most {} {units} and {} deg over {} poses (medians {} {units}, {} deg), besides the noise of their lengths.",
+            "\nPoses computed with this machine have standard deviations of at most {} {units} and {} deg over {} poses (medians {} {units}, {} deg). The noise of their own lengths comes on top.",
             figure(poses.position_greatest.0),
             figure(poses.rotation_deg_greatest.0),
             poses.poses,
@@ -185,7 +187,7 @@ fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
         figure(o.harmonic_index.0)
     );
     if !o.unobservable.is_empty() {
-        out.line("changes that are not seen:");
+        out.line("changes of the machine that the measurements do not show:");
         for change in o.unobservable.iter().take(CHANGES) {
             say!(out, "  {}", change.words());
         }
@@ -197,7 +199,7 @@ fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
         let leg = outlier.leg.map_or(String::new(), |leg| format!(", leg {leg}"));
         say!(
             out,
-            "outlier: line {}{leg}: {} deviations from the model, where right ones stay below {}; weight {}",
+            "outlier: line {}{leg}: {} standard deviations from the model (limit {}); weight {}",
             outlier.line,
             figure(outlier.distance.0),
             figure(outlier.threshold.0),
@@ -206,6 +208,6 @@ fn doubts(out: &mut Sheet, found: &CalibrationRecord, units: &str) {
     }
     if !found.indispensable.is_empty() {
         let lines: Vec<String> = found.indispensable.iter().map(ToString::to_string).collect();
-        say!(out, "measurements that nothing checks: line {}", lines.join(", "));
+        say!(out, "measurements without redundancy, which nothing checks: line {}", lines.join(", "));
     }
 }

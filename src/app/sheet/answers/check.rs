@@ -12,7 +12,7 @@ use synthesis::singularity::Assembly;
 /// The ratio of distance from a line to distance along it, below which joints of a body count as nearly on the line.
 const NEARLY: f64 = 0.05;
 
-/// The answer of `check`; with the algebra behind it, if wanted.
+/// The answer of `check`; with the algebra behind it, if requested.
 #[must_use]
 pub fn check(c: &CheckAnswer, with_details: bool) -> Sheet {
     let mut out = Sheet::new();
@@ -27,7 +27,7 @@ pub fn check(c: &CheckAnswer, with_details: bool) -> Sheet {
         Some(level) => say!(out, "Proved {}.", level.words()),
         None => say!(out, "{}.", c.explanation),
     }
-    ways_to_assemble(&mut out, c);
+    generic_poses(&mut out, c);
     if let Some(n) = &c.nearest_singular {
         nearest(&mut out, n, c);
     }
@@ -63,24 +63,34 @@ pub fn check(c: &CheckAnswer, with_details: bool) -> Sheet {
 }
 
 /// The number of poses for given lengths, and the number of those of a general platform that lie at infinity.
-fn ways_to_assemble(out: &mut Sheet, answer: &CheckAnswer) {
+fn generic_poses(out: &mut Sheet, answer: &CheckAnswer) {
     let (c, bound) = (&answer.pose_count, answer.pose_bound.poses);
     match (c.finite, c.dimension) {
         (Some(0), _) if answer.architecturally_singular == Some(true) => {
-            out.line("Generic leg lengths have no pose. At almost every pose the platform moves with locked legs.");
+            out.line(
+                "Generic leg lengths have no pose. At almost every pose the platform moves with locked legs.",
+            );
         }
         (Some(n), _) => {
             let lost = answer.common_points.and_then(|p| Some(p.isotropic? + p.at_infinity?));
-            let lost = lost.map_or_else(String::new, |lost| format!("; {lost} lost at infinity"));
-            say!(out, "{n} ways to assemble it for given leg lengths, real and complex, counted{lost}.");
+            let lost = lost.filter(|n| *n > 0);
+            let lost = lost.map_or_else(String::new, |lost| format!("; {lost} more are at infinity"));
+            let how = if c.primes.is_empty() { "counted" } else { "counted modulo random primes" };
+            say!(out, "Generic leg lengths have {n} poses, real and complex, {how}{lost}.");
         }
         (None, Some(d)) => {
-            say!(out, "The platform moves at given leg lengths: its poses form a set of dimension {d}.");
+            say!(
+                out,
+                "The platform can move at constant leg lengths: its poses form a set of dimension {d}."
+            );
         }
-        (None, None) => say!(out, "At most {bound} ways to assemble it for given leg lengths, not counted."),
+        (None, None) => say!(
+            out,
+            "Generic leg lengths have at most {bound} poses, real and complex; they were not counted."
+        ),
     }
     if answer.solvability.quadratic || !answer.solvability.placed_first.is_empty() {
-        say!(out, "Its poses are found in steps: {}.", answer.solvability.sentence());
+        say!(out, "Order of solution: {}.", answer.solvability.sentence());
     }
 }
 
@@ -132,7 +142,7 @@ fn pose_count(out: &mut Sheet, answer: &CheckAnswer) {
         );
     }
     say!(out, "  proved for all lengths: {}", answer.pose_bound.theorem);
-    say!(out, "  in steps: {}", answer.solvability.sentence());
+    say!(out, "  order of solution: {}", answer.solvability.sentence());
 }
 
 fn sum(coefficients: &[Number; 6], letter: char) -> String {
@@ -153,27 +163,32 @@ fn sum(coefficients: &[Number; 6], letter: char) -> String {
 
 fn dependency(out: &mut Sheet, d: &DependencyRecord) {
     say!(out, "\ndependency of {}: {} = 0", legs_in_words(&d.legs), sum(&d.coefficients, 'v'));
-    say!(out, "  base ends span dimension {}, platform ends {}", d.base_dimension, d.platform_dimension);
+    say!(out, "  base joints span dimension {}, platform joints {}", d.base_dimension, d.platform_dimension);
     say!(out, "  squared lengths of every pose: {} = {}", sum(&d.coefficients, 's'), figure(d.constant.0));
     if let Some(defect) = d.lengths_defect {
-        say!(out, "  the lengths of the design miss it by {} (relative)", figure(defect.0));
+        say!(out, "  relative deviation of the design's own lengths: {}", figure(defect.0));
     }
 }
 
 fn griffis_duffy(out: &mut Sheet, g: &GriffisDuffyRecord) {
     let t: Vec<String> = g.t.iter().map(|t| figure(t.0)).collect();
-    say!(out, "\nGriffis-Duffy type, going round by {}: t = {}", legs_in_words(&g.order), t.join(", "));
+    say!(
+        out,
+        "\nGriffis-Duffy type, in the cyclic order of {}: t = {}",
+        legs_in_words(&g.order),
+        t.join(", ")
+    );
     let det = if g.exactly_singular { "0 exactly".into() } else { figure(g.det.0) };
-    say!(out, "  det A = prod (1 - t) - prod t = {det}; singular where it is zero");
+    say!(out, "  det A = prod (1 - t) - prod t = {det}; the design is singular if it is zero");
     let [off, limit] = [g.deviation.0, g.deviation_limit.0].map(figure);
-    say!(out, "  joints off their sides by at most {off} of the size (recognised up to {limit})");
+    say!(out, "  distance of the joints from their sides: at most {off} of the size (limit {limit})");
 }
 
 /// Whether the lengths of the design fit, after `the lengths of the design`; `None` where it has none.
 fn lengths_in_words(g: &GriffisDuffyRecord) -> Option<String> {
     Some(match g.assembly.as_ref()? {
         Assembly::Incompatible { defect } => {
-            format!("cannot be assembled: they miss the condition by {} (relative)", figure(*defect))
+            format!("cannot be assembled: their relative deviation from the condition is {}", figure(*defect))
         }
         Assembly::NoRealPose {} => {
             "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()

@@ -11,42 +11,48 @@ pub fn components(r: &ComponentsAnswer) -> Sheet {
     let mut out = Sheet::new();
     let families = if r.count == 1 { "1 family".to_owned() } else { format!("{} families", r.count) };
     match r.count {
-        0 => say!(out, "{}: no leg can be moved without changing the platform", r.name),
-        _ => say!(out, "{}: {families} of legs that can be moved without changing the platform\n", r.name),
+        0 => {
+            say!(out, "{}: no leg is replaceable, so no leg can move without changing the kinematics", r.name)
+        }
+        _ => say!(
+            out,
+            "{}: {families} of replaceable legs, which can move without changing the kinematics\n",
+            r.name
+        ),
     }
     out.table(table(&r.components));
     if r.leg_rank < 6 {
         let exact = r.leg_rank_decision.exact.map_or(String::new(), |e| format!(", exactly {e}"));
-        say!(out, "\nthe leg vectors are dependent: rank {}{exact}", r.leg_rank);
+        say!(out, "\nThe leg vectors are dependent: rank {}{exact}.", r.leg_rank);
     }
     for planes in &r.planes {
-        say!(out, "\nplanes of legs {}", numbers(&planes.legs));
+        say!(out, "\nCurves of replaceable joints in the planes of legs {}", numbers(&planes.legs));
         curve(&mut out, "base", &planes.base);
         curve(&mut out, "platform", &planes.platform);
     }
     for family in r.components.iter().filter(|family| !family.samples.is_empty()) {
-        say!(out, "\nlegs of family {}", family.component);
+        say!(out, "\nSample legs of family {}", family.component);
         for s in &family.samples {
             say!(out, "  {}  residual {}", ends(&s.ends), figure(s.residual.0));
         }
     }
     for doubt in &r.doubts {
-        say!(out, "\nnot shown to be complete: {doubt}");
+        say!(out, "\nThe list may be incomplete: {doubt}");
     }
     out
 }
 
 fn table(list: &[ComponentRecord]) -> Table {
     let mut table = Table::new([
-        right("no", 4),
+        right("family", 6),
         left("type", 12).gap(2),
         left("base", 6),
         left("platform", 9),
-        right("dim", 3),
+        right("dimension", 3),
         left("legs", 12).gap(2),
-        left("moves with", 12),
-        left("holds", 10),
-        left("inside", 0),
+        left("depends on legs", 12).gap(2),
+        left("evidence", 10).gap(2),
+        left("part of family", 0).gap(2),
     ]);
     for c in list {
         let holds = match c.exact {
@@ -92,14 +98,14 @@ fn curve(out: &mut Sheet, body: &str, c: &PlaneCurveRecord) {
             say!(out, "            as written, over the complex numbers: {}", parts.join(", "));
         }
         ExactCurveOutcome::Curve(_) => {}
-        ExactCurveOutcome::None { reason } => say!(out, "            not split exactly: {reason}"),
+        ExactCurveOutcome::None { reason } => say!(out, "            no exact factors: {reason}"),
     }
     for s in &c.singular_points {
         let at = s.point.map(|p| p.map(|x| x.0));
         let at = at.map_or("infinity".to_owned(), |at| {
             format!("({})", at.map(rounding_is_zero).map(figure).join(", "))
         });
-        let line = if s.line_of_partners { ", with a whole line of partners" } else { "" };
+        let line = if s.line_of_partners { ", paired with a whole line of the other body" } else { "" };
         say!(out, "            {} at {at}{line}", s.kind);
     }
 }

@@ -9,7 +9,7 @@ use records::{DerivationRecord, ExactNumberRecord, LegSlideRecord};
 #[must_use]
 pub fn derivation(d: &DerivationRecord, from: &str, to: &str) -> Sheet {
     let mut out = derivation_steps(d);
-    out.line("\n4. The leg map and forward kinematics of both platforms, solved without it");
+    out.line("\n4. Check: leg map and forward kinematics of both platforms, solved independently");
     out.add(super::verify(&d.verification, from, to));
     out
 }
@@ -18,8 +18,8 @@ pub fn derivation(d: &DerivationRecord, from: &str, to: &str) -> Sheet {
 #[must_use]
 pub fn derivation_steps(d: &DerivationRecord) -> Sheet {
     let mut out = Sheet::new();
-    let numbers = if d.exact { "exact numbers" } else { "the numbers that the doubles of the joints give" };
-    say!(out, "\nderivation, with {numbers}\n");
+    let numbers = if d.exact { "exact numbers" } else { "the joints as doubles" };
+    say!(out, "\nDerivation with {numbers}\n");
     out.line("1. Four joints in one plane at every pose: their Cayley-Menger determinant D vanishes.");
     out.line(
         "   One row of A and c for each moved leg (Rojas, Borras, Thomas 2010, eq. 7); the other legs keep their lengths.",
@@ -85,14 +85,14 @@ fn one_at_a_time(out: &mut Sheet, d: &DerivationRecord) {
     if steps.is_empty() {
         return;
     }
-    out.line("\n2. The same one offset at a time: s of a leg that has moved is its new one");
+    out.line("\n2. The same, one offset at a time; s of a moved leg is its new squared length");
     for (k, step) in steps.iter().enumerate() {
         let [x, y] = &step.ends;
         say!(out, "   {}. leg {}: {} on the line {x} {y}, {} stays", k + 1, step.leg, step.moved, step.fixed);
         say!(out, "      s{}' = {}", step.leg, row(step));
     }
     let product = steps.iter().map(|step| text(&step.rest)).collect::<Vec<_>>().join(" * ");
-    say!(out, "   det A is the product of what each leg keeps of itself: {product}");
+    say!(out, "   det A is the product of the legs' own coefficients: {product}");
 }
 
 fn determinant(out: &mut Sheet, d: &DerivationRecord) {
@@ -113,13 +113,13 @@ fn determinant(out: &mut Sheet, d: &DerivationRecord) {
         let zero = if f.value.value.0 == 0.0 { "; here it is zero: singular" } else { "" };
         say!(
             out,
-            "   factor {} = {}, which vanishes in singular designs: {}{zero}",
+            "   factor {} = {}, which is zero in singular designs: {}{zero}",
             f.formula,
             text(&f.value),
             f.zero
         );
     }
     if d.factors.is_empty() {
-        out.line("   no leg is moved: det A = 1");
+        out.line("   No leg is moved: det A = 1");
     }
 }

@@ -44,14 +44,14 @@ fn table(answer: &DrivesAnswer) -> Table {
     let titles = [
         price,
         format!("mass {mass}"),
-        format!("least {length}"),
-        format!("greatest {length}"),
+        format!("shortest {length}"),
+        format!("longest {length}"),
         format!("force {force}"),
         format!("speed {length}/s"),
     ];
     let columns =
         [left("drive", 5), left("fits", 9)].into_iter().chain(titles.map(|title| right(title, 0).gap(2)));
-    let mut table = Table::new(columns.chain([left("tightest requirements", 0).gap(2)]));
+    let mut table = Table::new(columns.chain([left("margins that decide", 0).gap(2)]));
     for drive in &answer.drives {
         let fits = match drive.fits {
             Some(true) => "yes",

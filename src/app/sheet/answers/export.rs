@@ -15,8 +15,8 @@ pub fn export(answer: &ExportAnswer) -> Sheet {
     let rows = answer.sizes.iter();
     let rows = rows.map(|c| [c.what.clone(), figure(c.value), label(c.unit), c.from.to_owned()]);
     out.table(Table::new(columns).with_rows(rows));
-    let judged = answer.assessment.iter().flat_map(|found| &found.assumptions);
-    let all: Vec<String> = answer.assumptions.iter().chain(judged).cloned().collect();
+    let assessed = answer.assessment.iter().flat_map(|found| &found.assumptions);
+    let all: Vec<String> = answer.assumptions.iter().chain(assessed).cloned().collect();
     out.add(assumed(&all));
     out
 }

@@ -1,6 +1,6 @@
 //! All poses for given lengths, or one pose that is tracked.
 
-use super::poses::{POSE, angle, numbers, pose, written};
+use super::poses::{POSE, angle, numbers, pose, units as pose_units, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use fk::{CompletenessWord, NearWord};
@@ -17,14 +17,14 @@ use records::{
 pub fn fk(name: &str, units: &str, answer: &FkAnswer) -> Sheet {
     match answer {
         FkAnswer::One(one) => one_set(name, units, one),
-        FkAnswer::Rows(answer) => many(&answer.rows),
+        FkAnswer::Rows(answer) => many(&answer.rows, units),
     }
 }
 
 fn one_set(name: &str, units: &str, one: &FkOneAnswer) -> Sheet {
     let mut out = Sheet::new();
     match (&one.drives, &one.near) {
-        (Some(drives), Some(near)) => out.line(drive_sentence(drives, near)),
+        (Some(drives), Some(near)) => out.line(drive_sentence(drives, near, units)),
         (None, Some(near)) => followed(&mut out, name, near, units),
         _ => {}
     }
@@ -54,20 +54,24 @@ fn solved(row: &FkRowRecord) -> Option<&FkOneAnswer> {
 }
 
 /// The table of all rows, one line each. Cranks beyond their limits follow the table.
-fn many(rows: &[FkRowRecord]) -> Sheet {
+fn many(rows: &[FkRowRecord], units: &str) -> Sheet {
     let first = rows.iter().find_map(solved);
     let columns = if first.is_some_and(|one| one.drives.is_some()) {
-        vec![left("position, and what is proved of it", 0)]
+        vec![left("pose and its proof", 0)]
     } else if first.is_some_and(|one| one.near.is_some()) {
-        let numbers = [right("segments", 8), right("inverse condition", 17)];
-        [left("outcome", 16)].into_iter().chain(numbers).chain([left("position", 0)]).collect()
+        let numbers = [right("segments", 8), right("conditioning", 17)];
+        [left("outcome", 16)]
+            .into_iter()
+            .chain(numbers)
+            .chain([left(format!("{POSE}{}", pose_units(units, "deg")), 0)])
+            .collect()
     } else {
         vec![left("method", 13), right("finite", 6), right("real", 4), left("complete", 0)]
     };
     let columns = columns.into_iter().map(|column| column.gap(2));
     let mut table = Table::new([right("line", 4)].into_iter().chain(columns));
     for row in rows {
-        table.row([row.line.to_string()].into_iter().chain(cells(&row.outcome)));
+        table.row([row.line.to_string()].into_iter().chain(cells(&row.outcome, units)));
     }
     let mut out = Sheet::from(table);
     for row in rows {
@@ -79,7 +83,7 @@ fn many(rows: &[FkRowRecord]) -> Sheet {
 }
 
 /// The cells of a row after the number of its line.
-fn cells(outcome: &FkRowOutcome) -> Vec<String> {
+fn cells(outcome: &FkRowOutcome, units: &str) -> Vec<String> {
     let one = match outcome {
         FkRowOutcome::Solved(one) => one,
         FkRowOutcome::Failed(why) => {
@@ -87,7 +91,7 @@ fn cells(outcome: &FkRowOutcome) -> Vec<String> {
         }
     };
     match (&one.drives, &one.near) {
-        (Some(drives), Some(near)) => vec![drive_sentence(drives, near)],
+        (Some(drives), Some(near)) => vec![drive_sentence(drives, near, units)],
         (None, Some(near)) => vec![
             near.outcome.name().to_owned(),
             near.segments.to_string(),
@@ -114,29 +118,34 @@ fn position(near: &NearRecord) -> String {
     pose(&near.reached)
 }
 
+/// A number with its noun, in the plural unless it is one.
+fn counted(count: u32, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
 /// The tracking of the pose, before the list of poses.
 fn followed(out: &mut Sheet, name: &str, near: &NearRecord, units: &str) {
     let share = 100.0 * near.fraction;
     match near.outcome {
         NearWord::Tracked => say!(
             out,
-            "{name}: the pose was followed from the start pose; it moved by {} {units} and {} deg, conditioning there {} ({} segments, {} Newton steps)",
+            "{name}: the pose was followed from the start pose; it moved by {} {units} and {} deg. Its conditioning is {} ({}, {}).",
             figure(near.distance.0),
             figure(angle(near.angle_deg.0)),
             figure(near.inverse_condition.0),
-            near.segments,
-            near.newton_steps
+            counted(near.segments, "segment"),
+            counted(near.newton_steps, "Newton step")
         ),
         NearWord::NearSingularity => say!(
             out,
-            "{name}: NEAR A SINGULAR POSE, stopped after {} % of the path, conditioning there {}",
+            "{name}: NEAR A SINGULAR POSE, stopped after {} % of the path at a conditioning of {}.",
             figure(share),
             figure(near.inverse_condition.0)
         ),
         NearWord::Lost => {
             say!(
                 out,
-                "{name}: LOST after {} % of the path: {}",
+                "{name}: POSE LOST after {} % of the path: {}",
                 figure(share),
                 near.reason.as_deref().unwrap_or_default()
             );
@@ -145,7 +154,7 @@ fn followed(out: &mut Sheet, name: &str, near: &NearRecord, units: &str) {
     if let Some(found) = &near.uncertainty {
         say!(
             out,
-            "Standard deviations from the uncertainty of the calibration: {} {units} and {} deg",
+            "Standard deviations due to the calibration: {} {units} and {} deg",
             figure(found.position.0),
             figure(found.rotation_deg.0)
         );
@@ -153,24 +162,30 @@ fn followed(out: &mut Sheet, name: &str, near: &NearRecord, units: &str) {
 }
 
 /// The pose for the lengths of drives with joints that are not ideal.
-fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord) -> String {
-    let (at, steps) = (position(near), drives.steps);
+fn drive_sentence(drives: &DriveSolutionRecord, near: &NearRecord, length: &str) -> String {
+    let (at, steps) = (position(near) + &pose_units(length, "deg"), drives.steps);
     match drives.status {
         DriveSolutionWord::Proved => {
             let [position, angle] =
                 [drives.position_bound, drives.angle_bound_deg].map(|x| x.map_or(f64::INFINITY, |x| x.0));
             format!(
-                "{POSE} = {at}: proved, the pose with these lengths of drives is within {} and {} deg; {steps} step(s)",
+                "{POSE} = {at}: proved, the pose with these drive lengths is within {} {length} and {} deg of it ({})",
                 figure(position),
-                figure(angle)
+                figure(angle),
+                counted(steps, "step")
             )
         }
         DriveSolutionWord::Unproved => format!(
-            "{POSE} = {at}: UNPROVED, the corrections settled after {steps} step(s) and no bound of the error is proved"
+            "{POSE} = {at}: NOT PROVED, the corrections converged after {}, but no bound of the error is proved",
+            counted(steps, "step")
         ),
         _ => {
             let why = drives.reason.as_deref().unwrap_or_default();
-            format!("NO POSE after {steps} step(s): {why}; factor {}", figure(drives.factor.0))
+            format!(
+                "NO POSE after {}: {why}; contraction factor {}",
+                counted(steps, "step"),
+                figure(drives.factor.0)
+            )
         }
     }
 }
@@ -182,7 +197,7 @@ fn counts(out: &mut Sheet, name: &str, s: &SolvedRecord) {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
         say!(
             out,
-            "{name}: self-motion, a {what} of poses of dimension {dimension_at_least} at least, {} points on it and {} isolated poses (method {})",
+            "{name}: self-motion, a {what} of poses of dimension at least {dimension_at_least}, with {} points found on it and {} isolated poses (method {})",
             witness_points.len(),
             s.finite_count,
             s.method
@@ -225,7 +240,7 @@ fn poses(out: &mut Sheet, units: &str, s: &SolvedRecord, frames: Option<&PoseCon
     out.space();
     out.table(real_poses(&listed, units, frames));
     if violating > 0 {
-        say!(out, "{violating} real poses do not meet the requirements: see --json");
+        say!(out, "{violating} real poses violate requirements: see --json");
     }
     if let Some(frames) = frames {
         out.line(&frames.sentence);
@@ -237,7 +252,7 @@ fn poses(out: &mut Sheet, units: &str, s: &SolvedRecord, frames: Option<&PoseCon
     if !s.unproved.is_empty() {
         say!(
             out,
-            "{} ends of paths without a proof (multiple poses, several close ones, or none), under `unproved` with --json; those that may be real:",
+            "{} path ends without a certificate (multiple poses, several close poses, or none); --json lists them as `unproved`. Ends that may be real:",
             s.unproved.len()
         );
         for (i, r) in s.unproved.iter().enumerate().filter(|(_, r)| r.real != Some(false)) {
@@ -330,9 +345,9 @@ fn elbows(s: &SolvedRecord) -> String {
         numbered(s).filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
     let kept: Vec<String> = kept.map(|(i, _)| i.to_string()).collect();
     match kept.len() {
-        0 => "No real pose has all cranks on the sides that the design keeps".into(),
-        1 => format!("All cranks are on the sides that the design keeps in pose {}", kept[0]),
-        _ => format!("All cranks are on the sides that the design keeps in poses {}", kept.join(", ")),
+        0 => "No real pose has all cranks on the elbow sides of the design.".into(),
+        1 => format!("All cranks have the elbow sides of the design in pose {}.", kept[0]),
+        _ => format!("All cranks have the elbow sides of the design in poses {}.", kept.join(", ")),
     }
 }
 
@@ -350,13 +365,13 @@ fn symmetric(out: &mut Sheet, answer: &FkOneAnswer) {
     let Some(count) = answer.symmetric_finite else { return };
     let certified = answer.solved.solutions.iter().filter(|s| s.certified).count();
     let listed = if certified == count {
-        "that many are certified here; poses that the tips as doubles have besides are due to rounding"
+        "the same number is certified here; further poses are due to rounding of the tips"
     } else {
         "not all of them are certified here"
     };
     say!(
         out,
-        "Tips and joints have the symmetry of three turns, to rounding: the exactly symmetric platform has {count} finite poses, and {listed}."
+        "Tips and joints have three-fold symmetry within rounding. The exactly symmetric platform has {count} finite poses, and {listed}."
     );
 }
 
@@ -376,7 +391,7 @@ fn of_poses(out: &mut Sheet, what: &str, p: &PolynomialRecord) {
     let widest = most(|[low, high]| high.0 - low.0) / most(|[low, high]| low.0.abs().max(high.0.abs()));
     say!(
         out,
-        "{what}: degree {}, {} real roots; coefficients enclosed to {} of the largest, see --json",
+        "{what}: degree {}, {} real roots; coefficients enclosed to {} of the largest (see --json)",
         p.degree.unwrap_or(0),
         p.real_roots.len(),
         figure(widest)
@@ -400,7 +415,7 @@ fn closure(out: &mut Sheet, closure: &ClosureRecord) {
             let [x, y] = &p.unknown;
             let what = format!("polynomial in the squared distance of {x} and {y}, computed from all poses");
             of_poses(out, &what, &p.polynomial);
-            return say!(out, "by trilaterations there is none: {}", p.no_sequence);
+            return say!(out, "No polynomial follows from trilaterations: {}", p.no_sequence);
         }
         ClosureRecord::None { error } => return say!(out, "no closure polynomial: {error}"),
     };

@@ -13,7 +13,7 @@ use synthesis::alignment::AlignmentWord;
 pub(super) fn frames(r: &FramesRecord) -> Sheet {
     let mut out = Sheet::new();
     if r.exchanged {
-        out.line("base and platform of the second design are exchanged: its poses are inverse poses");
+        out.line("Base and platform of the second design are exchanged: its poses are inverse poses.");
     }
     let Some(found) = &r.alignment else { return out };
     out.line(&found.explanation);
@@ -26,7 +26,7 @@ pub(super) fn frames(r: &FramesRecord) -> Sheet {
     } else {
         for (name, other) in [("exchanged", &found.exchanged), ("mirrored", &found.mirrored)] {
             if other.status == AlignmentWord::Found {
-                say!(out, "it is equivalent when the second design is {name}");
+                say!(out, "The designs are equivalent if the second one is {name}.");
             }
         }
     }

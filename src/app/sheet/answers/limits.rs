@@ -1,6 +1,7 @@
 //! The free travel of the platform.
 
-use super::poses::{pose, words, written};
+use super::at_pose::violations;
+use super::poses::{pose, units, words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
@@ -17,28 +18,25 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     let mut out = Sheet::new();
     let (numbers, at) = (words(&answer.frames), shown(answer, &answer.pose, &answer.in_frames));
     if answer.allowed {
-        say!(out, "{name} may be at {numbers} = {at}, and move from there, one number at a time:\n");
-        let columns =
-            [left("axis", 6), right("value", 9), right("down to", 9), left("limited there by", 0).gap(2)];
-        let more = [right("up to", 9), left("limited there by", 0).gap(2), left("unit", 0)];
+        say!(out, "{name} is allowed at {numbers} = {at}.");
+        out.line("Free travel from there, one coordinate at a time:\n");
+        let columns = [left("axis", 6), right("value", 9), right("minimum", 9), left("limited by", 0).gap(2)];
+        let more = [right("maximum", 9), left("limited by", 0).gap(2), left("unit", 0)];
         out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
     } else {
-        say!(out, "{name} may not be at {numbers} = {at}:");
-        for limit in &answer.violated {
-            let unit = limit.unit.as_deref().unwrap_or("of det J at home");
-            say!(out, "  {}: missed by {} {unit}", named(limit), figure(-limit.margin.0));
-        }
+        say!(out, "{name} is not allowed at {numbers} = {at}.");
+        violations(&mut out, &answer.violated);
     }
     if !answer.frames.is_usual() {
         say!(out, "{}", answer.frames.sentence);
     }
     if let Some(found) = &answer.straight_path {
-        way(&mut out, answer, found);
+        straight(&mut out, answer, found);
     }
     if let Some(found) = &answer.nearest_allowed {
         nearest(&mut out, answer, found);
     } else if !answer.allowed {
-        out.line("No allowed pose was found; home was tried too.");
+        out.line("\nNo allowed pose was found, not even at home.");
     }
     if let Some(path) = &answer.surface {
         say!(out, "\nwrote {path}");
@@ -79,20 +77,19 @@ fn axis(row: &FreeRangeRecord) -> [String; 7] {
 
 /// A pose as position, roll, pitch and yaw, or in another convention as position and its angles.
 fn shown(answer: &LimitsAnswer, record: &PoseQuaternionRecord, in_frames: &PoseInFrames) -> String {
-    if answer.frames.is_usual() {
-        return pose(record);
-    }
-    written(in_frames).map(figure).join(",")
+    let numbers =
+        if answer.frames.is_usual() { pose(record) } else { written(in_frames).map(figure).join(",") };
+    numbers + &units(&answer.length_unit, &answer.frames.angles)
 }
 
-fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightPathRecord) {
-    let to = pose(&found.to);
+fn straight(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightPathRecord) {
+    let to = pose(&found.to) + &units(&answer.length_unit, "deg");
     match &found.binds {
         None => say!(out, "\nThe straight path to {to} is free."),
         Some(limit) => say!(
             out,
-            "\nThe straight path to {to} is free for {} of its length, up to {}; the limit there is {}.",
-            figure(found.free),
+            "\nThe straight path to {to} is free for {} % of its length, up to {}. The limit there is {}.",
+            figure(100.0 * found.free),
             shown(answer, &found.pose, &found.in_frames),
             named(limit)
         ),
@@ -100,13 +97,21 @@ fn way(out: &mut Sheet, answer: &LimitsAnswer, found: &StraightPathRecord) {
 }
 
 fn nearest(out: &mut Sheet, answer: &LimitsAnswer, found: &NearestAllowedRecord) {
-    let binds = found.binds.iter().map(named).collect::<Vec<_>>().join(", ");
+    let same = |a: &LimitRecord, b: &LimitRecord| a.label() == b.label();
+    let binds = found.binds.chunk_by(same).map(|limits| {
+        let between: Vec<String> = limits.iter().map(|limit| limit.between.join(", ")).collect();
+        match between.join("; ") {
+            nothing if nothing.is_empty() => limits[0].label().to_owned(),
+            legs => format!("{} ({legs})", limits[0].label()),
+        }
+    });
+    let binds = binds.collect::<Vec<_>>().join(", ");
     let numbers = words(&answer.frames);
     say!(
         out,
-        "\n{} is {numbers} = {}, {} {} away (a radian counts as {} {}).\nLimits there: {binds}.",
+        "\n{} is {numbers} = {}, {} {} away (1 rad counts as {} {}).\nLimits there: {binds}.",
         if found.stationary {
-            "The nearest allowed pose, locally,"
+            "The nearest allowed pose (local optimum)"
         } else {
             "The nearest allowed pose found"
         },
@@ -142,13 +147,13 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
     line(
         "volume of positions",
         &format!(
-            "{} {unit}^3 on straight paths at the orientation of home (halves of {} paths differ by {:.1} %)",
+            "{} {unit}^3 in the orientation of home, from {} straight paths (two halves of them differ by {} %)",
             figure(found.volume),
             found.rays,
-            100.0 * found.volume_uncertainty
+            figure(100.0 * found.volume_uncertainty)
         ),
     );
-    line("", &format!("they end at: {ends}"));
+    line("", &format!("limits of these paths: {ends}"));
     line("largest ball, radius", &size(&found.ball_radius, unit));
     line(
         "largest box found",
@@ -174,8 +179,8 @@ fn workspace(out: &mut Sheet, found: &WorkspaceSizeRecord, unit: &str) {
     line("tilt, any level axis", &size(&found.tilt_deg, "deg"));
     line("rotation, any axis", &size(&found.turn_deg, "deg"));
     if let Some(required) = &found.required {
-        let share = format!("its translations are {:.1} % of the volume above", 100.0 * required.share.0);
-        line("required region", &format!("times {}", size(&required.factor, "").replace("  ", " ")));
+        let share = format!("its positions fill {} % of the volume above", figure(100.0 * required.share.0));
+        line("required region", &format!("scale factor {}", size(&required.factor, "").replace("  ", " ")));
         line("", &share);
     }
     out.table(table);

@@ -16,7 +16,7 @@ pub fn locus(name: &str, r: &LocusAnswer) -> Sheet {
         (r.values.len(), real, r.status, r.all_paths_accounted)
     };
     let counts = [right("poses", 5).gap(2), right("real", 4).gap(2), left("status", 0).gap(2)];
-    let mut table = Table::new([right("from", 9), right("to", 9)].into_iter().chain(counts));
+    let mut table = Table::new([right("length from", 9), right("to", 9)].into_iter().chain(counts));
     for group in r.rows.chunk_by(|a, b| key(a) == key(b)) {
         let (poses, real, status, complete) = key(&group[0]);
         let ends = [&group[0], &group[group.len() - 1]].map(|row| figure(row.length.0));
@@ -26,7 +26,7 @@ pub fn locus(name: &str, r: &LocusAnswer) -> Sheet {
     }
     out.table(table);
     if !r.meetings.is_empty() {
-        out.line("\ndouble values on the real axis, about:");
+        out.line("\nDouble values on the real axis, approximately:");
         let mut table = Table::new([right("length", 9), right("value", 9).gap(2)]);
         r.meetings.iter().for_each(|m| table.row([m.length, m.value].map(figure)));
         out.table(table);

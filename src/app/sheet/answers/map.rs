@@ -1,6 +1,7 @@
 //! The affine map between squared leg lengths.
 
 use super::frames::frames;
+use super::poses::full_sentence;
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, left, right};
 use records::{CorrespondenceRecord, MapAnswer, MapRecord, MappedLengthsRecord};
@@ -23,7 +24,7 @@ pub fn map(answer: &MapAnswer, from: &str, to: &str) -> Sheet {
 fn mapped(out: &mut Sheet, lengths: &MappedLengthsRecord) {
     out.space();
     let Some(to) = &lengths.to else {
-        say!(out, "no lengths of TO: {}", lengths.reason.as_deref().unwrap_or_default());
+        say!(out, "No lengths of TO: {}", lengths.reason.as_deref().unwrap_or_default());
         return;
     };
     let mut table = Table::new([left("", 6), right("FROM", 9), right("TO", 9).gap(2)]);
@@ -58,8 +59,8 @@ pub fn leg_map(r: &MapRecord, from: &str, to: &str) -> Sheet {
         Some(exact) => format!(" = {exact} exactly"),
         None => String::new(),
     };
-    say!(out, "det A = {}{exactly}\n{}\n", figure(r.determinant.0), r.explanation);
-    out.line("squared leg lengths: s(TO) = A s(FROM) + c");
+    say!(out, "det A = {}{exactly}\n{}\n", figure(r.determinant.0), full_sentence(&r.explanation));
+    out.line("Squared leg lengths: s(TO) = A s(FROM) + c, with c in square units and residuals relative to the size");
     let entries = (1..=6).map(|k| right(format!("A{k}"), 7));
     let columns = [left("", 6)].into_iter().chain(entries);
     let mut table = Table::new(columns.chain([right("c", 8).gap(2), right("residual", 0).gap(2)]));
@@ -96,20 +97,22 @@ fn exact_rows(out: &mut Sheet, r: &MapRecord) {
     let (Some(a), Some(c), Some(shares)) = (&r.matrix_exact, &r.constants_exact, &r.singular_offsets) else {
         return;
     };
-    out.line("\nexactly, for the joints as the designs say them:");
+    out.line("\nThe same map in exact numbers:");
     if a.iter().flatten().chain(c).any(|x| x.len() > WRITTEN) {
-        out.line("  numbers too long for a table; --json has them as A_exact and c_exact");
+        out.line("  The numbers are too long for a table; --json has them as A_exact and c_exact.");
         return;
     }
     for i in 0..6 {
         let terms = (0..6).filter(|k| a[i][*k] != "0").map(|k| (a[i][k].clone(), format!("s{}", k + 1)));
         let row = combination(terms, &c[i]);
         let singular = shares[i].as_ref().filter(|share| share.len() <= WRITTEN);
-        let singular =
-            singular.map_or_else(String::new, |t| format!("    (det A = 0 with t = {t} in this row)"));
+        let singular = singular.map_or_else(String::new, |t| format!("    (det A = 0 for offset t = {t})"));
         say!(out, "  s{}' = {row}{singular}", i + 1);
     }
     if let Some(polynomial) = &r.det_of_offsets {
-        say!(out, "  with any offsets t of these edges det A = {polynomial}: singular where it is zero");
+        say!(
+            out,
+            "  For any offsets t on these edges, det A = {polynomial}; the platform is singular if det A = 0."
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! The legs along motions.
 
-use super::assess::{assumed, judged};
-use super::poses::{POSE, pose as at_pose};
+use super::assess::{assumed, toned};
+use super::poses::{POSE, pose as at_pose, units};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, left, right};
 use machine::dynamics::Extreme;
@@ -73,8 +73,8 @@ fn sentence(answer: &MotionAnswer) -> String {
 fn legs(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord) {
     let (length, force) = (&answer.length_unit, &answer.force_unit);
     let titles = [
-        format!("least {length}"),
-        format!("greatest {length}"),
+        format!("shortest {length}"),
+        format!("longest {length}"),
         format!("speed {length}/s"),
         format!("acc. {length}/s^2"),
         format!("push {force}"),
@@ -96,23 +96,24 @@ fn legs(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord) {
         (leg.leg, cells)
     });
     out.table(table("leg", titles, rows));
-    singular(out, motion);
+    singular(out, answer, motion);
 }
 
 /// The singular pose of a motion, or the evidence for its absence.
-fn singular(out: &mut Sheet, motion: &MotionRunRecord) {
+fn singular(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord) {
     let parts = (motion.singular_at_s, &motion.singular_pose, motion.singular_evidence);
     if let (Some(time), Some(pose), Some(evidence)) = parts {
         let what = if motion.cranks.is_some() { "pose or a crank" } else { "pose" };
         say!(
             out,
-            "At {} s the {what} is singular: {}. The drives cannot hold the platform at {POSE} = {}.",
+            "At {} s the {what} is singular: {}. The drives cannot hold the platform at {POSE} = {}{}.",
             figure(time),
             evidence,
-            at_pose(pose)
+            at_pose(pose),
+            units(&answer.length_unit, "deg")
         );
     } else if motion.regularity == MotionRegularity::Proved {
-        out.line("No pose of the motion is singular: proved, between the instants too.");
+        out.line("No pose of the motion is singular: proved, also between the instants.");
     }
 }
 
@@ -133,8 +134,8 @@ fn extreme(found: Option<Extreme>) -> String {
 fn cranks(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord, list: &[CrankMotionRecord]) {
     let torque = format!("{} {}", answer.force_unit, answer.length_unit);
     let titles = [
-        "least deg".to_string(),
-        "greatest deg".to_string(),
+        "min. deg".to_string(),
+        "max. deg".to_string(),
         "speed deg/s".to_string(),
         "acc. deg/s^2".to_string(),
         format!("torque {torque}"),
@@ -157,25 +158,28 @@ fn cranks(out: &mut Sheet, answer: &MotionAnswer, motion: &MotionRunRecord, list
     if let Some(time) = motion.unreached_at_s {
         say!(out, "At {} s a rod does not reach from its crank to the platform.", figure(time));
     }
-    singular(out, motion);
+    singular(out, answer, motion);
 }
 
 fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
     let (length, force) = (&answer.length_unit, &answer.force_unit);
-    say!(out, "\nstiffness at {POSE} = {}", at_pose(&found.pose));
+    say!(out, "\nStiffness at {POSE} = {}{}", at_pose(&found.pose), units(length, "deg"));
     say!(
         out,
-        "least: {} {force}/{length} against a force through the platform origin, {} {force} {length}/rad against a torque",
+        "Least: {} {force}/{length} against a force through the platform origin, {} {force} {length}/rad against a torque.",
         figure(found.linear.0),
         figure(found.angular.0)
     );
-    out.line("K (rows: force, torque; columns: shift, turn in radians)");
+    say!(
+        out,
+        "Stiffness matrix K (rows: force {force}, torque {force} {length}; columns: translation {length}, rotation rad):"
+    );
     let rows = found.matrix.iter().map(|row| row.iter().map(|x| figure(x.0)));
     out.table(Table::new((0..6).map(|_| right("", 9).gap(2))).with_rows(rows));
     match &found.natural {
-        None => out.line(
-            "No natural frequencies: the payload has no mass, or no inertia that is held against turns.",
-        ),
+        None => {
+            out.line("No natural frequencies: the payload has no mass, or no inertia against some rotation.")
+        }
         Some(all) => {
             let shape = ["x", "y", "z", "rx", "ry", "rz"].map(|title| right(title, 8));
             let mut table = Table::new([right("frequency Hz", 14)].into_iter().chain(shape));
@@ -190,16 +194,16 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
 }
 
 fn requirements(out: &mut Sheet, motion: &MotionRunRecord) {
-    let reserved = motion.requirements.iter().any(|r| r.margin.safety_margin.0 > 0.0);
-    let less = reserved.then(|| right("after safety margin", 0).gap(2));
-    let columns = [left("requirement", 17), right("least margin", 0).gap(2)].into_iter().chain(less);
+    let with_margin = motion.requirements.iter().any(|r| r.margin.safety_margin.0 > 0.0);
+    let net = with_margin.then(|| right("after safety margin", 0).gap(2));
+    let columns = [left("requirement", 17), right("least margin", 0).gap(2)].into_iter().chain(net);
     let mut table =
         Table::new(columns.chain([left("unit", 0), left("binds at", 0).gap(2), left("time s", 0).gap(2)]));
     for TimedMarginRecord { time_s, margin } in &motion.requirements {
-        let less = reserved.then(|| Cell::from(figure(margin.net_margin.0)));
-        let found = judged(margin, figure(margin.margin.0));
+        let net = with_margin.then(|| Cell::from(figure(margin.net_margin.0)));
+        let found = toned(margin, figure(margin.margin.0));
         let (of, at) = (margin.between.join(", "), figure(*time_s));
-        let cells = [margin.name.label().into(), found].into_iter().chain(less);
+        let cells = [margin.name.label().into(), found].into_iter().chain(net);
         table.row(cells.chain([margin.unit.clone(), of, at].map(Cell::from)));
     }
     out.table(table);

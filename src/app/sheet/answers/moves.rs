@@ -39,19 +39,21 @@ pub fn moves(r: &MovesAnswer) -> Sheet {
     if r.moves_left_out > 0 {
         say!(
             out,
-            "this move is {}; {} further moves were not made",
-            if undecided { "not decided to be regular" } else { "singular" },
+            "{}; {} further moves were not made.",
+            if undecided { "This move is not proved to be regular" } else { "This move is singular" },
             r.moves_left_out
         );
     }
     if !r.exact {
-        out.line("the new coordinates are rounded: the span condition holds to the residuals given");
+        out.line(
+            "The new coordinates are rounded: the leg vectors lie in the span only to the residuals below.",
+        );
     }
     out.space();
     out.add(leg_map(&r.map, &r.name, "legs moved"));
     if r.steps.len() > 1 {
         let difference = r.composition_difference.0;
-        say!(out, "composed from the steps, A and c differ by {}", figure(difference));
+        say!(out, "The composition of the steps differs from A and c by {}.", figure(difference));
     }
     out
 }
@@ -68,14 +70,16 @@ fn describe(out: &mut Sheet, number: &str, m: &LegMoveRecord) {
     );
     say!(out, "   from {}\n   to   {}", ends(&m.from), ends(&m.to));
     let singular = match &m.singular_parameters {
-        SingularParametersRecord::Everywhere(_) => "det A = 0 all along the family".to_string(),
-        SingularParametersRecord::At(list) if list.is_empty() => "nowhere singular on the family".to_string(),
+        SingularParametersRecord::Everywhere(_) => "det A = 0 on the whole family".to_string(),
+        SingularParametersRecord::At(list) if list.is_empty() => {
+            "no singular point on the family".to_string()
+        }
         SingularParametersRecord::At(list) => {
             let list: Vec<String> = list.iter().map(|t| figure(t.0)).collect();
             format!("singular at t = {}", list.join(", "))
         }
     };
-    say!(out, "   coefficient of the old leg {}: {}; {singular}", m.leg, figure(m.coefficient.0));
+    say!(out, "   coefficient of leg {} before the move: {}; {singular}", m.leg, figure(m.coefficient.0));
 }
 
 /// The ends of a leg, each in the frame of its body.
@@ -95,14 +99,14 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
         r.patterns,
         r.patterns_searched,
         r.least_shared_joints.map_or("unknown".to_string(), |n| n.to_string()),
-        if r.complete { "" } else { " (the list of replaceable legs is not proved complete)" }
+        if r.complete { "" } else { " (the list of replaceable legs is not proved to be complete)" }
     );
     for (k, c) in r.designs.iter().enumerate() {
         say!(
             out,
             "\n{}. {}; det A = {}, conditioning of A {}, shared joints {}",
             k + 1,
-            fulfilled(c),
+            met_and_missed(c),
             figure(c.map.determinant.0),
             figure(c.map.inverse_condition.0),
             c.shared_joints
@@ -123,8 +127,8 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
     out
 }
 
-/// The requested properties and requirements that a platform has and misses.
-fn fulfilled(c: &CandidateRecord) -> String {
+/// The targets and requirements that a platform meets and misses.
+fn met_and_missed(c: &CandidateRecord) -> String {
     let names = |a: &AssessAnswer| {
         let kinds = a.requirements.iter().filter(|m| m.met == a.met).map(|m| m.name.label());
         kinds.chain((a.regular.met == a.met).then_some("no singular pose")).collect::<Vec<_>>().join("; ")

@@ -1,6 +1,6 @@
 //! The octahedral platform nearest to a design.
 
-use super::poses::{POSE, pose};
+use super::poses::{POSE, pose, units as pose_units};
 use crate::figure::{figure, length};
 use crate::{Sheet, Table, right};
 use records::{NearestAnswer, SourceWord};
@@ -24,22 +24,23 @@ pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
     out.table(table);
     say!(
         out,
-        "\nlargest displacement {}, root mean square {}; det A = {}\n\
-         leg {} differs most in length: by {} at {POSE} = {} ({} poses of the {} workspace)",
+        "\nLargest displacement {}, RMS {}; det A = {}\n\
+         Largest change of length: leg {}, {} at {POSE} = {}{} ({} poses of the {} workspace)",
         length(n.error.largest_displacement.0, units),
         length(n.rms_displacement.0, units),
         figure(n.error.det.0),
         n.deviating_leg,
         length(n.error.largest_length_deviation.0, units),
         pose(&n.deviating_pose),
+        pose_units(units, "deg"),
         n.poses,
         if n.workspace_from == SourceWord::Design { "design's" } else { "default" }
     );
     if !n.converged {
-        out.line("the fit has not converged: there are nearer platforms");
+        out.line("The fit has not converged: nearer platforms exist.");
     }
     if n.set_aside > 0 {
-        say!(out, "{} nearer fit(s) were set aside: they make no regular platform", n.set_aside);
+        say!(out, "Nearer fits left out because their platform is singular: {}", n.set_aside);
     }
     for path in &r.paths {
         say!(out, "wrote {path}");

@@ -1,6 +1,6 @@
 //! A design that was made from a few numbers.
 
-use super::poses::{POSE, pose};
+use super::poses::{POSE, pose, units};
 use crate::Sheet;
 use crate::figure::figure;
 use records::{NewAnswer, PresetFile};
@@ -12,12 +12,14 @@ pub fn new_design(answer: &NewAnswer, has_cranks: bool) -> Sheet {
     if let PresetFile::Written { output } = &answer.file {
         say!(out, "wrote {output}");
     }
-    let units = &answer.units;
-    say!(out, "home: {POSE} = {} ({units}, deg)", pose(&answer.home));
+    say!(out, "home: {POSE} = {}{}", pose(&answer.home), units(&answer.units, "deg"));
     let lengths = answer.lengths.map(figure).join(", ");
-    say!(out, "{}: {lengths} {units}", if has_cranks { "rods" } else { "leg lengths at home" });
+    let what = if has_cranks { "rod lengths" } else { "leg lengths at home" };
+    say!(out, "{what}: {lengths} {}", answer.units);
     if answer.architecturally_singular {
-        out.line("ARCHITECTURALLY SINGULAR: no pose holds the platform; `equipod check` explains why");
+        out.line(
+            "ARCHITECTURALLY SINGULAR: the legs hold the platform at no pose. `equipod check` explains why.",
+        );
     }
     out
 }

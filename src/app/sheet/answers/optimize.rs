@@ -17,16 +17,16 @@ use synthesis::sliding_body;
 /// The answer of `optimize` about a design of this name.
 #[must_use]
 pub fn optimize(name: &str, a: &OptimizeAnswer) -> Sheet {
-    told(name, a, true)
+    sheet_of(name, a, true)
 }
 
 /// The same answer for a report that shows the requirements of the platform elsewhere.
 #[must_use]
 pub fn search(name: &str, a: &OptimizeAnswer) -> Sheet {
-    told(name, a, false)
+    sheet_of(name, a, false)
 }
 
-fn told(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
+fn sheet_of(name: &str, a: &OptimizeAnswer, with_requirements: bool) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{name}: {}", a.status.name().replace('_', " "));
     meaning(&mut out, a);
@@ -82,10 +82,10 @@ fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
     let (l, units) = (&a.limits, &a.limits.units);
     let spacing = l
         .min_joint_distance
-        .map_or_else(String::new, |d| format!("joints at least {} {units} apart; ", figure(d)));
+        .map_or_else(String::new, |d| format!("joint distance >= {} {units}; ", figure(d)));
     say!(
         out,
-        "Searched with the {} workspace and {} home; {spacing}|det A| >= {}; characteristic length {} {units}",
+        "Search: {} workspace, {} home; {spacing}|det A| >= {}; characteristic length {} {units}.",
         a.region.workspace.words(),
         a.region.home.words(),
         figure(l.min_abs_det),
@@ -93,19 +93,21 @@ fn search_facts(out: &mut Sheet, a: &OptimizeAnswer) {
     );
     let r = &a.search;
     if let (Some(starts), Some(feasible)) = (r.starts, r.feasible) {
-        say!(out, "{starts} starts, {feasible} of them feasible in the first pass");
+        say!(out, "{starts} starts, {feasible} of them feasible in the first pass.");
     }
-    say!(out, "{} conic programs, solved by clarabel", r.conic_programs);
+    say!(out, "{} conic programs, solved by clarabel.", r.conic_programs);
 }
 
 fn front_in_words(out: &mut Sheet, a: &OptimizeAnswer, count: usize) {
     if a.status == OptimizeStatus::Interrupted {
-        out.line("the front as far as it was found; unfinished runs may still improve");
+        out.line(
+            "The front is incomplete, because the search was interrupted; its platforms may still improve.",
+        );
     }
     if let (Some(dominated), Some(unmet)) = (a.search.dominated, a.search.unmet) {
         say!(
             out,
-            "{count} platforms, none better than another in every objective; {dominated} dominated or equal ones left out, {unmet} bounds not met"
+            "{count} platforms, none better than another in every objective. Left out: {dominated} dominated or equal platforms, {unmet} bounds that no platform met."
         );
     }
 }
@@ -114,27 +116,29 @@ fn front_in_words(out: &mut Sheet, a: &OptimizeAnswer, count: usize) {
 fn meaning(out: &mut Sheet, a: &OptimizeAnswer) {
     match (a.status, a.optimality) {
         (OptimizeStatus::Feasible, Some(OptimalityWord::BestOfStarts)) => {
-            let gap =
-                a.tolerance.map_or_else(String::new, |t| format!(" to within the gap of {t} asked for"));
+            let gap = a.tolerance.map_or_else(String::new, |t| format!(" within the requested gap of {t}"));
             say!(out, "A local optimum{gap}; a better platform elsewhere is not excluded.");
         }
         (_, Some(OptimalityWord::BestOfStarts)) => {
             out.line("A local optimum, the best of all starts; a better platform elsewhere is not excluded.");
         }
         (OptimizeStatus::Violated, _) => {
-            out.line("The platform misses requirements and is not called optimal.");
+            out.line("The platform violates requirements, so it is no optimum.");
         }
         (OptimizeStatus::Feasible, _) => out.line("The limits are met; better platforms may exist nearby."),
         (OptimizeStatus::Undecided, _) if a.platform.objective.is_none() && a.front.is_none() => {
             let reason = a.failure.as_ref().map_or_else(String::new, |w| format!(": {w}"));
-            say!(out, "No platform that meets the requirements was found, and no conflict{reason}");
+            say!(
+                out,
+                "No platform that meets the requirements was found, and no conflict of requirements either{reason}."
+            );
         }
         _ => {}
     }
     if let Some(b) = &a.global_bound {
         say!(
             out,
-            "Proved: no offsets within the limits reach more than {} ({} above the solution; {} boxes)",
+            "Proved: offsets within the limits reach at most {} ({} above the solution; {} boxes).",
             figure(b.upper),
             figure(b.gap),
             b.boxes
@@ -147,7 +151,7 @@ fn branches(out: &mut Sheet, a: &OptimizeAnswer) {
     let Some(n) = &a.branch_counts else { return };
     say!(
         out,
-        "branches: {} feasible, {} outside the bounds, {} with joints too close, {} with |det A| too small, {} excluded by the bound, {} unproved, {} failed",
+        "Branches: {} feasible, {} outside the bounds, {} with joints too close, {} with |det A| too small, {} excluded by the upper bound, {} undecided, {} failed.",
         n.feasible,
         n.outside_bounds,
         n.spacing,
@@ -232,7 +236,7 @@ fn tried_drives(out: &mut Sheet, d: &DriveSearchRecord) {
 /// The platform with the least violation, with the table of its requirements.
 fn nearest(out: &mut Sheet, n: &NearestPlatformRecord) {
     out.line(
-        "\nthe platform with the least violation found; it shows the missed requirements and is not a solution:",
+        "\nThe platform with the least violation found; it is not a solution, but shows which requirements fail:",
     );
     out.add(requirements(n.design.name(), n.assessment.as_ref()));
     out.space();
@@ -242,14 +246,14 @@ fn nearest(out: &mut Sheet, n: &NearestPlatformRecord) {
 /// The other local optima, one line each.
 fn candidates(out: &mut Sheet, list: &[OptimumRecord]) {
     if list.is_empty() {
-        out.line("\nno other local optimum that meets the requirements was found");
+        out.line("\nNo other local optimum that meets the requirements was found.");
         return;
     }
-    out.line("\nother local optima that meet the requirements at the poses held in the search:");
+    out.line("\nOther local optima that meet the requirements at the poses of the search:");
     for c in list {
         let met = match c.requirements_met {
             Some(true) => "requirements met",
-            Some(false) => "requirements missed between those poses",
+            Some(false) => "requirements violated between those poses",
             None => "requirements not all proved",
         };
         let values: Vec<String> =
@@ -270,7 +274,7 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     for o in s.objectives.iter().flatten() {
         say!(
             out,
-            "{}: {} {} ({} over the {held} poses held in the search)",
+            "{}: {} {} ({} at the {held} poses of the search)",
             words(o.name.code()),
             figure(o.value.0),
             o.unit,
@@ -284,18 +288,18 @@ fn platform(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
     offsets(out, s, units);
     if let Some(e) = s.local_optimality {
         let pattern = e.pattern_gain.zip(e.pattern_trials).map_or_else(String::new, |(gain, trials)| {
-            format!(", pattern search gained {} in {trials} trials", figure(gain.0))
+            format!("; a pattern search of {trials} trials gained {}", figure(gain.0))
         });
         say!(
             out,
-            "Converged (remaining first-order gain {} per unit of the variables){pattern}",
+            "Converged: remaining first-order gain {} per unit of the variables{pattern}.",
             figure(e.stationarity.0)
         );
     }
     if let Some(v) = &s.verify {
         say!(
             out,
-            "Compared with the design: {} (poses of {} samples differ by at most {})",
+            "Compared with the design: {} (poses at {} samples differ by at most {}, relative).",
             v.verdict.name(),
             v.sample_count,
             figure(v.worst_distance.0)
@@ -340,15 +344,18 @@ fn offsets(out: &mut Sheet, s: &FoundPlatformRecord, units: &str) {
 
 fn conflict(out: &mut Sheet, c: &ConflictRecord) {
     if c.requirements.is_empty() {
-        out.line("every branch of the offsets is proved to violate the limits");
+        out.line("Every branch of the offsets violates the limits: proved.");
         return;
     }
-    let how = if c.proved { "cannot" } else { "could not, from any start," };
-    say!(out, "within the bounds of the variables these requirements {how} be met together:");
+    out.line(if c.proved {
+        "Within the bounds of the variables, these requirements cannot be met together (proved):"
+    } else {
+        "Within the bounds of the variables, no start met these requirements together:"
+    });
     for g in &c.requirements {
         say!(out, "  {}", g.message);
     }
-    out.line("the least sum of scaled violations violates these and meets all others:");
+    out.line("The least total relaxation changes these requirements and meets all others:");
     let mut table = Table::new([left("", 17).gap(3), right("", 9), left("", 0)]);
     for g in c.requirements.iter().filter(|g| g.together.0 > 0.0) {
         table.row([g.name.label(), figure(g.together.0), g.unit.clone()]);
@@ -367,7 +374,7 @@ mod tests {
     use records::OptimizeFiles;
 
     #[test]
-    fn nobody_has_to_give_by_zero() {
+    fn no_requirement_is_relaxed_by_zero() {
         let text = std::fs::read_to_string("../../../designs/worked/linuxcnc-octahedral.toml").unwrap();
         let (design, _) = parse(&text, Format::Toml).unwrap();
         let give = |kind, alone, together| Give { demand: Demand::Requirement(kind), alone, together };
@@ -382,12 +389,12 @@ mod tests {
         let out = out.to_string();
         assert_eq!(
             out,
-            r"within the bounds of the variables these requirements could not, from any start, be met together:
-  leg length, minimum: would have to give by 1.56 in
-  spacing of base joints: would have to give by 3.25e-8 in
-  leg force, maximum: would have to give by no more than the spare of the search
-  leg speed, maximum: alone it cannot resolve the conflict, however much it gives
-the least sum of scaled violations violates these and meets all others:
+            r"Within the bounds of the variables, no start met these requirements together:
+  leg length, minimum: relax it by 1.56 in
+  distance of base joints: relax it by 3.25e-8 in
+  leg force, maximum: relax it by less than the tolerance of the search
+  leg speed, maximum: relaxing it alone does not resolve the conflict
+The least total relaxation changes these requirements and meets all others:
   leg length, minimum      1.56 in
   leg force, maximum     4.5e-7 lbf
 "
@@ -396,7 +403,7 @@ the least sum of scaled violations violates these and meets all others:
     }
 
     #[test]
-    fn an_interrupted_front_is_said_to_be_so_far() {
+    fn an_interrupted_front_is_called_incomplete() {
         let file = std::fs::read_to_string("../../../designs/worked/isolator-octahedral.toml").unwrap();
         let (mut design, _) = parse(&file, Format::Toml).unwrap();
         design.search.mode = Some(files::design::Combination::Pareto { points: 2 });
@@ -404,6 +411,6 @@ the least sum of scaled violations violates these and meets all others:
         let ended = OptimizeOptions::new().on_progress(|_| std::ops::ControlFlow::Break(()));
         let answer = OptimizeAnswer::new(&design.optimize_with(ended).unwrap(), &OptimizeFiles::default());
         assert_eq!(answer.status, OptimizeStatus::Interrupted);
-        assert!(optimize(&design.name, &answer).to_string().contains("as far as it was found"));
+        assert!(optimize(&design.name, &answer).to_string().contains("The front is incomplete"));
     }
 }

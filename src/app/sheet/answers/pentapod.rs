@@ -18,7 +18,7 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
     match (&answer.line, answer.architecturally_singular) {
         (Some(line), Some(true)) => say!(
             out,
-            "{}: architecturally singular: the five legs hold no line of the {} at any pose",
+            "{}: architecturally singular, the five legs hold no line of the {} at any pose",
             answer.name,
             line.body
         ),
@@ -30,34 +30,34 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
         ),
         (None, Some(_)) => say!(
             out,
-            "{}: five independent legs leave one freedom; no body has all its joints on a line, so that the poses for given lengths are a curve",
+            "{}: five independent legs leave one freedom. The joints of neither body lie on a line, so the poses for given lengths form a curve",
             answer.name
         ),
         (None, None) => {
-            say!(out, "{}: not decided: the five legs are dependent at all poses tried", answer.name);
+            say!(out, "{}: undecided, the five legs are dependent at all poses tried", answer.name);
         }
     }
     if answer.rounded_joints {
-        out.line("joints that are no fractions are taken as their nearest doubles");
+        out.line("Joints that are no fractions are rounded to doubles.");
     }
     if let Some(line) = &answer.line {
         say!(
             out,
-            "joints on the line, in units of {} {units}: {}",
+            "Joints on the line, as multiples of {} {units}: {}",
             figure(line.length.0),
             line.marks.map(|x| figure(x.0)).join(", ")
         );
         if let Some(class) = line.class {
-            say!(out, "the line is found by {}", equation(class));
+            say!(out, "Equation of the line: {}", equation(class));
         }
         if let Some(n) = line.generic_poses {
-            say!(out, "poses of the line, real and complex, for generic leg lengths: {n}");
+            say!(out, "Poses of the line, real and complex, for generic leg lengths: {n}");
         }
         let locus = &line.singular_poses;
         if answer.architecturally_singular == Some(false) {
             say!(
                 out,
-                "singular poses of the line: F(p, v) = 0 of degree {}, of degree {} in the position p and {} in the direction v ({})",
+                "Singular poses of the line: F(p, v) = 0 of degree {}, with degree {} in the position p and {} in the direction v ({})",
                 locus.degree,
                 locus.degree_in_position,
                 locus.degree_in_direction,
@@ -77,10 +77,10 @@ pub fn pentapod(answer: &PentapodAnswer, units: &str) -> Sheet {
 
 fn equation(class: LineClass) -> &'static str {
     match class {
-        LineClass::Quadratic => "a quadratic equation, each root two mirror poses (line-plane, quadratic)",
-        LineClass::Cubic => "a cubic equation, each root two mirror poses (line-plane, cubic)",
-        LineClass::Quartic => "a quartic equation, each root two mirror poses (line-plane, quartic)",
-        _ => "an equation of degree eight: the other joints lie in no plane",
+        LineClass::Quadratic => "quadratic, with two mirror poses for each root (line-plane)",
+        LineClass::Cubic => "cubic, with two mirror poses for each root (line-plane)",
+        LineClass::Quartic => "quartic, with two mirror poses for each root (line-plane)",
+        _ => "degree 8, because the other joints do not lie in a plane",
     }
 }
 
@@ -113,22 +113,22 @@ fn polynomial(terms: &[LineTermRecord]) -> String {
 
 fn sixth_legs(out: &mut Sheet, legs: &[DecouplingLeg]) {
     if legs.is_empty() {
-        out.line("no sixth leg decouples the platform by a line or a joint alone");
+        out.line("No sixth leg decouples the platform by a line or a joint alone.");
     }
     for leg in legs {
         match leg {
             DecouplingLeg::OffTheLine { body } => say!(
                 out,
-                "a sixth leg to a point of the {body} off the line fixes the rotation about the line, with two angles for each pose of the line; a leg to the line leaves it free"
+                "A sixth leg to a point of the {body} off the line fixes the rotation about the line: two angles for each pose of the line."
             ),
             DecouplingLeg::ToTheLine { body, legs } => say!(
                 out,
-                "a sixth leg to the line of {} on the {body} makes five legs hold that line",
+                "With a sixth leg to the line of {} on the {body}, five legs hold that line.",
                 legs_in_words(legs)
             ),
             DecouplingLeg::ToTheJoint { body, legs } => say!(
                 out,
-                "a sixth leg to the joint of {} on the {body} fixes its place by three distances",
+                "A sixth leg to the joint of {} on the {body} fixes its position by three distances.",
                 legs_in_words(legs)
             ),
             _ => {}
@@ -138,11 +138,11 @@ fn sixth_legs(out: &mut Sheet, legs: &[DecouplingLeg]) {
 
 fn poses(out: &mut Sheet, answer: &PentapodAnswer, units: &str) {
     if let Some(why) = &answer.no_poses {
-        say!(out, "no poses: {why}");
+        say!(out, "No poses: {why}");
     }
     let Some(found) = &answer.poses else { return };
-    say!(out, "\nposes of the line for these lengths: {}, of which {} real", found.counted, found.real);
-    out.line("counted and enclosed in exact arithmetic; the rotation about the line is free");
+    say!(out, "\nPoses of the line for these lengths: {}, {} of them real.", found.counted, found.real);
+    out.line("They are counted and enclosed in exact arithmetic; the rotation about the line is free.");
     for pose in found.poses.iter().filter(|pose| pose.real) {
         let twice = if pose.multiplicity > 1 {
             format!("  counts {} times", pose.multiplicity)

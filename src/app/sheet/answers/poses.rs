@@ -4,10 +4,16 @@ use crate::figure::figure;
 use platform::geom::Pose;
 use records::{PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 
-/// The numbers of a pose in their order.
+/// The names of a pose's numbers in their order.
 pub(super) const POSE: &str = "x,y,z,roll,pitch,yaw";
 /// A number of a pose below this share of the greatest one of its kind is rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// The text with a capital letter and a full stop: explanations begin in lower case, because they also follow a colon.
+pub(super) fn full_sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+}
 
 /// The pose by its numbers with commas, as `--pose` takes it; angles are degrees.
 pub(super) fn pose<'a, R>(record: &'a R) -> String
@@ -15,6 +21,11 @@ where
     Pose: From<&'a R>,
 {
     numbers(&record.into()).map(figure).join(",")
+}
+
+/// The units of a pose after its numbers, in brackets; designs without a unit of length have the label `1`.
+pub(super) fn units(length: &str, angles: &str) -> String {
+    if length == "1" { format!(" ({angles})") } else { format!(" ({length}, {angles})") }
 }
 
 /// The pose where there is one; a requirement without one does not depend on the pose.

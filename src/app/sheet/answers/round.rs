@@ -10,7 +10,7 @@ use records::{
 };
 
 /// A line about a design; `met`: the verdict over the whole workspace, if there is one.
-fn judged(out: &mut Sheet, what: &str, j: &Evaluation, met: Option<bool>, units: &str) {
+fn line(out: &mut Sheet, what: &str, j: &Evaluation, met: Option<bool>, units: &str) {
     let requirements = match (met, j.met) {
         (Some(true), true) => "met",
         (None, true) => "met at the sampled poses",
@@ -19,7 +19,7 @@ fn judged(out: &mut Sheet, what: &str, j: &Evaluation, met: Option<bool>, units:
     let det = j.det.map_or(String::new(), |d| format!(", det A = {}", figure(d)));
     say!(
         out,
-        "{what:<8} worst conditioning {}{det}; joints at least {} and {} {units} apart; requirements {requirements}",
+        "{what:<8} worst conditioning {}{det}; least joint distance {} {units} on the base, {} {units} on the platform; requirements {requirements}",
         figure(j.objective),
         figure(j.least_distances[0]),
         figure(j.least_distances[1])
@@ -33,9 +33,12 @@ fn grids(out: &mut Sheet, grids: &GridsRecord) {
     }
 }
 
-fn table(joints: &[RoundedJointRecord]) -> Table {
+fn table(joints: &[RoundedJointRecord], units: &str) -> Table {
     let columns = [left("body", 8).gap(3), left("joint", 12), right("i", 7), right("j", 7)].into_iter();
-    let mut table = Table::new(columns.chain([right("moved", 10).gap(2), left("off its line", 0).gap(2)]));
+    let mut table = Table::new(columns.chain([
+        right(format!("moved {units}"), 10).gap(2),
+        left(format!("off its line {units}"), 0).gap(2),
+    ]));
     for j in joints {
         let [i, k] = j.cell.map_or_else(|| ["-".to_string(), "-".into()], |cell| cell.map(|x| x.to_string()));
         let off = j.off_line.map_or("corner".to_string(), |x| figure(x.0));
@@ -65,10 +68,10 @@ pub fn round(r: &RoundAnswer) -> Sheet {
     // the written design was assessed over the whole workspace; the line about its sampled poses must not claim more
     let written = r.chosen.or(r.least_missed);
     let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
-    judged(&mut out, "given", &r.given, None, units);
+    line(&mut out, "given", &r.given, None, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {
-            judged(&mut out, "exact", &e.evaluation, known(RoundingWay::Exact), units);
+            line(&mut out, "exact", &e.evaluation, known(RoundingWay::Exact), units);
             let proof = if e.proved { "proved in exact arithmetic" } else { "NOT proved" };
             say!(
                 out,
@@ -78,7 +81,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             if r.free_grid {
                 grids(&mut out, &e.grids);
             }
-            out.table(table(&e.joints));
+            out.table(table(&e.joints, units));
         }
         ExactRoundingOutcome::None(why) => {
             say!(out, "exact    none: {}", why.error.message);
@@ -86,12 +89,12 @@ pub fn round(r: &RoundAnswer) -> Sheet {
     }
     match &r.nearest {
         NearestRoundingOutcome::Found(n) => {
-            judged(&mut out, "nearest", &n.evaluation, known(RoundingWay::Nearest), units);
+            line(&mut out, "nearest", &n.evaluation, known(RoundingWay::Nearest), units);
             let e = &n.pose_error;
             say!(
                 out,
-                "  with the wanted design: {}; error of the pose by its formula: first order {} {units}, {} deg \
-                 (every joint on the nearest point: {} {units}, {} deg); solved at {} random poses at most {} {units}, {} deg",
+                "  compared with the given design: {}\n  pose error of a controller with the given joints: to first order {} {units}, {} deg \
+                 (every joint in its nearest hole: {} {units}, {} deg); solved at {} random poses at most {} {units}, {} deg",
                 n.verdict.name().replace('_', " "),
                 figure(e.first_order.position.0),
                 figure(e.first_order.rotation_deg.0),
@@ -104,7 +107,7 @@ pub fn round(r: &RoundAnswer) -> Sheet {
             if r.free_grid {
                 grids(&mut out, &n.grids);
             }
-            out.table(table(&n.joints));
+            out.table(table(&n.joints, units));
         }
         NearestRoundingOutcome::None(why) => {
             say!(out, "nearest  none: {}", why.error.message);

@@ -13,7 +13,7 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
     say!(out, "{}: {}", r.name, verdict(r));
     if let (Some(d), None) = (r.dimension.filter(|d| *d > 1), &r.start) {
         let count = r.real_poses.len();
-        say!(out, "real poses found on the set of dimension {d}: {count}; it was not followed");
+        say!(out, "Real poses found on the set of dimension {d}: {count}. The set was not traced.");
         for pose in &r.real_poses {
             say!(out, "  {POSE} = {}", at(pose));
         }
@@ -40,7 +40,7 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
     if !r.curves.is_empty() {
         say!(
             out,
-            "leg lengths constant to {} of the size; {} crossings; {} further starting poses tried",
+            "Leg lengths are constant to {} of the size; {} crossings; {} more start poses were tried",
             figure(r.worst_length_error.0),
             r.crossings.len(),
             r.further_starts
@@ -50,17 +50,17 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
         let degrees: Vec<String> = components.iter().map(|d| d.degree.to_string()).collect();
         say!(
             out,
-            "over the complex numbers: irreducible curves of degrees {}; {} paths to critical points, {} lost",
+            "Over the complex numbers: irreducible curves of degrees {}; {} paths to critical points, {} lost",
             degrees.join(", "),
             c.paths,
             c.lost
         );
     }
     match r.components_accounted {
-        Some(true) => out.line("every real component is accounted for (numerically, no proof)"),
-        Some(false) => out.line("real components may be missing"),
+        Some(true) => out.line("All real components were found (numerically, not proved)."),
+        Some(false) => out.line("Real components may be missing."),
         None if r.dimension.is_some_and(|d| d > 1) => {
-            out.line("no curve was followed: the poses form a surface or more");
+            out.line("No curve was traced: the poses form a set of dimension 2 or more.");
         }
         None => {}
     }
@@ -73,7 +73,7 @@ fn verdict(r: &SelfmotionAnswer) -> String {
     let first = r.tangent_dimension.unwrap_or(0);
     match (r.dimension, r.evidence) {
         (Some(0), MotionEvidenceWord::FirstOrder) => format!(
-            "no self-motion at this pose: proved, the six leg lines are independent (singular values {} to 1)",
+            "no self-motion at this pose, proved: the six leg lines are independent (ratio of singular values {})",
             figure(r.singular_values[7].0 / r.singular_values[0].0)
         ),
         (Some(0) | None, MotionEvidenceWord::SecondOrder) => {
@@ -84,21 +84,20 @@ fn verdict(r: &SelfmotionAnswer) -> String {
                 format!("no self-motion larger than {within} at this pose")
             };
             format!(
-                "{none}: proved to second order. The leg lines leave {}, and the legs stop it.\n\
-                 every pose with these lengths within {radius} of the pose lies within {within} of it (sizes and radians)",
+                "{none}, proved to second order: the leg lines allow {} to first order, and the legs block it.\n\
+                 Every pose with these lengths within {radius} of the pose lies within {within} of it (relative to the size; radians).",
                 freedoms(first)
             )
         }
         (Some(0), _) => "no curve of poses with these lengths was found".to_string(),
         (Some(d), MotionEvidenceWord::ConstantRank) => format!(
-            "the platform moves at this pose with {}: proved, the leg lines have rank {} at all poses around it",
+            "the platform moves at this pose with {}, proved: the leg lines have rank {} at all poses around it",
             freedoms(d),
             6 - d
         ),
         (Some(d), MotionEvidenceWord::Traced) => {
-            let stretch = "found by tracing, no proof";
             format!(
-                "the platform moves at this pose with {}: {stretch}; the leg lines leave {first}",
+                "the platform moves at this pose with {}, found by tracing, not proved; the leg lines allow {first}",
                 freedoms(d)
             )
         }
@@ -108,7 +107,7 @@ fn verdict(r: &SelfmotionAnswer) -> String {
         (Some(1), _) => "poses with these lengths form curves".to_string(),
         (Some(d), _) => format!("poses with these lengths form a set of dimension {d}"),
         (None, _) => format!(
-            "undecided: the leg lines leave {} at this pose. Tracing found no motion, and no argument of second order excludes one",
+            "undecided: the leg lines allow {} at this pose to first order. Tracing found no motion, and the second order excludes none",
             freedoms(first)
         ),
     }

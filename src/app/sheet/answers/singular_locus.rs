@@ -30,7 +30,7 @@ pub fn singular_locus(r: &SingularLocusAnswer) -> Sheet {
     };
     say!(out, "{}: det J {family}", r.name);
     let Some(degree) = p.degree else {
-        out.line("is zero: every one of these poses is singular, proved.");
+        out.line("is zero at all of them: every one of these poses is singular, proved.");
         return out;
     };
     let removed: Vec<String> = p.removed.iter().map(|f| format!("({})^{}", f.factor, f.times)).collect();
@@ -52,11 +52,11 @@ pub fn singular_locus(r: &SingularLocusAnswer) -> Sheet {
 fn roots(out: &mut Sheet, r: &SingularLocusAnswer) {
     let p = &r.polynomial;
     let Some(count) = p.real_roots_by_sturm else { return };
-    say!(out, "real roots, counted by Sturm's theorem: {count}");
+    say!(out, "Real roots, counted by Sturm's theorem: {count}");
     for ([low, high], times) in p.real_roots.iter().zip(&p.real_root_multiplicities) {
         let u = 0.5 * (low.0 + high.0);
         let angle = r.axis_squared.map_or_else(String::new, |square| {
-            format!(", a turn of {} deg", figure(2.0 * (u * square.0.sqrt()).atan().to_degrees()))
+            format!(", a rotation by {} deg", figure(2.0 * (u * square.0.sqrt()).atan().to_degrees()))
         });
         let often = if *times > 1 { format!(", {times} times") } else { String::new() };
         say!(out, "  u = {}{angle}{often}", figure(u));

@@ -1,6 +1,6 @@
 //! det J at poses, along paths, and the box in which it is proved not to vanish.
 
-use super::poses::{pose, words, written};
+use super::poses::{pose, units, words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use platform::geom::Pose;
@@ -52,13 +52,13 @@ pub fn singular_poses(
             RegularityWord::ChangesSign => {
                 say!(
                     out,
-                    "{name}: the {region} holds a singular pose, proved. det J changes its sign on the path to {names} = {at}."
+                    "{name}: the {region} contains a singular pose, proved: det J changes its sign on the path to {names} = {at}."
                 );
             }
             RegularityWord::Undecided => {
                 say!(
                     out,
-                    "{name}: undecided whether the {region} holds a singular pose, near {names} = {at}; more --cells may decide."
+                    "{name}: undecided whether the {region} contains a singular pose near {names} = {at}; more --cells may decide."
                 );
             }
         }
@@ -73,7 +73,7 @@ pub fn singular_poses(
         if r.assembly_modes_accounted { "" } else { "; some may be missing" }
     );
     out.space();
-    out.table(judged(r, convention));
+    out.table(rows(r, convention));
     r.path.iter().for_each(|found| path(&mut out, found));
     r.between.iter().for_each(|found| pairs(&mut out, found));
     out
@@ -86,39 +86,37 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
     let widths = |scale: f64| {
         let (positions, angles) = (listed(b.translation, scale), listed(b.rotation_deg, scale));
         let unit = if r.units == "1" { String::new() } else { format!(" {}", r.units) };
-        format!("({positions}){unit} and ({angles}) deg of the rotation vector")
+        format!("{positions}{unit} and {angles} deg (rotation vector)")
     };
     let shape = b.region.name();
     if !(b.proved_scale.0 > 0.0) {
-        out.line("Around the pose nothing is proved: the pose itself may be singular.");
+        out.line("No region around the pose is proved to be regular: the pose itself may be singular.");
         return;
     }
     let proved = b.proved_scale.0;
-    let article = if shape.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
     say!(
         out,
-        "Around the pose {article} {shape} of half widths {} has no singular pose, proved;",
+        "Proved regular: the {shape} around the pose with half widths {}, for every equivalent platform too.",
         widths(proved)
     );
-    say!(
-        out,
-        "  the same holds for every equivalent platform ({} times the {shape} asked for).",
-        figure(proved)
-    );
+    let requested = format!("That is {} times the requested {shape}", figure(proved));
     match &b.singular_within {
-        Some(s) => {
-            say!(out, "  At {} times the {shape} there is a singular pose, proved.", figure(s.scale.0));
-        }
+        Some(s) => say!(
+            out,
+            "{requested}; at {} times, the {shape} contains a singular pose, proved.",
+            figure(s.scale.0)
+        ),
         None => {
-            say!(out, "  No singular pose was found up to {} times the {shape}.", figure(b.searched_scale.0));
+            say!(out, "{requested}; up to {} times, no singular pose was found.", figure(b.searched_scale.0))
         }
     }
 }
 
 /// A row for the pose and for each assembly mode.
-fn judged(r: &SingularitiesAnswer, convention: &Convention<'_>) -> Table {
-    let title = format!("{} [{}]", convention.names(), convention.record.angles);
-    let columns = [left("", 8), right("det J", 8).gap(2), right("conditioning", 0).gap(2)];
+fn rows(r: &SingularitiesAnswer, convention: &Convention<'_>) -> Table {
+    let title = format!("{}{}", convention.names(), units(&r.units, &convention.record.angles));
+    let det = if r.units == "1" { "det J".to_owned() } else { format!("det J {}^3", r.units) };
+    let columns = [left("", 8), right(det, 8).gap(2), right("conditioning", 0).gap(2)];
     let mut table = Table::new(columns.into_iter().chain([left(title, 0).gap(2)]));
     let mut row = |name: String, j: &PoseFiguresRecord| {
         table.row([name, figure(j.determinant.0), figure(j.inverse_condition.0), convention.pose(&j.pose)]);
@@ -132,7 +130,12 @@ fn judged(r: &SingularitiesAnswer, convention: &Convention<'_>) -> Table {
 
 /// The sign of det J along a path, in words.
 fn path(out: &mut Sheet, r: &SignPathRecord) {
-    say!(out, "path from mode {} to mode {} (0 is the pose):", r.from, r.to);
+    say!(
+        out,
+        "\nStraight path from mode {} to mode {} (0 is the pose), as a fraction of its length:",
+        r.from,
+        r.to
+    );
     for (k, part) in r.parts.iter().enumerate() {
         say!(out, "  part {}", k + 1);
         for p in &part.pieces {
@@ -140,7 +143,7 @@ fn path(out: &mut Sheet, r: &SignPathRecord) {
                 Some(sign) if sign > 0 => "det J > 0, proved",
                 Some(_) => "det J < 0, proved",
                 None if p.singular => "a singular pose, proved by a change of sign",
-                None => "det J vanishes or nearly so",
+                None => "undecided: det J is zero or nearly zero",
             };
             say!(out, "    {} to {}: {told}", figure(p.from.0), figure(p.to.0));
         }
@@ -151,7 +154,7 @@ fn path(out: &mut Sheet, r: &SignPathRecord) {
 fn pairs(out: &mut Sheet, r: &SignPairsRecord) {
     let n = r.signs.len();
     out.line(
-        "straight paths between modes: = det J keeps its sign (proved), x changes it (proved), ? neither proved",
+        "\nStraight paths between modes: `=` det J keeps its sign, proved; `x` it changes its sign, proved; `?` undecided",
     );
     let columns = (1..=n).map(|j| right(j.to_string(), 3).gap(0));
     let mut table = Table::new([right("", 5)].into_iter().chain(columns));
@@ -168,7 +171,7 @@ fn pairs(out: &mut Sheet, r: &SignPairsRecord) {
         table.row([i.to_string()].into_iter().chain(marks.map(str::to_owned)));
     }
     out.table(table);
-    out.line("modes joined by paths without singular pose (proved):");
+    out.line("Modes joined by paths without a singular pose, proved:");
     for group in &r.groups {
         let sign = match group.first().and_then(|k| r.signs.get(k - 1)?.0) {
             Some(sign) if sign > 0 => "det J > 0",

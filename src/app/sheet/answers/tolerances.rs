@@ -1,6 +1,6 @@
 //! The joint errors allowed.
 
-use super::poses::{POSE, pose};
+use super::poses::{POSE, pose, units as pose_units};
 use super::verdict;
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
@@ -17,39 +17,40 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
     let [joint, coordinate] = [&r.all_joints_radius, &r.all_coordinates];
     say!(
         out,
-        "{name}: every joint may be off by {} {units} in any direction ({} is the limit), to first order",
+        "{name}: every joint may be off by {} {units} in any direction, to first order (limited by {})",
         figure(joint.value),
         joint.kind.name()
     );
     say!(
         out,
-        "Bounds asked for: tool point within {} {units}, orientation within {} deg, at {} poses of the {} workspace",
+        "Required accuracy: tool point {} {units}, orientation {} deg, at {} poses of the {} workspace",
         figure(r.bound.position.0),
         figure(r.bound.rotation_deg.0),
         r.poses.count,
-        if r.poses.workspace == WorkspaceWord::Design { "given" } else { "default" }
+        if r.poses.workspace == WorkspaceWord::Design { "design's" } else { "default" }
     );
     say!(
         out,
-        "Every coordinate may be off by {} {units} ({} is the limit), to first order",
+        "Every coordinate may be off by {} {units}, to first order (limited by {})",
         figure(coordinate.value),
         coordinate.kind.name()
     );
-    say!(out, "{}", sentence(&r.solved, units));
+    say!(out, "{}.", sentence(&r.solved, units));
     out.space();
     out.table(joints(&r.joints, units));
     out.space();
-    for (what, e) in
-        [("the budget", &r.worst_errors.in_budget), ("1.5 times the budget", &r.worst_errors.times_1_5)]
-    {
+    for (what, e) in [
+        ("this tolerance", &r.worst_errors.in_budget),
+        ("1.5 times this tolerance", &r.worst_errors.times_1_5),
+    ] {
         if let Some(e) = e {
             let (p, w) = (figure(e.position.0), figure(e.rotation_deg.0));
-            say!(out, "greatest pose error for joints off by {what}, solved: {p} {units}, {w} deg");
+            say!(out, "Greatest pose error for joints off by {what}, solved exactly: {p} {units}, {w} deg");
         }
     }
-    spread(&mut out, "random errors in the budget", &r.trials, units);
+    spread(&mut out, "random joint errors within this tolerance", &r.trials, units);
     if let Some(calibrated) = &r.calibrated {
-        spread(&mut out, "random errors with the covariance of the calibration", calibrated, units);
+        spread(&mut out, "random joint errors with the covariance of the calibration", calibrated, units);
     }
     if let Some(computed) = &r.calibrated_poses {
         computed_poses(&mut out, computed, units);
@@ -57,7 +58,7 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
     if let Some(map) = &r.map {
         say!(
             out,
-            "\nat {} poses, to first order, the greatest errors by joints off by {} {units}, lengths by {} {units} and growth of {} (base, platform, legs)",
+            "\nGreatest pose errors at {} poses, to first order, for joint errors of {} {units}, length errors of {} {units} and growth factors {} (base, platform, legs)",
             map.poses,
             figure(map.joint_error.0),
             figure(map.length_error.0),
@@ -68,9 +69,10 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
         {
             say!(
                 out,
-                "{what}: {} {unit} at {POSE} = {}; by joints alone {}, by lengths {}, by growth {}; half of the poses stay below {}",
+                "{what}: {} {unit} at {POSE} = {}{}; from joints alone {}, from lengths {}, from growth {} {unit}; median {} {unit}",
                 figure(worst.greatest.0),
                 pose(&worst.pose),
+                pose_units(units, "deg"),
                 figure(worst.joints.0),
                 figure(worst.lengths.0),
                 figure(worst.growth.0),
@@ -91,26 +93,27 @@ fn computed_poses(out: &mut Sheet, r: &CalibratedPosesRecord, units: &str) {
     let known = r.correlations == CorrelationsWord::Design;
     say!(
         out,
-        "\nstandard deviations of computed poses from the uncertainty of the calibration, to first order, at {} poses, {}",
+        "\nStandard deviations of computed poses due to the calibration, to first order, at {} poses, {}",
         r.poses,
         if known {
             "with the correlations of the design file"
         } else {
-            "with independent coordinates and offsets, since the design file has no correlations"
+            "with independent coordinates and offsets (the design file has no correlations)"
         }
     );
     for (what, unit, d) in [("position", units, &r.position), ("orientation", "deg", &r.rotation_deg)] {
         let without = if known {
-            format!(" ({} without the correlations)", figure(d.independent.0))
+            format!(" ({} {unit} without the correlations)", figure(d.independent.0))
         } else {
             String::new()
         };
         say!(
             out,
-            "{what}: {} {unit} in the median, {} at {POSE} = {}{without}",
+            "{what}: median {} {unit}, greatest {} {unit} at {POSE} = {}{}{without}",
             figure(d.median.0),
             figure(d.greatest.0),
-            pose(&d.pose)
+            pose(&d.pose),
+            pose_units(units, "deg")
         );
     }
 }
@@ -119,14 +122,14 @@ fn computed_poses(out: &mut Sheet, r: &CalibratedPosesRecord, units: &str) {
 fn joints(joints: &[JointBudgetRecord], units: &str) -> Table {
     let text = |title: &str, width| left(title, width).gap(2);
     let mut table = Table::new([
-        left("most critical", 8),
-        left("first", 12),
+        left("body", 8),
+        left("joint", 12),
         right(in_units("alone", units), 9),
         text("worst direction", 22),
-        right("pos/unit", 8).gap(2),
-        right("deg/unit", 8).gap(2),
-        text("alone along x, y, z", 29),
-        text("all, largest product", 0),
+        right(per_unit(units), 8).gap(2),
+        right(per_unit_angle(units), 8).gap(2),
+        text(&in_units("alone along x, y, z", units), 29),
+        text(&in_units("box of largest volume", units), 0),
     ]);
     let optional = |x: &Option<Number>| x.map_or("any".to_string(), |x| figure(x.0));
     let list = |v: &[Option<Number>; 3]| v.each_ref().map(optional).join(", ");
@@ -145,6 +148,16 @@ fn joints(joints: &[JointBudgetRecord], units: &str) -> Table {
     table
 }
 
+/// The title of the position error for a unit joint error.
+fn per_unit(units: &str) -> String {
+    if units == "1" { "position error".to_owned() } else { format!("position {units}/{units}") }
+}
+
+/// The title of the orientation error for a unit joint error.
+fn per_unit_angle(units: &str) -> String {
+    if units == "1" { "orientation deg".to_owned() } else { format!("orientation deg/{units}") }
+}
+
 /// A title with its unit; designs without a unit have the label `1`.
 fn in_units(title: &str, units: &str) -> String {
     if units == "1" { title.to_owned() } else { format!("{title} [{units}]") }
@@ -153,17 +166,17 @@ fn in_units(title: &str, units: &str) -> String {
 /// The exact check of the first-order radius.
 fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
     let radius = solved.radius.map_or_else(String::new, |r| {
-        format!("; the worst errors found keep the bounds with {} {units}", figure(r.0))
+        format!(". The worst errors found stay within the required accuracy up to {} {units}", figure(r.0))
     });
     match solved.largest_share {
         _ if solved.within_bound => {
-            "Solved without linearisation: no sampled error in this budget exceeds the bounds".into()
+            "Checked without linearisation: no sampled error within this tolerance exceeds the required accuracy".into()
         }
         Some(share) => format!(
-            "The first order is too wide: solved without linearisation, errors in the budget exceed the bounds by {} %{radius}",
+            "The first order is too optimistic: without linearisation, errors within it exceed the required accuracy by {} %{radius}",
             figure(100.0 * (share.0 - 1.0))
         ),
-        None => format!("The first order is too wide: poses with errors in the budget were lost{radius}"),
+        None => format!("The first order is too optimistic: some errors within it have no solution nearby{radius}"),
     }
 }
 
@@ -171,19 +184,19 @@ fn sentence(solved: &SolvedBudgetRecord, units: &str) -> String {
 fn spread(out: &mut Sheet, what: &str, t: &TrialsRecord, units: &str) {
     say!(
         out,
-        "\n{} {what}: {} within the bound, {} beyond it, {} lost\n",
+        "\n{} {what}: {} within the required accuracy, {} beyond it, {} without a solution nearby\n",
         t.count,
         t.within_bound,
         t.beyond_bound,
         t.lost
     );
     let numbers = ["median", "90 %", "99 %", "max"].map(|title| right(title, 11));
-    let columns = [left(in_units("error of the pose", units), 28)].into_iter().chain(numbers);
+    let columns = [left(in_units("pose error", units), 28)].into_iter().chain(numbers);
     let rows = [
-        ("nominal formula", &t.formula),
-        ("  its first order is off by", &t.first_order_discrepancy),
+        ("nominal kinematics", &t.formula),
+        ("  minus its first order", &t.first_order_discrepancy),
         ("after one Newton step", &t.after_one_step),
-        ("after two", &t.after_two_steps),
+        ("after two steps", &t.after_two_steps),
     ];
     let rows = rows.map(|(what, s)| {
         let q = &s.position;

@@ -8,8 +8,8 @@ use records::{RearrangementRecord, TopologiesAnswer, TopologyRecord};
 pub fn topologies(r: &TopologiesAnswer) -> Sheet {
     let mut out = Sheet::new();
     if let Some(d) = &r.design {
-        let turned = if d.exchanged { ", base and platform exchanged" } else { "" };
-        say!(out, "{}: {} {}{turned}\n", d.name, d.id, d.topology);
+        let exchanged = if d.exchanged { ", base and platform exchanged" } else { "" };
+        say!(out, "{}: topology {} {}{exchanged}\n", d.name, d.id, d.topology);
     }
     out.table(catalogue(&r.topologies));
     if let Some(list) = &r.rearrangements {
@@ -26,7 +26,7 @@ fn catalogue(list: &[TopologyRecord]) -> Table {
         left("legs", 39),
         right("poses", 5),
         left("proved", 6).gap(2),
-        left("closure degree", 14).gap(2),
+        left("closure degree (before)", 14).gap(2),
         left("virtual legs", 0).gap(2),
     ]);
     let joined = |pairs: &[[String; 2]]| pairs.iter().map(|p| p.concat()).collect::<Vec<_>>().join(" ");
@@ -42,7 +42,7 @@ fn catalogue(list: &[TopologyRecord]) -> Table {
             joined(&t.legs),
             t.finite_roots.to_string(),
             if t.finite_roots_proved { "yes" } else { "no" }.to_owned(),
-            closure.map_or("-".to_owned(), |(degree, before)| format!("{degree} from {before}")),
+            closure.map_or("-".to_owned(), |(degree, before)| format!("{degree} ({before})")),
             format!("{}{joints}{}", t.virtual_legs, if t.decoupled { " (decoupled)" } else { "" }),
         ]);
     }

@@ -1,6 +1,7 @@
 //! Whether two designs are kinematically equivalent.
 
 use super::frames::frames;
+use super::poses::full_sentence;
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{SampleRecord, VerifyAnswer};
@@ -16,17 +17,17 @@ pub fn verify(v: &VerifyAnswer, a: &str, b: &str) -> Sheet {
         return out;
     }
     out.add(frames(&v.frames));
-    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name().replace('_', " "), v.explanation);
+    say!(out, "{a} ~ {b}: {}\n{}", v.verdict.name().replace('_', " "), full_sentence(&v.explanation));
     if let Some(polynomial) = &v.map.det_of_offsets {
         say!(
             out,
-            "singular offsets: det A = {polynomial} for offsets t of the leg ends of B along their edges; B is singular where it is zero"
+            "For offsets t of the leg ends of B along their edges, det A = {polynomial}; B is singular if det A = 0."
         );
     }
     if v.samples.is_empty() {
         return out;
     }
-    let numbers = ["poses A", "poses B", "matched", "real", "certified", "worst distance (relative)"];
+    let numbers = ["poses A", "poses B", "matched", "real", "certified", "worst relative distance"];
     let columns = [right("sample", 0)].into_iter().chain(numbers.map(|title| right(title, 0).gap(2)));
     let mut table = Table::new(columns.chain([left("", 0).gap(2)]));
     for (k, s) in v.samples.iter().enumerate() {

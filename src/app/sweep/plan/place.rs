@@ -181,7 +181,7 @@ fn kinds_of(design: &Design) -> Vec<TermKind> {
 fn refused_as_base(mut violations: Vec<Violation>) -> Vec<Violation> {
     for v in violations.iter_mut().filter(|v| v.code == files::design::Code::Rotary) {
         v.message =
-            "the legs are rods on cranks, and the base design of a sweep has legs that change their lengths"
+            "the legs are rods on cranks, but the base design of a sweep needs legs of variable length"
                 .into();
         v.help = "the columns of a sweep are about squared leg lengths, leg lengths and their range: `equipod assess` takes a design with cranks, one at a time".into();
     }

@@ -346,8 +346,8 @@ impl<'t> ExpressionReader<'t> {
         let digits = self.run(|c| c.is_ascii_digit());
         let exponent = digits.parse::<u32>().ok().filter(|n| *n <= MAX_EXPONENT);
         let Some(n) = exponent.and_then(|n| i32::try_from(n).ok()) else {
-            let wanted = format!("an exponent is an integer from -{MAX_EXPONENT} to {MAX_EXPONENT}");
-            return self.slip(from, wanted);
+            let rule = format!("an exponent is an integer from -{MAX_EXPONENT} to {MAX_EXPONENT}");
+            return self.slip(from, rule);
         };
         let n = if negative { -n } else { n };
         Ok(Expression { place: root.place.start..self.at, part: SumPart::Power(Box::new(root), n) })

@@ -178,13 +178,12 @@ pub(super) fn cranks(
         }
     }
     if let (Some(e), false) = (drive, takes_cranks) {
-        let message = "the design has rods on cranks, but this question needs legs that change their lengths";
-        let help = "`equipod ik`, `fk`, `assess`, `limits`, `motion`, `compare`, `view`, `export` and `design convert` take cranks; `assess` proves that no pose of the workspace is singular; leg maps hold between squared lengths of rods, and nothing follows from them for the angles of cranks";
+        let message = "the design has rods on cranks, but this question needs legs of variable length";
+        let help = "`equipod assess` finds singular poses of designs with cranks; `ik`, `fk`, `limits`, `motion`, `compare`, `view`, `export` and `design convert` take cranks too; leg maps do not apply to crank angles";
         return report.refused(Code::Rotary, &e.node.span, message, help);
     }
     for e in OF_LENGTHS.iter().filter_map(|key| find(top, key)) {
-        let message =
-            format!("`{}` is about legs that change their lengths, and the drive is \"rotary\"", e.key);
+        let message = format!("`{}` is about legs of variable length, and the drive is \"rotary\"", e.key);
         let help = "remove it; [cranks] has the lengths of cranks and rods and the limits of angles, torques and speeds";
         report.refuse(Code::ConflictingKeys, &e.key_span, message, help);
     }

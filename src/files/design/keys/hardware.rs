@@ -255,8 +255,8 @@ fn leg_length(found: &mut FoundKey<'_, '_>) -> Option<[f64; 2]> {
     let (node, noun) = (&found.entry.node, "lengths, least and greatest");
     let [least, greatest] = numbers::<2>(found.report, node, "`leg_length`", Code::CoordinateCount, noun)?;
     if !(least >= 0.0 && greatest > least) {
-        let help = "give [least, greatest], the least not negative";
-        found.refuse(Code::OutOfRange, format!("leg lengths from {least} to {greatest}"), help);
+        let help = "give [least, greatest] with 0 <= least < greatest";
+        found.refuse(Code::OutOfRange, format!("`leg_length` is [{least}, {greatest}]"), help);
     }
     Some([least, greatest])
 }

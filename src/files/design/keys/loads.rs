@@ -48,8 +48,8 @@ pub(super) fn stiffness(
     hardware: &Hardware,
     units: Option<&str>,
 ) -> Option<PlatformStiffness> {
-    let (entry, mut wanted) = (find(top, "stiffness")?, PlatformStiffness::default());
-    let entries = STIFFNESS.read(report, &entry.node, "[stiffness]", &mut wanted)?;
+    let (entry, mut required) = (find(top, "stiffness")?, PlatformStiffness::default());
+    let entries = STIFFNESS.read(report, &entry.node, "[stiffness]", &mut required)?;
     if hardware.leg_stiffness.is_none() {
         let message = "[stiffness] needs the stiffness of a leg";
         let help = "add `leg_stiffness` to [hardware], force units per design unit";
@@ -69,7 +69,7 @@ pub(super) fn stiffness(
             report.refuse(Code::WrongType, &entry.key_span, message, help);
         }
     }
-    Some(wanted)
+    Some(required)
 }
 
 const FIXED_TO: KeyKind = word(Body::words);

@@ -142,7 +142,7 @@ impl<M> KeyTable<M> {
         Some(entries)
     }
 
-    /// Reads the keys that are wanted.
+    /// Reads the requested keys.
     fn fill(
         &self,
         report: &mut Findings<'_>,

@@ -125,7 +125,7 @@ fn plate(
             report.refuse(Code::MissingKey, &entry.key_span, message, help);
         }
         (None, Some(housing)) if hole >= housing => {
-            let help = "a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints";
+            let help = "a ball has to be wider than the hole below it: give a smaller hole, or the `height` of the joints";
             refuse("hole", format!("a `hole` of {hole} under housings of {housing}"), help);
         }
         _ => {}

@@ -64,15 +64,15 @@ pub(super) fn workspace(report: &mut Findings<'_>, top: &[Entry]) -> Workspace {
         report.refuse(
             Code::OutOfRange,
             &span,
-            format!("a half width of {half} degrees"),
-            "stay within 180 degrees",
+            format!("a half width of `rotation_deg` is {half} degrees"),
+            "give at most 180 degrees",
         );
     }
     if let Some(relative) = find(entries, "relative_to") {
         if result.poses.is_empty() && result.trajectory.is_none() {
             let help =
                 "list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home";
-            let message = "`relative_to` says what listed poses are measured from, and none are listed";
+            let message = "`relative_to` has no effect, because no poses are listed";
             report.refuse(Code::MissingKey, &relative.key_span, message, help);
         }
         if result.listed_from == ListedFrom::Home && find(top, "home").is_none() {
@@ -97,7 +97,7 @@ fn region(found: &mut FoundKey<'_, '_>) -> Region {
     let region = found.text().map(|word| Region::of(&word));
     if region == Some(None) {
         let help = "write \"box\" or \"ellipsoid\"";
-        found.refuse(Code::WrongType, "`region` is neither box nor ellipsoid", help);
+        found.refuse(Code::WrongType, "`region` is neither \"box\" nor \"ellipsoid\"", help);
     }
     region.flatten().unwrap_or_default()
 }
@@ -107,7 +107,7 @@ fn grid(found: &mut FoundKey<'_, '_>) -> Option<usize> {
     let points = (1..=5_u8).find(|n| (f64::from(*n) - x).abs() < f64::EPSILON);
     if points.is_none() {
         let help = "give 1 (centre), 2 (centre and corners), 3, 4 or 5 points per axis";
-        found.refuse(Code::Grid, format!("a grid of {x} points per axis"), help);
+        found.refuse(Code::Grid, format!("`grid` is {x}"), help);
     }
     points.map(usize::from)
 }

@@ -267,8 +267,8 @@ impl RowReader<'_> {
         let (cell, factor) = self.cell(column)?;
         let x = self.sheet.number(cell);
         if !x.is_some_and(|x| x > 0.0 || (zero && x >= 0.0)) {
-            let wanted = if zero { "a number of 0 or more" } else { "a positive number" };
-            faults.push(format!("line {}: `{}` is `{cell}`, not {wanted}", self.row.line, column.name()));
+            let range = if zero { "a number of 0 or more" } else { "a positive number" };
+            faults.push(format!("line {}: `{}` is `{cell}`, not {range}", self.row.line, column.name()));
         }
         x.map(|x| x * factor)
     }

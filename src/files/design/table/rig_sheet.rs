@@ -275,7 +275,7 @@ impl RigSheet {
         let legs = if found.iter().any(|(n, _)| LINEAR.contains(n)) {
             if let Some((name, _)) = found.iter().find(|(n, _)| CRANKS.contains(n)) {
                 let message = format!(
-                    "`{name}` is about rods on cranks, `middle` and `range` about legs that change their lengths: give one kind"
+                    "`{name}` is about rods on cranks, `middle` and `range` about legs of variable length: give one kind"
                 );
                 return Err(InvalidRigSheet::NotSymmetric(message));
             }

@@ -9,7 +9,7 @@ use platform::geom::{AngleUnit, InvalidPose, ListedFrom, Pose, PoseConvention, R
 /// Least count of numbers in a row.
 const LEAST_NUMBERS: usize = 2;
 /// Greatest number of quoted bad lines.
-const QUOTED: usize = 20;
+const QUOTED: usize = 3;
 
 /// Number of lengths in a row.
 const LEGS: usize = 6;
@@ -317,9 +317,9 @@ fn without_angle_units(names: &[String]) -> Vec<String> {
     names.iter().map(less).collect()
 }
 
-/// The six columns with one word and the numbers 1 to 6, in the order of the numbers. A wanted word selects one of
+/// The six columns with one word and the numbers 1 to 6, in the order of the numbers. A known word selects one of
 /// several such lists.
-fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
+fn numbered_columns(names: &[String], known: &[&str]) -> Option<Vec<usize>> {
     let parted: Vec<(&str, &str)> =
         names.iter().map(|n| n.split_at(n.trim_end_matches(|c: char| c.is_ascii_digit()).len())).collect();
     let of = |word: &str| -> Option<Vec<usize>> {
@@ -331,10 +331,10 @@ fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
         };
         (1..=6).map(column).collect()
     };
-    // of several lists, such as lengths beside speeds, choose the one with a wanted word
+    // of several lists, such as lengths beside speeds, choose the one with a known word
     let words = parted.iter().map(|(word, _)| *word).filter(|word| !word.is_empty());
     let called = |word: &str| {
-        wanted.iter().any(|name| word == *name || (name.len() > 1 && *name != "leg" && word.contains(name)))
+        known.iter().any(|name| word == *name || (name.len() > 1 && *name != "leg" && word.contains(name)))
     };
     let mut words: Vec<&str> = words.collect();
     words.sort_by_key(|word| !called(word));

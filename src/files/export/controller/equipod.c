@@ -56,9 +56,9 @@
 #define KANTOROVICH 0.88
 /* Rounding of the distance of two poses, in the solver's units. */
 #ifdef EQUIPOD_FLOAT
-#define ROOM 5.4e-6
+#define ROUNDING 5.4e-6
 #else
-#define ROOM 1e-14
+#define ROUNDING 1e-14
 #endif
 #define ROOT_TWO 1.41421356237309504880
 #define DEGREES 57.29577951308232
@@ -388,7 +388,7 @@ static real_t place_distance(const place_t *from, const place_t *to, real_t epsi
 }
 
 /* ---- bounds of the rounding ---------------------------------------------------------------------------------------------------------
- * How far the numbers of a local_t may be from those of the exact problem: the joints within their radii, the rotation nearest to the matrix,
+ * Error bounds of the numbers of a local_t against the exact problem: the joints within their radii, the rotation nearest to the matrix,
  * squares within target_error. First order in U, constants rounded up. */
 
 typedef struct {
@@ -446,9 +446,9 @@ static void blur_second_order(const blur_t *blur, const local_t *here, int i, re
 /* ---- the Kantorovich test -----------------------------------------------------------------------------------------------------------*/
 
 typedef struct {
-    real_t step[6];         /* the Newton step to the end of the way */
+    real_t step[6];         /* the Newton step to the end of the path */
     real_t eta;             /* bound of its size */
-    real_t slack;           /* the part of eta that is there at the beginning of the way too */
+    real_t slack;           /* the part of eta that is there at the beginning of the path too */
     real_t beta;            /* bound of |Y Q| without the part of f; at least 1 */
     real_t epsilon;         /* weight of g0 in the norm */
     real_t frobenius_ratio;
@@ -531,7 +531,7 @@ static void second_order(const local_t *here, matrix6 y, const blur_t *blur, rea
 static int start_of(const local_t *here, const blur_t *blur, start_t *out)
 {
     matrix6 j, y, work;
-    real_t rows[6], steps[6], defects[6], kappa, room, beta;
+    real_t rows[6], steps[6], defects[6], kappa, denominator, beta;
     int i, k, l;
     local_jacobian(here, j);
     for (i = 0; i < 6; i++) {
@@ -572,11 +572,11 @@ static int start_of(const local_t *here, const blur_t *blur, start_t *out)
     }
     /* in the norm max(|h|, |w|) a row acts by at most sqrt 2 times its Euclidean norm */
     kappa = R(ROOT_TWO) * step_size(defects) * UP;
-    room = (R(1) - kappa) * (R(1) - kappa) * (R(2) - UP);
-    out->slack = step_size(steps) * UP / room;
-    out->eta = step_size(out->step) * UP / room + out->slack;
+    denominator = (R(1) - kappa) * (R(1) - kappa) * (R(2) - UP);
+    out->slack = step_size(steps) * UP / denominator;
+    out->eta = step_size(out->step) * UP / denominator + out->slack;
     second_order(here, y, blur, &beta, &out->epsilon);
-    out->beta = beta * UP / room;
+    out->beta = beta * UP / denominator;
     return is_finite(out->eta) && is_finite(out->beta) && is_finite(out->frobenius_ratio) && kappa < R(0.5);
 }
 
@@ -619,7 +619,7 @@ static void target_of(const equipod_legs *legs, const real_t s[6], const real_t 
 static int ball_holds(const place_t *centre, real_t beta, real_t epsilon, const place_t *place)
 {
     const real_t radius = place_distance(centre, place, epsilon);
-    real_t room, greatest = R(0);
+    real_t rounding, greatest = R(0);
     int k;
     for (k = 0; k < 3; k++) {
         greatest = larger(greatest, FABS(centre->position[k]));
@@ -627,8 +627,8 @@ static int ball_holds(const place_t *centre, real_t beta, real_t epsilon, const 
     for (k = 0; k < 3; k++) {
         greatest = larger(greatest, FABS(place->position[k]));
     }
-    room = R(ROOM) * (R(1) + greatest);
-    return R(2) * beta * (radius + room / epsilon) <= PROVED;
+    rounding = R(ROUNDING) * (R(1) + greatest);
+    return R(2) * beta * (radius + rounding / epsilon) <= PROVED;
 }
 
 /* Newton's method to the root for `target` in the Kantorovich ball about `place`; 0 when it ends elsewhere. */
@@ -1280,7 +1280,7 @@ static void name_binding(const equipod_legs *legs, const equipod_margins *margin
     }
 }
 
-int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
+int equipod_free_path(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
                      real_t most, unsigned poses, equipod_travel *travel)
 {
     const equipod_pose from = *start;

@@ -45,7 +45,7 @@ typedef struct {
 
 typedef enum {
     EQUIPOD_TRACKED,       /* the continuous continuation of the start, joined to it by regular poses */
-    EQUIPOD_NEAR_SINGULAR, /* a singularity lies on the way or at its end */
+    EQUIPOD_NEAR_SINGULAR, /* a singularity lies on the path or at its end */
     EQUIPOD_LOST           /* given up, see equipod_reason */
 } equipod_status;
 
@@ -59,9 +59,9 @@ typedef enum {
 typedef struct {
     equipod_status status;
     equipod_reason reason;
-    equipod_pose pose;       /* the pose asked for when tracked, else the last one before the end of the way */
+    equipod_pose pose;       /* the pose asked for when tracked, else the last one before the end of the path */
     real_t fraction;         /* how far on the straight line of squared lengths, from 0 to 1 */
-    unsigned segments;       /* segments of the way; of both ways where equipod_track_mapped follows two */
+    unsigned segments;       /* segments of the path; of both paths where equipod_track_mapped follows two */
     unsigned newton_steps;   /* Newton steps in all */
     real_t kantorovich;      /* largest Kantorovich number of the segments, below 1 */
     real_t frobenius_ratio;  /* 6 / (|J| |J^-1|) at the pose: 1 at best, 0 at a singularity */
@@ -105,14 +105,14 @@ typedef struct {
     int cone_angle_leg;
 } equipod_margins;
 
-/* How far a way is free. */
+/* The free part of a path. */
 typedef struct {
-    real_t amount;       /* in the unit of the way: at its end every limit is met */
+    real_t amount;       /* in the unit of the path: at its end every limit is met */
     equipod_pose pose;   /* the pose there */
-    int binds;           /* 1: a limit is violated just beyond; 0: the way or the number of poses ended before */
+    int binds;           /* 1: a limit is violated just beyond; 0: the path or the number of poses ended before */
     equipod_limit limit; /* which, and of which leg */
     int leg;
-    unsigned poses;      /* poses looked at */
+    unsigned poses;      /* poses examined */
 } equipod_travel;
 
 /* Makes six base and six platform joints ready: those measured on the machine, for instance. 0 where the joints have no size, or where a
@@ -163,11 +163,11 @@ equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *
 /* What remains of each limit at a pose. */
 void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *pose, equipod_margins *margins);
 
-/* How far the way p(t) = p + t velocity, R(t) = exp(t [turn]) R is free of violated limits, t from 0 to `most`: unit vectors as velocity or turn move one
+/* The free part of the path p(t) = p + t velocity, R(t) = exp(t [turn]) R, t from 0 to `most`: unit vectors as velocity or turn move one
  * axis. Steps are such that neither lengths nor cone angles can be violated between two poses, but for steps of a hundred-thousandth (float: a
- * thousandth) of the unit where one of them is nearly zero. `poses` bounds the poses looked at: what is free of the way up to there is the
+ * thousandth) of the unit where one of them is nearly zero. `poses` bounds the poses examined: what is free of the path up to there is the
  * answer then. 0 where a limit is violated at the start. */
-int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
+int equipod_free_path(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
                      real_t most, unsigned poses, equipod_travel *travel);
 
 #ifdef __cplusplus

@@ -69,7 +69,7 @@ typedef struct {
 } covariance_vector;
 #endif
 
-/* How far a way is free. */
+/* The free part of a path. */
 typedef struct {
     pose_numbers start;
     double velocity[3], turn[3], most, amount;
@@ -270,7 +270,7 @@ static void check_tracked(void)
             }
         } else if (v->status == EQUIPOD_TRACKED) {
             refused += 1;
-            check(v->frobenius_ratio < 1e-2 || v->segments > v->segments_allowed / 2, "tracked where the library does with room to spare", n);
+            check(v->frobenius_ratio < 1e-2 || v->segments > v->segments_allowed / 2, "tracked where the library tracks with a large margin", n);
         }
 #else
         check((int)r.status == v->status && (int)r.reason == v->reason, "status", n);
@@ -283,7 +283,7 @@ static void check_tracked(void)
         check(r.status != EQUIPOD_TRACKED || r.position_error < R(INFINITY) || v->frobenius_ratio < 1e-5, "bound of the error", n);
 #endif
     }
-    printf("%u of %u ways tracked to the end\n", tracked, (unsigned)COUNT(track_vectors));
+    printf("%u of %u paths tracked to the end\n", tracked, (unsigned)COUNT(track_vectors));
 #ifdef EQUIPOD_FLOAT
     printf("%u of them refused in float; the greatest error is %.3f of its bound\n", refused, share);
 #endif
@@ -351,7 +351,7 @@ static void check_mapped(void)
 }
 #endif
 
-/* A way ends where the library says; in float, where limits are met and beyond are not. */
+/* A path ends where the library says; in float, where limits are met and beyond are not. */
 static void check_free(void)
 {
     unsigned n;
@@ -370,16 +370,16 @@ static void check_free(void)
             velocity[i] = (real_t)v->velocity[i];
             turn[i] = (real_t)v->turn[i];
         }
-        check(equipod_free_way(&equipod_design_limits, &equipod_nominal, &start, velocity, turn, most, 2000, &travel) == 1, "start of a way", n);
+        check(equipod_free_path(&equipod_design_limits, &equipod_nominal, &start, velocity, turn, most, 2000, &travel) == 1, "start of a path", n);
         equipod_limit_margins(&equipod_design_limits, &equipod_nominal, &travel.pose, &margins);
-        check(margins.met, "limits at the end of a way", n);
+        check(margins.met, "limits at the end of a path", n);
         check(travel.poses <= 2000, "poses within their bound", n);
-        check(near(travel.amount, v->amount, (sizeof(real_t) == sizeof(double) ? 1e-6 : 1e-2) * v->most), "free part of a way", n);
+        check(near(travel.amount, v->amount, (sizeof(real_t) == sizeof(double) ? 1e-6 : 1e-2) * v->most), "free part of a path", n);
 #ifndef EQUIPOD_FLOAT
-        check(travel.binds == v->binds, "end of a way", n);
+        check(travel.binds == v->binds, "end of a path", n);
 #endif
         check(!travel.binds || travel.leg >= 0, "what binds", n);
-        equipod_free_way(&equipod_design_limits, &equipod_nominal, &start, velocity, turn, most, 3, &travel);
+        equipod_free_path(&equipod_design_limits, &equipod_nominal, &start, velocity, turn, most, 3, &travel);
         check(travel.poses <= 3 && travel.amount <= most, "few poses", n);
     }
 }

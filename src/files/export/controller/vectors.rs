@@ -1,5 +1,4 @@
-//! Numbers of the library for the self-test of the C code: poses about home, ways between them, and inputs that must be
-//! refused.
+//! Numbers of the library for the self-test of the C code: poses about home, paths between them, and invalid inputs.
 
 use std::fmt::Write as _;
 
@@ -23,13 +22,13 @@ const AWAY: f64 = 0.12;
 const POSES: usize = 16;
 /// Greatest number of poses from the workspace.
 const OF_WORKSPACE: usize = 9;
-/// Lengths of ways: rotations in radians and shifts over the size.
+/// Lengths of paths: rotations in radians and shifts over the size.
 const WAYS: [f64; 6] = [1e-4, 1e-3, 1e-2, 0.05, 0.2, 0.5];
-/// Number of ways of each length.
+/// Number of paths of each length.
 const REPEATS: usize = 6;
 /// Segments allowed: the value of `EQUIPOD_SEGMENTS`.
 const SEGMENTS: u32 = 8;
-/// Number of poses whose ways are followed to their limits.
+/// Number of poses whose paths are followed to their limits.
 const FREE_WAYS: usize = 3;
 /// Newton steps that correct a mapped pose.
 const CORRECTIONS: u32 = 2;
@@ -41,7 +40,7 @@ pub(super) fn text(export: &Export) -> String {
     let mut poses: Vec<Pose> = export.workspace.iter().take(OF_WORKSPACE).copied().collect();
     poses.extend(&about);
     list(&mut out, "inverse_vector", "inverse_vectors", poses.iter().filter_map(|p| inverse(export, p)));
-    list(&mut out, "track_vector", "track_vectors", ways(export, &mut rng).iter().map(|w| track(export, w)));
+    list(&mut out, "track_vector", "track_vectors", paths(export, &mut rng).iter().map(|w| track(export, w)));
     list(&mut out, "newton_vector", "newton_vectors", newton(export, &about, &mut rng));
     list(&mut out, "free_vector", "free_vectors", free(export, &mut rng));
     if let Some(found) = &export.calibration {
@@ -130,18 +129,18 @@ fn covariance(export: &Export, by_legs: &DMatrix<f64>, pose: &Pose) -> Option<St
 }
 
 /// The start of a tracked pose and its final squared lengths.
-struct TrackedWay {
+struct TrackedPath {
     start: Pose,
     squares: SquaredLegLengths,
     segments: u32,
 }
 
-/// Ways of all lengths about home. Further ways end at a singularity, are too far, or begin at an invalid pose.
-fn ways(export: &Export, rng: &mut Rng) -> Vec<TrackedWay> {
+/// Paths of all lengths about home. Further paths end at a singularity, are too far, or begin at an invalid pose.
+fn paths(export: &Export, rng: &mut Rng) -> Vec<TrackedPath> {
     let (m, home) = (&export.manipulator, &export.home);
     let mut out = Vec::new();
     let mut push = |start: Pose, squares: Option<SquaredLegLengths>, segments: u32| {
-        out.extend(squares.map(|squares| TrackedWay { start, squares, segments }));
+        out.extend(squares.map(|squares| TrackedPath { start, squares, segments }));
     };
     for far in WAYS {
         for _ in 0..REPEATS {
@@ -171,15 +170,15 @@ fn ways(export: &Export, rng: &mut Rng) -> Vec<TrackedWay> {
     out
 }
 
-fn track(export: &Export, way: &TrackedWay) -> String {
-    let options = NearOptions { segments: way.segments, ..NearOptions::default() };
-    let outcome = NearSolver::with_options(&export.manipulator, options).solve(&way.squares, &way.start);
+fn track(export: &Export, path: &TrackedPath) -> String {
+    let options = NearOptions { segments: path.segments, ..NearOptions::default() };
+    let outcome = NearSolver::with_options(&export.manipulator, options).solve(&path.squares, &path.start);
     let (status, reason, fraction) = told(&outcome);
     let evidence = outcome.evidence();
     braces([
-        pose_numbers(&way.start),
-        row(&way.squares.get()),
-        way.segments.to_string(),
+        pose_numbers(&path.start),
+        row(&path.squares.get()),
+        path.segments.to_string(),
         status.to_string(),
         reason.to_string(),
         pose_numbers(outcome.pose()),
@@ -193,7 +192,7 @@ fn track(export: &Export, way: &TrackedWay) -> String {
     ])
 }
 
-/// The C names of an outcome, and the fraction of the way reached.
+/// The C names of an outcome, and the fraction of the path reached.
 fn told(outcome: &NearOutcome) -> (&'static str, &'static str, f64) {
     match outcome {
         NearOutcome::Tracked { .. } => ("EQUIPOD_TRACKED", "EQUIPOD_NO_REASON", 1.0),
@@ -228,7 +227,7 @@ fn newton(export: &Export, about: &[Pose], rng: &mut Rng) -> Vec<String> {
     about.iter().take(8).enumerate().filter_map(entry).collect()
 }
 
-/// Ways from poses about home with their free travel by lengths and joint angles: each axis, and some with both
+/// Paths from poses about home with their free travel by lengths and joint angles: each axis, and some with both
 /// velocities.
 fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
     let hardware = Hardware {
@@ -254,8 +253,8 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
         };
         let far = |axis: PoseAxis| if axis.is_turn() { 1.0 } else { export.size };
         let axes = PoseAxis::ALL.map(|axis| (StraightPath::axis(&start, axis), far(axis)));
-        for (way, mut most) in axes.into_iter().chain([(mixed, 1.0)]) {
-            let found = reach.along(&way, most);
+        for (path, mut most) in axes.into_iter().chain([(mixed, 1.0)]) {
+            let found = reach.along(&path, most);
             let mut travel = (found.amount, found.binding.is_some());
             if found.binding == Some(Limit::Singular) {
                 // the C code does not search for singular poses
@@ -264,8 +263,8 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
             }
             out.push(braces([
                 pose_numbers(&start),
-                row(way.velocity.as_slice()),
-                row(way.turn.as_slice()),
+                row(path.velocity.as_slice()),
+                row(path.turn.as_slice()),
                 number(most),
                 number(travel.0),
                 u8::from(travel.1).to_string(),
@@ -273,7 +272,7 @@ fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
         }
     }
     if out.is_empty() {
-        // home itself violates a limit; C has no empty lists, and the self-test skips ways of length zero
+        // home itself violates a limit; C has no empty lists, and the self-test skips paths of length zero
         out.push(braces([
             pose_numbers(&export.home),
             row(&[0.0; 3]),

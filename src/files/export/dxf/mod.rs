@@ -140,7 +140,7 @@ fn title_block(
                     rounded_down(diameter * mm)
                 )
             }
-            None => "places of holes: no tolerance asked for (equipod export --bound)".to_string(),
+            None => "places of holes: no tolerance given (equipod export --bound)".to_string(),
         },
         datum.to_string(),
         export.program.clone(),

@@ -113,7 +113,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
         masses.words(export),
     );
     if cranks.tip_angle.is_some() {
-        text.push_str("  Range of hinge swingNy: how far rod N may lean out of the plane in which crank N turns, less how far it does at home.\n");
+        text.push_str("  Range of hinge swingNy: greatest angle of rod N out of the plane of crank N, minus this angle at home.\n");
     }
     if swing::is_limited(export) {
         text.push_str(swing::COMMENT);

@@ -379,7 +379,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
         let _ = writeln!(
             text,
-            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
+            "  Leg lengths from {least} to {greatest}: the range of each slide and of its control."
         );
     }
     if export.hardware.base_cone_angle.is_some() {
@@ -392,7 +392,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         text.push_str("  Custom numbers: leg offsets, values and standard deviations of the calibration in metres, correlations row by row; the simulation does not use them.\n");
     }
     if export.payload_shape.is_some() {
-        text.push_str("  Geom payload: the room that the payload takes up. It touches nothing, and its mass is that of the platform.\n");
+        text.push_str("  Geom payload: the space of the payload. It touches nothing, and its mass belongs to the platform.\n");
     }
     let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");

@@ -10,7 +10,7 @@ use crate::plot::escape;
 use platform::geom::Pose;
 
 /// Text about this kind of model for the comment in the file.
-const ABOUT: &str = "URDF has trees only: the platform hangs on leg 1, and each other leg ends in a link closure2 to closure6.\n  The loops are closed where the frames of these links are that of the platform, as they are at home; weld them where a simulator can.\n  A ball joint is three hinges about axes through its centre.";
+const ABOUT: &str = "URDF has trees only: the platform hangs on leg 1, and each other leg ends in a link closure2 to closure6.\n  The loops are closed when these links coincide with the platform, as they do at home; weld them if the simulator can.\n  A ball joint is three hinges about axes through its centre.";
 
 /// Value for efforts and speeds that the design does not limit, since URDF requires a number.
 const UNLIMITED: f64 = 1e9;

@@ -79,8 +79,8 @@ fn stroke(kind: &LegKind, t: &Telescope, mm: f64) -> String {
         x if x < 0.0 => format!("out of its cylinder by up to {}", rounded(-x * mm)),
         _ => "just in its cylinder at the greatest length".to_owned(),
     };
-    let met = if t.room() < 0.0 {
-        format!("; the cylinder meets the platform joint by up to {}", rounded(-t.room() * mm))
+    let met = if t.clearance() < 0.0 {
+        format!("; the cylinder meets the platform joint by up to {}", rounded(-t.clearance() * mm))
     } else {
         String::new()
     };

@@ -146,7 +146,7 @@ impl Ring for ResiduePoly {
         for (k, o) in out.iter_mut().enumerate() {
             let first = k.saturating_sub(other.0.len() - 1);
             let last = k.min(self.0.len() - 1);
-            // each product is below 2^122: thirty-two of them fit with room
+            // each product is below 2^122: the sum of thirty-two fits
             for block in (first..=last).step_by(32) {
                 let end = (block + 31).min(last);
                 let sum: u128 =

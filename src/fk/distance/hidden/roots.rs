@@ -88,7 +88,7 @@ const ROUGH: f64 = 1e-4;
 /// Sweeps for them.
 const ROUGH_SWEEPS: usize = 60;
 /// More points on the circle than coefficients: those beyond the degree are rounding.
-const SPARE: usize = 7;
+const EXTRA: usize = 7;
 /// The first point on the circle, so that none is at a symmetry of the design.
 const PHASE: f64 = 0.1;
 
@@ -103,8 +103,7 @@ pub(super) struct FoundZeros {
     pub(super) excess: f64,
 }
 
-/// As many zeros as the degree says, start values from the interpolated polynomial; `None` when it cannot be
-/// interpolated.
+/// All zeros, with start values from the interpolated polynomial; `None` when it cannot be interpolated.
 pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<FoundZeros> {
     let half = closure.degree() / 2;
     let mut scratch = Scratch::default();
@@ -129,7 +128,7 @@ pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<FoundZeros> {
 
 /// Points on a circle.
 fn points(half: usize) -> usize {
-    2 * half + 1 + SPARE
+    2 * half + 1 + EXTRA
 }
 
 /// Coefficients of `w^-half .. w^half`.
@@ -156,7 +155,7 @@ impl Laurent {
             let terms = values.iter().enumerate().map(|(k, v)| v * roots[k * shift % count]);
             terms.sum::<Complex64>() / count as f64
         };
-        let all: Vec<Complex64> = (0..2 * half + 1 + SPARE / 2).map(term).collect();
+        let all: Vec<Complex64> = (0..2 * half + 1 + EXTRA / 2).map(term).collect();
         let (terms, beyond) = all.split_at(2 * half + 1);
         let largest = |list: &[Complex64]| list.iter().map(|z| z.norm()).fold(0.0, f64::max);
         let scale = largest(terms);

@@ -263,11 +263,11 @@ impl Blur {
 /// radius `r`, `2 (beta + eta) r <= 1 - kappa`. Both numbers are given divided by `(1 - kappa)^2`, so that the
 /// conditions with `kappa = 0` imply them.
 pub(super) struct SegmentStart {
-    /// The Newton step to the end of the way.
+    /// The Newton step to the end of the path.
     pub(super) step: [f64; 6],
     /// Bound of its size.
     pub(super) eta: f64,
-    /// The part of `eta` that is there at the beginning of the way too.
+    /// The part of `eta` that is there at the beginning of the path too.
     pub(super) slack: f64,
     /// Bound of `|Y Q|` without the part of `f`, which is at most `eta`. At least 1.
     pub(super) beta: f64,
@@ -302,11 +302,11 @@ impl SegmentStart {
         }
         // in the norm max(|h|, |w|) a row acts by at most sqrt 2 times its Euclidean norm
         let kappa = std::f64::consts::SQRT_2 * Newton { step: defects }.size() * UP;
-        let room = (1.0 - kappa) * (1.0 - kappa) * (2.0 - UP);
-        let slack = Newton { step: steps }.size() * UP / room;
-        let eta = Newton { step }.size() * UP / room + slack;
+        let denominator = (1.0 - kappa) * (1.0 - kappa) * (2.0 - UP);
+        let slack = Newton { step: steps }.size() * UP / denominator;
+        let eta = Newton { step }.size() * UP / denominator + slack;
         let (beta, epsilon) = second_order(here, &y, blur);
-        let beta = beta * UP / room;
+        let beta = beta * UP / denominator;
         let sound = eta.is_finite() && beta.is_finite() && frobenius_ratio.is_finite() && kappa < 0.5;
         sound.then_some(Self { step, eta, slack, beta, epsilon, frobenius_ratio })
     }

@@ -175,8 +175,8 @@ fn the_exact_problem_is_within_the_blur() {
             assert!(within(gap(&a, &here.a[i]), blur.a[i]) && within(gap(&b, &here.b[i]), blur.b[i]));
             assert!(within(gap(&d, &here.d[i]), blur.d[i]));
             let square: Exact = d.iter().map(|x| x * x).sum();
-            let wanted = exact(l.get()[i]) * exact(l.get()[i]) / (&unit * &unit);
-            let f = (square - wanted) / exact(2.0);
+            let given = exact(l.get()[i]) * exact(l.get()[i]) / (&unit * &unit);
+            let f = (square - given) / exact(2.0);
             assert!(within([f - exact(here.f[i]), exact(0.0), exact(0.0)], blur.f[i]), "{seed} {i}");
             assert!(
                 blur.f[i] < (1e-13 + 10.0 * loose) * (1.0 + far) * (1.0 + target[i]),

@@ -141,7 +141,7 @@ fn is_plainly_captured(inner: &Certificate, outer: &Certificate) -> bool {
 /// Pairs of enclosures that may have a pose in common, as indices in ascending order; all others are disjoint.
 ///
 /// Discs over disjoint intervals of the real axis are disjoint. The intervals of one coordinate are passed from left to
-/// right, so that of `n` enclosures not all `n (n - 1) / 2` pairs are looked at.
+/// right, so that of `n` enclosures not all `n (n - 1) / 2` pairs are examined.
 pub(crate) fn overlapping_pairs<'a>(
     enclosures: impl Iterator<Item = &'a PoseEnclosure>,
 ) -> Vec<(usize, usize)> {
@@ -184,7 +184,7 @@ mod tests {
     use num::ball::Disc;
     use num_complex::Complex64;
 
-    /// The pairs are those that a look at all of them finds, whatever the radii.
+    /// The pairs are those that a check of all of them finds, whatever the radii.
     #[test]
     fn no_overlapping_pair_is_passed_over() {
         let mut rng = Rng::new(17);
@@ -202,7 +202,7 @@ mod tests {
                 position: std::array::from_fn(|_| disc(k)),
             };
             let mut list: Vec<PoseEnclosure> = (0..12).map(&mut one).collect();
-            // one twice, and one that shares the coordinate that is looked at first
+            // one twice, and one that shares the coordinate that is examined first
             list.push(list[2]);
             list[1].position[0] = list[0].position[0];
             let brute: Vec<(usize, usize)> = (0..list.len())

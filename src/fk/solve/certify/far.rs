@@ -19,7 +19,7 @@
 //!
 //! **The proof.** Six legs and the patch are regular far out although the eight equations may have double zeros: a
 //! common point at infinity of a butterfly is double, and rounded joints make two zeros of it that doubles do not tell
-//! apart. So the seven equations are followed as a curve and the last one, `q = gamma^2 - rho h`, is looked at on it.
+//! apart. So the seven equations are followed as a curve and the last one, `q = gamma^2 - rho h`, is examined on it.
 //! With a unit direction `d`, `Y` an approximate inverse of the Jacobian `G'` at a centre `c` with the row `d^*` in the
 //! place of `q'`, and `Y e_6 = d`:
 //!

@@ -54,7 +54,7 @@
 //!
 //! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a
 //! certificate of all sixteen poses at once, [`octahedral`]. Outside this folder [`Certifier::certify`] certifies a
-//! root whose pose shall be judged as it is. `root_near` finds the best pose with its proof.
+//! root whose pose is certified as it is. `root_near` finds the best pose with its proof.
 //!
 //! ```
 //! # mod equipod { pub mod methods { pub use equipod_fk::solve; pub use platform::{geom, manipulator}; } }

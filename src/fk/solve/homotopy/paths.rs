@@ -289,15 +289,15 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
             ends.push((mirror(ends[i].0), ends[i].1));
         }
     }
-    // moduli of two coordinates, whatever the phases: a quick look before the accurate distance, in the order of the
+    // moduli of two coordinates, whatever the phases: a quick check before the accurate distance, in the order of the
     // first
-    let look: Vec<[f64; 2]> = ends.iter().map(|(x, _)| [x[0].norm_sqr(), x[1].norm_sqr()]).collect();
+    let moduli: Vec<[f64; 2]> = ends.iter().map(|(x, _)| [x[0].norm_sqr(), x[1].norm_sqr()]).collect();
     let mut order: Vec<usize> = (0..ends.len()).filter(|k| ends[*k].1).collect();
-    order.sort_unstable_by(|i, j| look[*i][0].total_cmp(&look[*j][0]));
+    order.sort_unstable_by(|i, j| moduli[*i][0].total_cmp(&moduli[*j][0]));
     let is_reached = |x: &[Complex64; 8], seen: [f64; 2], but: usize| {
-        let first = order.partition_point(|k| look[*k][0] < seen[0] - ALIKE_MODULI);
-        let near = order[first..].iter().take_while(|k| look[**k][0] <= seen[0] + ALIKE_MODULI);
-        let mut alike = near.filter(|k| **k != but && (look[**k][1] - seen[1]).abs() < ALIKE_MODULI);
+        let first = order.partition_point(|k| moduli[*k][0] < seen[0] - ALIKE_MODULI);
+        let near = order[first..].iter().take_while(|k| moduli[**k][0] <= seen[0] + ALIKE_MODULI);
+        let mut alike = near.filter(|k| **k != but && (moduli[**k][1] - seen[1]).abs() < ALIKE_MODULI);
         alike.any(|k| projective_distance(&ends[*k].0, x) < SAME_END)
     };
     let mut doubtful = Vec::new();
@@ -310,7 +310,7 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
             EndKind::Regular if p.pivot_ratio < NEARLY_SINGULAR => false,
             EndKind::Regular => {
                 // moduli of the conjugate are the same
-                is_reached(x, look[i], i) || (real && !is_reached(&mirrored, look[i], usize::MAX))
+                is_reached(x, moduli[i], i) || (real && !is_reached(&mirrored, moduli[i], usize::MAX))
             }
             // a point where w sheets meet is the end of w paths: with fewer the circle was round several ends
             EndKind::Singular => {

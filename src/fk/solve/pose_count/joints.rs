@@ -44,7 +44,7 @@ impl CountedJoints {
     /// The generator of the primes and sections for these joints and lengths.
     ///
     /// The primes follow from a hash of the design and its lengths. So no two problems share their primes at one seed,
-    /// and no design can be made from the primes that will judge it.
+    /// and no design can be made from the primes by which it is counted.
     pub(super) fn rng(&self, lengths: Lengths<'_>, seed: u64) -> Rng {
         let mut hash = Sha256::new();
         hash.update(seed.to_le_bytes());

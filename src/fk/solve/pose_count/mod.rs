@@ -101,7 +101,7 @@ num::answer_words! {
     serde(rename_all = "snake_case")
 )]
 pub enum CountedLengths {
-    /// Those given, as they stand.
+    /// The given lengths as written.
     Given,
     /// Generic ones: no lengths have more isolated poses, multiplicity included.
     Generic,

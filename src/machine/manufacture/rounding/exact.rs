@@ -3,11 +3,11 @@
 use nalgebra::{Point3, Vector3};
 
 use super::grid::{
-    BodyGrid, GridHole, GridTriangle, POOL, TrianglePool, Wanted, length, pool, three_fold_pool,
+    BodyGrid, GridHole, GridTriangle, POOL, TargetPlaces, TrianglePool, length, pool, three_fold_pool,
 };
 use super::{
-    Evaluation, Grid, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
-    objective_above, on_cells, place, plate_of, sample_plan,
+    Evaluation, Grid, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of,
+    evaluate, objective_above, on_cells, place, plate_of, sample_plan,
 };
 use crate::manufacture::correction::octahedral_of;
 use crate::manufacture::joint::{Joint, joints};
@@ -89,7 +89,7 @@ const REACH: f64 = 12.0;
 pub struct ExactRounding {
     /// The grids of base and platform, as given or chosen.
     pub grids: [Option<Grid>; 2],
-    /// The rounded design, joints in the order of the wanted one.
+    /// The rounded design, joints in the order of the given one.
     pub manipulator: Manipulator,
     /// The octahedral platform on its triangles.
     pub octahedral: Manipulator,
@@ -164,7 +164,7 @@ impl ExactRoundingSearch<'_> {
         self.hint = hint;
         let objective = objective?;
         let reached = self.least == Keeping::Nothing
-            || judge(&m, self.problem, Some(self.roles.determinant(&m))).keeping() >= self.least;
+            || evaluate(&m, self.problem, Some(self.roles.determinant(&m))).keeping() >= self.least;
         reached.then_some(TrianglePair { triangles, objective })
     }
 
@@ -243,10 +243,15 @@ pub(super) fn proved(
     [&legs, &octahedral, &both].into_iter().all(|list| rank(list) == Some(6))
 }
 
-/// The wanted places of the roles on a grid.
-pub(super) fn wanted(m: &Manipulator, roles: &TrianglesOfBodies, grid: &BodyGrid, body: usize) -> Wanted {
+/// The given places of the roles on a grid.
+pub(super) fn target(
+    m: &Manipulator,
+    roles: &TrianglesOfBodies,
+    grid: &BodyGrid,
+    body: usize,
+) -> TargetPlaces {
     let at = |j: Joint| grid.coordinates(&place(m, j));
-    Wanted {
+    TargetPlaces {
         corners: roles.corners[body].map(at),
         inner: roles.inner.map(|i| i[body].map(at)),
         skew: grid.skew(),
@@ -254,7 +259,7 @@ pub(super) fn wanted(m: &Manipulator, roles: &TrianglesOfBodies, grid: &BodyGrid
 }
 
 /// Greatest reach of a pool, pitches.
-pub(super) fn limit(w: &Wanted) -> f64 {
+pub(super) fn limit(w: &TargetPlaces) -> f64 {
     let side = |k: usize| {
         let (p, q) = (w.corners[k], w.corners[(k + 1) % 3]);
         length([p[0] - q[0], p[1] - q[1]], w.skew)
@@ -314,7 +319,7 @@ fn search(
     let count = problem.candidates.max(1);
     let lattice = |body: Body| laying.bodies[body.index()].lattice().ok_or(NoRounding::NoLines(body));
     let grids = [*lattice(Body::Base)?, *lattice(Body::Platform)?];
-    let all = [0, 1].map(|body| wanted(m, roles, &grids[body], body));
+    let all = [0, 1].map(|body| target(m, roles, &grids[body], body));
     // a rotationally symmetric design keeps its symmetry if both grids have symmetric triangles
     let turning = all.each_ref().map(|w| three_fold_pool(w, limit(w)).filter(|p| !p.triangles.is_empty()));
     let held = [0, 1].map(|body| held(problem, roles, &laying.bodies[body], body));
@@ -341,9 +346,9 @@ fn search(
         hint: 0,
     };
     let mut found = None;
-    let wanted =
+    let target =
         if problem.requirements.safety_margins.is_empty() { &Keeping::ALL[1..] } else { &Keeping::ALL };
-    for least in wanted {
+    for least in target {
         search.least = *least;
         found = search.run(&pools, count).map(|(best, replacements)| (best, replacements, *least));
         if found.is_some() {
@@ -396,7 +401,7 @@ fn finish(
         grids: found.laying.grids,
         fractions: roles.inner.is_some().then(|| std::array::from_fn(fraction)),
         joints: rounded_joints(m, &rounded, roles, plates, &cells),
-        evaluation: judge(&rounded, problem, Some(roles.determinant(&rounded))),
+        evaluation: evaluate(&rounded, problem, Some(roles.determinant(&rounded))),
         proved: proved(m, &list, &cells, &[best.triangles[0].corners, best.triangles[1].corners]),
         three_fold: found.three_fold,
         pool: [0, 1].map(|k| pools[k].triangles.len()),

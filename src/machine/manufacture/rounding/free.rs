@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::grid::{BodyGrid, GridHole, Wanted, pool};
+use super::grid::{BodyGrid, GridHole, TargetPlaces, pool};
 use crate::requirements::Grid;
 
 /// Points beyond a circle by at most this share of its radius count as inside.
@@ -119,8 +119,8 @@ fn place(x: [f64; 2]) -> Place {
 /// Rotations within a quarter turn, `share` pitches apart at the place farthest from the centre, at most `most`.
 fn turns(places: &[Place], centre: &Place, share: f64, most: u32) -> Vec<f64> {
     let reach = places.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
-    let wanted = (FRAC_PI_2 * reach / share).ceil();
-    let count = (1..most).find(|n| f64::from(*n) >= wanted).unwrap_or(most);
+    let target = (FRAC_PI_2 * reach / share).ceil();
+    let count = (1..most).find(|n| f64::from(*n) >= target).unwrap_or(most);
     (0..count).map(|k| FRAC_PI_2 * f64::from(k) / f64::from(count)).collect()
 }
 
@@ -169,8 +169,8 @@ pub(super) fn near_holes(places: &[[f64; 2]]) -> Vec<Laid> {
 
 /// Grids that minimise the greatest distance of the joints from the corners of a triangle of holes and from holes on
 /// its sides. `limit` is the greatest reach (pitches).
-pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
-    let all = wanted.corners.iter().chain(wanted.inner.iter().flatten());
+pub(super) fn near_triangles(target: &TargetPlaces, limit: f64) -> Vec<Laid> {
+    let all = target.corners.iter().chain(target.inner.iter().flatten());
     let places: Vec<Place> = all.map(|p| place(*p)).collect();
     let first = places[0];
     let angles = turns(&places, &first, 1.0, TURNS_OF_POOLS);
@@ -179,11 +179,11 @@ pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
     for angle in angles {
         // a corner on a hole; the fit shifts it
         let turned = |p: [f64; 2]| -> [f64; 2] { (Rotation2::new(-angle) * (place(p) - first)).into() };
-        let (corners, inner) = (wanted.corners.map(turned), wanted.inner.map(|i| i.map(turned)));
-        let turned = Wanted { corners, inner, skew: 0.0 };
+        let (corners, inner) = (target.corners.map(turned), target.inner.map(|i| i.map(turned)));
+        let turned = TargetPlaces { corners, inner, skew: 0.0 };
         for t in pool(&turned, TRIANGLES.0, limit).triangles.iter().take(TRIANGLES.1) {
             let mut cells = t.corners.to_vec();
-            if wanted.inner.is_some() {
+            if target.inner.is_some() {
                 cells.extend((0..3).map(|k| t.joint(k)));
             }
             found.push(fit(&places, &cells, angle, step));
@@ -279,7 +279,7 @@ mod tests {
     fn a_triangle_of_holes_with_holes_on_its_sides_is_found_again() {
         let (turn, shift) = (Rotation2::new(0.83), Place::new(-0.3, 0.11));
         let to = |h: [f64; 2]| -> [f64; 2] { (turn * place(h) + shift).into() };
-        let on = |joint: [f64; 2]| Wanted {
+        let on = |joint: [f64; 2]| TargetPlaces {
             corners: [[0.0, 0.0], [24.0, 8.0], [6.0, 26.0]].map(to),
             inner: Some([[6.0, 2.0], joint, [3.0, 13.0]].map(to)),
             skew: 0.0,

@@ -1,4 +1,4 @@
-//! A grid of holes in the plane of a body, and triangles on it whose sides carry grid points near wanted joints.
+//! A grid of holes in the plane of a body, and triangles on it whose sides carry grid points near given joints.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -130,9 +130,9 @@ const FIRST_REACH: f64 = 0.75;
 /// Greatest number of triangles kept for a body: the nearest ones.
 pub(super) const POOL: usize = 3000;
 
-/// Wanted places of corners and of joints on the sides, pitches; side `k` runs from corner `k` to corner `k + 1`.
+/// Given places of corners and of joints on the sides, pitches; side `k` runs from corner `k` to corner `k + 1`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wanted {
+pub(super) struct TargetPlaces {
     pub(super) corners: [[f64; 2]; 3],
     /// Absent for a body without joints on its sides.
     pub(super) inner: Option<[[f64; 2]; 3]>,
@@ -143,7 +143,7 @@ pub(super) struct Wanted {
 /// A triangle on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct GridTriangle {
-    /// Largest distance of a joint from its wanted place, pitches.
+    /// Largest distance of a joint from its given place, pitches.
     deviation: f64,
     pub(super) corners: [GridHole; 3],
     /// Side `k` has `parts[k]` equal parts between grid points; its joint ends part `inner[k]`, which is below 0 or
@@ -173,8 +173,8 @@ fn gcd(a: i64, b: i64) -> i64 {
     if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
 
-fn distance(cell: GridHole, wanted: [f64; 2], skew: f64) -> f64 {
-    length([cell[0] as f64 - wanted[0], cell[1] as f64 - wanted[1]], skew)
+fn distance(cell: GridHole, target: [f64; 2], skew: f64) -> f64 {
+    length([cell[0] as f64 - target[0], cell[1] as f64 - target[1]], skew)
 }
 
 fn cells_within(centre: [f64; 2], reach: f64, skew: f64) -> Vec<GridHole> {
@@ -186,7 +186,7 @@ fn cells_within(centre: [f64; 2], reach: f64, skew: f64) -> Vec<GridHole> {
 }
 
 /// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from its
-/// wanted place.
+/// given place.
 #[derive(Debug, Clone, Copy)]
 struct GridSide {
     to: usize,
@@ -195,11 +195,11 @@ struct GridSide {
     off: f64,
 }
 
-/// The sides from `p` to `q` (cell number `to`) with a joint within `reach` of `wanted` that is not a corner.
+/// The sides from `p` to `q` (cell number `to`) with a joint within `reach` of `target` that is not a corner.
 fn sides(
     p: GridHole,
     (to, q): (usize, GridHole),
-    wanted: Option<[f64; 2]>,
+    target: Option<[f64; 2]>,
     (reach, skew): (f64, f64),
     out: &mut Vec<GridSide>,
 ) {
@@ -208,13 +208,13 @@ fn sides(
     if parts == 0 {
         return;
     }
-    let Some(wanted) = wanted else {
+    let Some(target) = target else {
         out.push(GridSide { to, parts, inner: 0, off: 0.0 });
         return;
     };
     let step = d.map(|x| (x / parts) as f64);
     let length = length(step, skew);
-    let from = [wanted[0] - p[0] as f64, wanted[1] - p[1] as f64];
+    let from = [target[0] - p[0] as f64, target[1] - p[1] as f64];
     let across = (from[0] * step[1] - from[1] * step[0]).abs() * height(skew) / length;
     if across > reach {
         return;
@@ -225,22 +225,22 @@ fn sides(
     for inner in (middle - half).ceil() as i64..=(middle + half).floor() as i64 {
         if inner != 0 && inner != parts {
             let joint = [0, 1].map(|k| p[k] + d[k] / parts * inner);
-            out.push(GridSide { to, parts, inner, off: distance(joint, wanted, skew) });
+            out.push(GridSide { to, parts, inner, off: distance(joint, target, skew) });
         }
     }
 }
 
 /// All triangles whose corners and joints are within `reach` of their places.
-fn within(wanted: &Wanted, reach: f64) -> Vec<GridTriangle> {
-    let skew = wanted.skew;
-    let cells = wanted.corners.map(|c| cells_within(c, reach, skew));
+fn within(target: &TargetPlaces, reach: f64) -> Vec<GridTriangle> {
+    let skew = target.skew;
+    let cells = target.corners.map(|c| cells_within(c, reach, skew));
     // sides of each kind by the number of their first cell
     let table = |k: usize| -> Vec<Vec<GridSide>> {
         let next = &cells[(k + 1) % 3];
         let all = |p: &GridHole| {
             let mut out = Vec::new();
             for (to, q) in next.iter().enumerate() {
-                sides(*p, (to, *q), wanted.inner.map(|w| w[k]), (reach, skew), &mut out);
+                sides(*p, (to, *q), target.inner.map(|w| w[k]), (reach, skew), &mut out);
             }
             out
         };
@@ -261,7 +261,7 @@ fn within(wanted: &Wanted, reach: f64) -> Vec<GridTriangle> {
                 let from = third[y.to].partition_point(|z| z.to < i);
                 for z in third[y.to][from..].iter().take_while(|z| z.to == i) {
                     let corners = [*a, b, c];
-                    let off = (0..3).map(|k| distance(corners[k], wanted.corners[k], skew));
+                    let off = (0..3).map(|k| distance(corners[k], target.corners[k], skew));
                     out.push(GridTriangle {
                         deviation: off.chain([x.off, y.off, z.off]).fold(0.0, f64::max),
                         corners,
@@ -276,12 +276,12 @@ fn within(wanted: &Wanted, reach: f64) -> Vec<GridTriangle> {
 }
 
 /// The nearest triangles: the reach grows until there are `enough` or it passes `limit` (pitches).
-pub(super) fn pool(wanted: &Wanted, enough: usize, limit: f64) -> TrianglePool {
+pub(super) fn pool(target: &TargetPlaces, enough: usize, limit: f64) -> TrianglePool {
     let mut reach = FIRST_REACH.min(limit);
-    let mut triangles = within(wanted, reach);
+    let mut triangles = within(target, reach);
     while triangles.len() < enough && reach * GROWTH <= limit {
         reach *= GROWTH;
-        triangles = within(wanted, reach);
+        triangles = within(target, reach);
     }
     nearest_first(triangles, reach)
 }
@@ -306,26 +306,26 @@ fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j
     [-i - j, i]
 }
 
-/// The triangles within `limit` (pitches) with three-fold symmetry about the middle of the wanted one, joints included,
-/// nearest first. `None` if the wanted triangle lacks this symmetry, or the grid has none about its middle.
-pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<TrianglePool> {
-    if HolePattern::Triangular.skew() != Some(wanted.skew) {
+/// The triangles within `limit` (pitches) with three-fold symmetry about the middle of the given one, joints included,
+/// nearest first. `None` if the given triangle lacks this symmetry, or the grid has none about its middle.
+pub(super) fn three_fold_pool(target: &TargetPlaces, limit: f64) -> Option<TrianglePool> {
+    if HolePattern::Triangular.skew() != Some(target.skew) {
         return None;
     }
-    let middle = [0, 1].map(|i| wanted.corners.iter().map(|c| c[i]).sum::<f64>() / 3.0);
+    let middle = [0, 1].map(|i| target.corners.iter().map(|c| c[i]).sum::<f64>() / 3.0);
     let about = |p: [f64; 2]| {
         let [x, y] = turned([p[0] - middle[0], p[1] - middle[1]]);
         [middle[0] + x, middle[1] + y]
     };
-    let near = |p: [f64; 2], q: [f64; 2]| length([p[0] - q[0], p[1] - q[1]], wanted.skew) <= TURNED;
+    let near = |p: [f64; 2], q: [f64; 2]| length([p[0] - q[0], p[1] - q[1]], target.skew) <= TURNED;
     // one turn, or two where the corners follow one another the other way round
-    let turns = if near(about(wanted.corners[0]), wanted.corners[1]) { 1 } else { 2 };
+    let turns = if near(about(target.corners[0]), target.corners[1]) { 1 } else { 2 };
     let turn = |p: [f64; 2]| (0..turns).fold(p, |p, _| about(p));
     let symmetric = |list: &[[f64; 2]; 3]| (0..3).all(|k| near(turn(list[k]), list[(k + 1) % 3]));
     // the image of the hole at the origin
     let shift = turn([0.0; 2]);
     let whole = shift.map(f64::round);
-    if !(symmetric(&wanted.corners) && wanted.inner.iter().all(symmetric) && near(shift, whole)) {
+    if !(symmetric(&target.corners) && target.inner.iter().all(symmetric) && near(shift, whole)) {
         return None;
     }
     let turn = |cell: GridHole| {
@@ -333,11 +333,11 @@ pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<TrianglePoo
         [i + whole[0] as i64, j + whole[1] as i64]
     };
     let mut triangles = Vec::new();
-    for first in cells_within(wanted.corners[0], limit, wanted.skew) {
+    for first in cells_within(target.corners[0], limit, target.skew) {
         let second = turn(first);
         let mut out = Vec::new();
-        sides(first, (0, second), wanted.inner.map(|w| w[0]), (limit, wanted.skew), &mut out);
-        let off = distance(first, wanted.corners[0], wanted.skew);
+        sides(first, (0, second), target.inner.map(|w| w[0]), (limit, target.skew), &mut out);
+        let off = distance(first, target.corners[0], target.skew);
         triangles.extend(out.into_iter().map(|side| GridTriangle {
             deviation: off.max(side.off),
             corners: [first, second, turn(second)],
@@ -387,25 +387,25 @@ mod tests {
         assert!(BodyGrid::new(&bent, &grid, 5.0).is_none());
     }
 
-    fn wanted() -> Wanted {
+    fn target() -> TargetPlaces {
         let corners = [[0.3, 0.2], [24.1, 1.4], [11.2, 20.7]];
         let inner = [0, 1, 2].map(|k| {
             let (a, b): ([f64; 2], [f64; 2]) = (corners[k], corners[(k + 1) % 3]);
             [0, 1].map(|i| a[i] + 0.27 * (b[i] - a[i]))
         });
-        Wanted { corners, inner: Some(inner), skew: 0.0 }
+        TargetPlaces { corners, inner: Some(inner), skew: 0.0 }
     }
 
     #[test]
     fn joints_are_cells_on_the_lines_of_the_sides() {
-        let found = pool(&wanted(), 40, 8.0);
+        let found = pool(&target(), 40, 8.0);
         assert!(found.triangles.len() >= 40, "{}", found.triangles.len());
         for t in &found.triangles {
             for k in 0..3 {
                 let (a, b, x) = (t.corners[k], t.corners[(k + 1) % 3], t.joint(k));
                 assert_eq!((b[0] - a[0]) * (x[1] - a[1]), (b[1] - a[1]) * (x[0] - a[0]));
                 assert!(x != a && x != b);
-                assert!(distance(x, wanted().inner.unwrap()[k], 0.0) <= t.deviation + 1e-12);
+                assert!(distance(x, target().inner.unwrap()[k], 0.0) <= t.deviation + 1e-12);
             }
         }
         assert!(found.triangles.windows(2).all(|w| w[0].deviation <= w[1].deviation));
@@ -414,7 +414,7 @@ mod tests {
     #[test]
     fn a_search_of_all_cells_finds_no_nearer_triangle() {
         for skew in [0.0, 0.5] {
-            let w = Wanted { skew, ..wanted() };
+            let w = TargetPlaces { skew, ..target() };
             let found = pool(&w, 5, 8.0);
             let reach = found.complete_to;
             let mut count = 0;
@@ -423,7 +423,7 @@ mod tests {
                 for b in cells_within(w.corners[1], reach, w.skew) {
                     for c in cells_within(w.corners[2], reach, w.skew) {
                         let corners = [a, b, c];
-                        // grid points near the wanted joints that are on the line of their side
+                        // grid points near the given joints that are on the line of their side
                         let on = |k: usize| {
                             let (p, q) = (corners[k], corners[(k + 1) % 3]);
                             let line = move |x: &GridHole| {
@@ -443,20 +443,20 @@ mod tests {
 
     #[test]
     fn a_body_without_joints_on_its_sides_is_rounded_corner_by_corner() {
-        let found = pool(&Wanted { inner: None, ..wanted() }, 1, 8.0);
+        let found = pool(&TargetPlaces { inner: None, ..target() }, 1, 8.0);
         assert_eq!(found.triangles[0].corners, [[0, 0], [24, 1], [11, 21]]);
     }
 
     /// A triangle with joints on its sides that is symmetric under rotations by 120 degrees about `middle`, in pitches
     /// of a triangular grid.
-    fn three_fold(middle: [f64; 2]) -> Wanted {
+    fn three_fold(middle: [f64; 2]) -> TargetPlaces {
         let turns = |start: [f64; 2]| {
             let about = |p: [f64; 2]| [middle[0] + p[0], middle[1] + p[1]];
             [about(start), about(turned(start)), about(turned(turned(start)))]
         };
         let corners = turns([14.2, 3.1]);
         let on = |k: usize| [0, 1].map(|i| corners[k][i] + 0.21 * (corners[(k + 1) % 3][i] - corners[k][i]));
-        Wanted { corners, inner: Some([0, 1, 2].map(on)), skew: 0.5 }
+        TargetPlaces { corners, inner: Some([0, 1, 2].map(on)), skew: 0.5 }
     }
 
     #[test]
@@ -485,11 +485,11 @@ mod tests {
     }
 
     /// The other way round.
-    fn mirrored(w: Wanted) -> Wanted {
+    fn mirrored(w: TargetPlaces) -> TargetPlaces {
         let [a, b, c] = w.corners;
         let swapped = [a, c, b];
         let on = |k: usize| [0, 1].map(|i| swapped[k][i] + 0.21 * (swapped[(k + 1) % 3][i] - swapped[k][i]));
-        Wanted { corners: swapped, inner: Some([0, 1, 2].map(on)), ..w }
+        TargetPlaces { corners: swapped, inner: Some([0, 1, 2].map(on)), ..w }
     }
 
     #[test]
@@ -499,6 +499,6 @@ mod tests {
         let mut uneven = three_fold([0.0, 0.0]);
         uneven.inner.as_mut().unwrap()[1][0] += 0.01;
         assert!(three_fold_pool(&uneven, 4.0).is_none());
-        assert!(three_fold_pool(&Wanted { skew: 0.0, ..three_fold([0.0, 0.0]) }, 4.0).is_none());
+        assert!(three_fold_pool(&TargetPlaces { skew: 0.0, ..three_fold([0.0, 0.0]) }, 4.0).is_none());
     }
 }

@@ -1,5 +1,5 @@
-//! Moves the joints of a design to a grid of holes and judges the rounded design: conditioning, requirements, distances
-//! of joints.
+//! Moves the joints of a design to a grid of holes and evaluates the rounded design: conditioning, requirements, joint
+//! distances.
 
 mod exact;
 mod free;
@@ -31,7 +31,7 @@ const SAMPLES: usize = 3;
 /// A design to put on a grid, and the criteria of its evaluation.
 #[derive(Debug, Clone, Copy)]
 pub struct RoundingProblem<'a> {
-    /// The design as wanted.
+    /// The given design.
     pub manipulator: &'a Manipulator,
     /// Grids of base and platform; `None` for a plate whose joints keep their places.
     pub grids: [Option<Grid>; 2],
@@ -44,7 +44,7 @@ pub struct RoundingProblem<'a> {
     pub requirements: &'a Requirements,
     /// The required poses.
     pub space: &'a PoseSpace,
-    /// Poses at which it is judged, at least one.
+    /// Poses at which it is evaluated, at least one.
     pub poses: &'a [Pose],
     /// Length that turns angles into lengths in the inverse condition number, design units.
     pub characteristic_length: f64,
@@ -54,7 +54,7 @@ pub struct RoundingProblem<'a> {
     pub tool: Point3<f64>,
     /// Triangles of each body that are combined in the first search.
     pub candidates: usize,
-    /// The exact rounding is chosen when its objective is at least this share of the wanted design's.
+    /// The exact rounding is chosen when its objective is at least this share of the given design's.
     pub keep: f64,
     /// Random poses for the error of the nearest rounding.
     pub trials: usize,
@@ -78,16 +78,14 @@ pub enum NoRounding {
     NotPlanar(Body),
     /// A pitch, radius or number of holes is not positive, or another value of a grid is not finite.
     #[error(
-        "the grid of the {0} has no positive finite pitch, radius or number of holes, or an origin or angle that is not finite"
+        "the grid of the {0} is invalid: pitch, radii and numbers of holes have to be positive, all numbers finite"
     )]
     BadGrid(Body),
     /// An exact rounding needs lines through many holes.
-    #[error(
-        "the {0} has no square or triangular grid: lines through holes on circles pass no further holes, and joints that stay where they are lie on no holes"
-    )]
+    #[error("the {0} has no square or triangular grid, and only such grids have lines with many holes")]
     NoLines(Body),
     /// Origins and angles can be chosen only for square grids.
-    #[error("the origin and the angle of the grid of the {0} cannot be chosen: its holes lie on no squares")]
+    #[error("the origin and the angle of the grid of the {0} cannot be chosen: it is not a square grid")]
     FreePattern(Body),
     /// The design is not octahedral and lacks one joint on each side of two triangles.
     #[error(
@@ -96,7 +94,7 @@ pub enum NoRounding {
     NoTriangles,
     /// No triangle on the grid is near enough.
     #[error(
-        "the grid is too coarse or too fine for the {0}: no triangle near the wanted one has grid points where joints are wanted"
+        "the grid is too coarse or too fine for the {0}: no triangle near the given one has holes at the joints"
     )]
     NoTriangleNear(Body),
     /// No combination of triangles makes a regular platform.
@@ -105,7 +103,7 @@ pub enum NoRounding {
     /// Two joints fall on one hole.
     #[error("two joints of the {0} fall on one hole")]
     JointsCoincide(Body),
-    /// A pose at which the design is judged is singular.
+    /// A pose at which the design is evaluated is singular.
     #[error("the design is singular at one of its poses")]
     SingularPose,
 }
@@ -156,11 +154,11 @@ pub struct RoundedJoint {
     /// The joint.
     pub joint: Joint,
     /// Hole: its count from the origin of the grid along both axes, or circle and number on it. `None` for a joint that
-    /// stays at its wanted place.
+    /// stays at its given place.
     pub cell: Option<[i64; 2]>,
-    /// Shift of the joint from its wanted place, frame of the body, design units.
+    /// Shift of the joint from its given place, frame of the body, design units.
     pub moved: Vector3<f64>,
-    /// Distance from the line of its side, design units: of the new triangle for the exact rounding, of the wanted one
+    /// Distance from the line of its side, design units: of the new triangle for the exact rounding, of the given one
     /// for the nearest. `None` for corners and for joints without triangle.
     pub off_line: Option<f64>,
 }
@@ -168,11 +166,11 @@ pub struct RoundedJoint {
 /// Both roundings of a design.
 #[derive(Debug, Clone)]
 pub struct Rounding {
-    /// The design as wanted, judged in the same way.
-    pub wanted: Evaluation,
+    /// The given design, evaluated in the same way.
+    pub given: Evaluation,
     /// All joints on the grid and exactly on the lines of two triangles.
     pub exact: Result<ExactRounding, NoRounding>,
-    /// All joints on grid points next to their wanted places.
+    /// All joints on grid points next to their given places.
     pub nearest: Result<NearestRounding, NoRounding>,
 }
 
@@ -183,7 +181,7 @@ impl Rounding {
     pub fn choice(&self, keep: f64) -> Option<&Manipulator> {
         let exact = self.exact.as_ref().ok().filter(|e| e.evaluation.met);
         let nearest = self.nearest.as_ref().ok().filter(|n| n.evaluation.met);
-        let kept = exact.filter(|e| e.evaluation.objective >= keep * self.wanted.objective);
+        let kept = exact.filter(|e| e.evaluation.objective >= keep * self.given.objective);
         kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
     }
 
@@ -203,20 +201,20 @@ impl Rounding {
 
 /// Puts the joints of a design with planar bodies on grids, in two ways.
 ///
-/// *Exact*: triangles with corners on grid points whose sides carry grid points near the wanted joints. The result is
+/// *Exact*: triangles with corners on grid points whose sides carry grid points near the given joints. The result is
 /// exactly equivalent to the octahedral platform on these triangles, decided in exact arithmetic. *Nearest*: every
-/// joint on one of the four grid points around it. The choice minimises the pose error of the formula of the wanted
+/// joint on one of the four grid points around it. The choice minimises the pose error of the formula of the target
 /// design.
 ///
 /// `free` grids also choose their origins and angles (`docs/theory/manufacture.md`). The candidates are the given grids
-/// and those whose holes come nearest to the wanted places; each rounding takes its own best.
+/// and those whose holes come nearest to the given places; each rounding takes its own best.
 ///
 /// # Errors
 /// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; a reason against one of the two ways is in its part of the
 /// answer.
 pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
     let m = problem.manipulator;
-    let mut bodies = [PlateHoles::AsWanted; 2];
+    let mut bodies = [PlateHoles::AsGiven; 2];
     for (body, grid) in Body::BOTH.into_iter().zip(&problem.grids) {
         if grid.is_some_and(|grid| !grid.is_usable()) {
             return Err(NoRounding::BadGrid(body));
@@ -237,7 +235,7 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
     let free = |roles| if problem.free { layings(problem, &given, roles) } else { vec![given] };
     let without_lines = Body::BOTH.into_iter().find(|body| bodies[body.index()].lattice().is_none());
     Ok(Rounding {
-        wanted: judge(m, problem, det),
+        given: evaluate(m, problem, det),
         exact: match (&roles, without_lines) {
             (Some(_), Some(body)) => Err(NoRounding::NoLines(body)),
             (Some(roles), None) => exact::round(problem, &free(Some(roles)), roles),
@@ -257,14 +255,14 @@ struct Laying {
 /// A grid with its holes in the plane of a body.
 type LaidPlate = (Option<Grid>, PlateHoles);
 
-/// The given grids, and grids of the same pitches whose holes come nearest to the wanted places. With roles these are
+/// The given grids, and grids of the same pitches whose holes come nearest to the given places. With roles these are
 /// the best triangles of each body. Without roles they are the best grids for the joints, in every combination of the
 /// two bodies.
 fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&TrianglesOfBodies>) -> Vec<Laying> {
     let m = problem.manipulator;
     let found = Body::BOTH.map(|body| {
         let k = body.index();
-        let Some(grid) = problem.grids[k] else { return vec![(None, PlateHoles::AsWanted)] };
+        let Some(grid) = problem.grids[k] else { return vec![(None, PlateHoles::AsGiven)] };
         let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..grid };
         let points = places(m, body);
         let lay = |grid: Grid| {
@@ -275,8 +273,8 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Triangl
         let Some((_, PlateHoles::Lattice(plain))) = lay(plain) else { return Vec::new() };
         let laid = match roles {
             Some(roles) => {
-                let wanted = exact::wanted(m, roles, &plain, k);
-                let mut best = free::near_triangles(&wanted, exact::limit(&wanted));
+                let target = exact::target(m, roles, &plain, k);
+                let mut best = free::near_triangles(&target, exact::limit(&target));
                 best.truncate(1);
                 best
             }
@@ -452,7 +450,7 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<LeastMargin>,
 }
 
 /// The evaluation of a design.
-fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Evaluation {
+fn evaluate(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Evaluation {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
     let (requirements, [requirements_met, safety_margin_kept]) = margins(m, problem);

@@ -1,4 +1,4 @@
-//! Every joint on a grid point near its wanted place, chosen for the least error of the pose.
+//! Every joint on a grid point near its given place, chosen for the least error of the pose.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -6,7 +6,7 @@ use super::exact::TrianglesOfBodies;
 use super::grid::GridHole;
 use super::plate::ThreeFold;
 use super::{
-    Evaluation, Grid, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
+    Evaluation, Grid, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, evaluate,
     on_cells, place, places, plate_of, sample_plan,
 };
 use crate::manufacture::joint::{Joint, joints};
@@ -22,13 +22,13 @@ use verify::{Verification, VerifyError, verify};
 pub struct NearestRounding {
     /// The grids of base and platform, as given or chosen.
     pub grids: [Option<Grid>; 2],
-    /// The rounded design, joints in the order of the wanted one.
+    /// The rounded design, joints in the order of the given one.
     pub manipulator: Manipulator,
     /// Every joint, in the order of [`joints`].
     pub joints: Vec<RoundedJoint>,
     /// The evaluation of the rounded design.
     pub evaluation: Evaluation,
-    /// Greatest pose error over the poses of the problem with the formula of the wanted design, to first order. The
+    /// Greatest pose error over the poses of the problem with the formula of the given design, to first order. The
     /// parts are the tool point (design units) and the orientation (degrees).
     pub first_order: (f64, f64),
     /// The same with every joint simply on the nearest grid point.
@@ -40,7 +40,7 @@ pub struct NearestRounding {
     /// Whether rotations by 120 degrees about the middle of its joints map the joints of each body to themselves.
     /// Symmetric holes keep this symmetry.
     pub three_fold: bool,
-    /// Leg map and forward kinematics against the wanted design.
+    /// Leg map and forward kinematics against the given design.
     pub verification: Result<Verification, VerifyError>,
 }
 
@@ -170,8 +170,8 @@ fn search(
         if problem.holds(list[k]) {
             return Vector3::zeros();
         }
-        let wanted = place(m, list[k]);
-        plate_of(plates, list[k].body).point(cell, &wanted) - wanted
+        let target = place(m, list[k]);
+        plate_of(plates, list[k].body).point(cell, &target) - target
     };
     let mut cells = vec![[0, 0]; list.len()];
     for orbit in &orbits {
@@ -225,7 +225,7 @@ fn search(
         laying: *laying,
         not_nearest: orbits.iter().filter(off_nearest).map(|orbit| orbit.members.len()).sum(),
         three_fold: base_turns && platform_turns,
-        evaluation: judge(&rounded, problem, None),
+        evaluation: evaluate(&rounded, problem, None),
         errors: state.errors(),
         nearest_errors,
         cells: state.cells,

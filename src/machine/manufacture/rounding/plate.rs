@@ -80,14 +80,14 @@ pub(super) enum PlateHoles {
     Lattice(BodyGrid),
     /// On holes of circles.
     Circles(BodyCircles),
-    /// The wanted places.
-    AsWanted,
+    /// The given places.
+    AsGiven,
 }
 
 impl PlateHoles {
     /// `None` when the joints do not lie in a plane.
     pub(super) fn new(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> Option<Self> {
-        let Some(grid) = grid else { return Some(Self::AsWanted) };
+        let Some(grid) = grid else { return Some(Self::AsGiven) };
         if grid.pattern.skew().is_some() {
             return BodyGrid::new(points, grid, size).map(Self::Lattice);
         }
@@ -110,36 +110,36 @@ impl PlateHoles {
                 let pitch = circles.grid.pitch;
                 points.iter().all(|p| !(pitch > 0.0) || circles.polar(p).0 < LAST_CIRCLE * pitch)
             }
-            Self::AsWanted => true,
+            Self::AsGiven => true,
         }
     }
 
-    /// The hole; `wanted` itself for a joint that stays.
-    pub(super) fn point(&self, cell: GridHole, wanted: &Point3<f64>) -> Point3<f64> {
+    /// The hole; `target` itself for a joint that stays.
+    pub(super) fn point(&self, cell: GridHole, target: &Point3<f64>) -> Point3<f64> {
         match self {
             Self::Lattice(grid) => grid.point(cell),
-            Self::Circles(circles) => circles.point(cell).unwrap_or(*wanted),
-            Self::AsWanted => *wanted,
+            Self::Circles(circles) => circles.point(cell).unwrap_or(*target),
+            Self::AsGiven => *target,
         }
     }
 
     /// The holes around a place, nearest first, at least one. A joint that stays has one hole: the number `joint`,
     /// unique in its body.
-    pub(super) fn around(&self, wanted: &Point3<f64>, joint: usize) -> Vec<GridHole> {
+    pub(super) fn around(&self, target: &Point3<f64>, joint: usize) -> Vec<GridHole> {
         let mut out = match self {
             Self::Lattice(grid) => {
-                let low = grid.coordinates(wanted).map(|x| x.floor() as i64);
+                let low = grid.coordinates(target).map(|x| x.floor() as i64);
                 [[0, 0], [1, 0], [0, 1], [1, 1]].map(|d: [i64; 2]| [low[0] + d[0], low[1] + d[1]]).to_vec()
             }
-            Self::Circles(circles) => circles.around(wanted),
-            Self::AsWanted => vec![[i64::try_from(joint).unwrap_or(i64::MAX), 0]],
+            Self::Circles(circles) => circles.around(target),
+            Self::AsGiven => vec![[i64::try_from(joint).unwrap_or(i64::MAX), 0]],
         };
         let distance = |c: &GridHole| match self {
             Self::Lattice(grid) => {
-                let at = grid.coordinates(wanted);
+                let at = grid.coordinates(target);
                 length([c[0] as f64 - at[0], c[1] as f64 - at[1]], grid.skew())
             }
-            _ => (self.point(*c, wanted) - wanted).norm(),
+            _ => (self.point(*c, target) - target).norm(),
         };
         out.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
         out
@@ -154,7 +154,7 @@ impl PlateHoles {
                 let circle = circles.grid.circle(usize::try_from(nearest[0]).ok()?)?;
                 circle.radius * (std::f64::consts::TAU / f64::from(circle.holes)).min(1.0)
             }
-            Self::AsWanted => return Some(nearest),
+            Self::AsGiven => return Some(nearest),
         };
         ((self.point(nearest, place) - place).norm() <= ON_HOLE * spacing).then_some(nearest)
     }
@@ -182,7 +182,7 @@ pub fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> boo
             let list = circles.grid.circles.as_slice();
             list.iter().any(|c| c.holes.is_multiple_of(3) && stays(&centre, c.radius))
         }
-        PlateHoles::AsWanted => true,
+        PlateHoles::AsGiven => true,
     }
 }
 

@@ -5,7 +5,7 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::exact::{proved, rank};
-use super::grid::{BodyGrid, Wanted, pool};
+use super::grid::{BodyGrid, TargetPlaces, pool};
 use super::*;
 use crate::manufacture::tests::{free, octahedral, space};
 use crate::requirements::{HoleCircle, HoleCircles, SafetyMargins, TermKind};
@@ -90,12 +90,12 @@ fn no_other_triangle_of_one_body_is_better() {
             let points: Vec<_> = list.iter().filter(|j| j.body == own).map(|j| place(m, *j)).collect();
             let grid = BodyGrid::new(&points, &GRID, m.size()).unwrap();
             let at = |j: Joint| grid.coordinates(&place(m, j));
-            let wanted = Wanted {
+            let target = TargetPlaces {
                 corners: roles.corners[body].map(at),
                 inner: roles.inner.map(|i| i[body].map(at)),
                 skew: 0.0,
             };
-            for t in pool(&wanted, 30, 16.0).triangles {
+            for t in pool(&target, 30, 16.0).triangles {
                 let mut joints =
                     [found.manipulator.base_joints().to_vec(), found.manipulator.platform_joints().to_vec()];
                 for k in 0..3 {
@@ -176,7 +176,7 @@ fn requirements_are_respected_or_the_violation_is_told() {
     let found = with(&free(), [GRID; 2], &distance(apart), round_to_grid).unwrap();
     let j = found.exact.unwrap().evaluation;
     assert!(j.met && j.least_distances.iter().all(|d| *d >= apart), "{j:?}");
-    // more than any triangle near the wanted one allows
+    // more than any triangle near the given one allows
     let found = with(&free(), [GRID; 2], &distance(30.0), round_to_grid).unwrap();
     assert!(found.choice(0.9).is_none());
     let j = &found.exact.as_ref().unwrap().evaluation;

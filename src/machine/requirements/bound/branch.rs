@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use super::CellJudge;
+use super::CellEvaluator;
 use super::cone::Sector;
 use super::function::BoundedFunction;
 use super::verdict::{MarginBound, verdict};
@@ -123,7 +123,7 @@ struct CellSearch {
     number: u64,
 }
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     /// The least margin of a function of a kind in doubles.
     fn plain(&self, kind: TermKind, function: BoundedFunction, chart: usize, x: &[f64; 6]) -> f64 {
         let pose = self.charts[chart].pose(x);
@@ -144,10 +144,10 @@ impl CellJudge<'_> {
         let functions = self.functions(kind);
         // the worst pose found so far, for a proof that it is one
         let pose =
-            found.pose.map(|p| CellJudge { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
-        let upper = pose.map_or(f64::INFINITY, |judge| {
+            found.pose.map(|p| CellEvaluator { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
+        let upper = pose.map_or(f64::INFINITY, |evaluator| {
             let point = |f: &BoundedFunction| {
-                judge.evaluate(*f, 0, &ChartCell::point([0.0; 6]), &Sector::ALL, None).upper
+                evaluator.evaluate(*f, 0, &ChartCell::point([0.0; 6]), &Sector::ALL, None).upper
             };
             functions.iter().map(point).fold(f64::INFINITY, f64::min)
         });

@@ -5,7 +5,7 @@ use super::frame::CellFrame;
 use super::function::BoundedFunction;
 use super::local::{self, Bounded};
 use super::stiffness::SoftestMotion;
-use super::{CellJudge, force, gap};
+use super::{CellEvaluator, force, gap};
 use crate::requirements::TermKind;
 use num::interval::Interval;
 use num::jet::Jet;
@@ -49,7 +49,7 @@ impl AtPoint {
 /// Steps along the slopes from a point of each cell.
 const STEPS: usize = 6;
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     pub(super) fn evaluate(
         &self,
         function: BoundedFunction,

@@ -1,6 +1,6 @@
 //! Gaps between legs, bodies and plates over a cell.
 
-use super::CellJudge;
+use super::CellEvaluator;
 use super::cell::AtPoint;
 use super::frame::CellFrame;
 use super::gap;
@@ -10,7 +10,7 @@ use num::interval::Interval;
 use platform::geom::{Chart, ChartCell};
 use platform::manipulator::Body;
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     /// The gap of a leg and a plate, minus the clearance.
     pub(super) fn plate_gap(
         &self,

@@ -329,7 +329,7 @@ impl RodsOverChart<'_> {
     }
 }
 
-/// Judges the region, the single poses and the trajectory of a workspace, on at most `cells` cells for each part, and
+/// Assesses the region, the single poses and the trajectory of a workspace, on at most `cells` cells for each part, and
 /// counts them. It uses the lines of the rods, or the rates of drives with joint offsets. `None` for other designs.
 ///
 /// A cell with the lines `A` is regular if `|I - K A| <= W` entry by entry and `W u < u` for a positive vector `u`

@@ -1,6 +1,6 @@
 //! Margins independent of the pose: distances of joints, joints in the envelopes of their bodies, holes of plates.
 
-use super::CellJudge;
+use super::CellEvaluator;
 use super::frame::enclosed;
 use super::verdict::{MarginBound, MarginVerdict, verdict};
 use crate::requirements::assess::Margin;
@@ -13,7 +13,7 @@ use num::ordered::OrderedNumber;
 use platform::geom::enclosed::IntervalVector;
 use platform::manipulator::Body;
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     /// Holes of a plate, whose margins are exact up to rounding.
     fn holes(&self, found: Margin) -> MarginBound {
         let rounding = self.terms.rounding(found.term.kind, None);
@@ -39,7 +39,7 @@ impl CellJudge<'_> {
         for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
             let at = enclosed(&joints[term.first]);
             for housing in self.required.hardware.housings_at(body, &ends, term.first) {
-                let (half, radius) = envelope::room(housing);
+                let (half, radius) = envelope::extent(housing);
                 let margin = envelope.map_or(Interval::WHOLE, |e| e.margin(at, &half, radius));
                 (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
             }

@@ -168,10 +168,10 @@ impl ForceSolver {
 
     /// Bounds of `|G - K b|`, from `K b`.
     fn beside(&self, start: &[Interval; 6]) -> Option<[f64; 6]> {
-        let room = Interval::from(1.0) - Interval::from(self.factor);
+        let gap = Interval::from(1.0) - Interval::from(self.factor);
         let mut norm = 0.0_f64;
         for (x, u) in start.iter().zip(&self.weights) {
-            norm = norm.max(Interval::from(x.magnitude()).checked_div(Interval::from(*u) * room)?.hi());
+            norm = norm.max(Interval::from(x.magnitude()).checked_div(Interval::from(*u) * gap)?.hi());
         }
         let norm = Interval::from(norm);
         Some(std::array::from_fn(|i| {
@@ -297,22 +297,22 @@ pub(super) fn force(
         Some((at, solution, forces))
     });
     let Some((at, solution, forces)) = here else { return (nothing, f64::INFINITY) };
-    let room = |f: &Jet, sign: f64| f.alike(Interval::from(greatest)) - f.times(Interval::from(sign));
-    let rooms = |f: &Jet| SIGNS.map(|sign| room(f, sign));
-    let upper = forces.iter().flat_map(rooms).map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
+    let left = |f: &Jet, sign: f64| f.alike(Interval::from(greatest)) - f.times(Interval::from(sign));
+    let all_left = |f: &Jet| SIGNS.map(|sign| left(f, sign));
+    let upper = forces.iter().flat_map(all_left).map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
     let below = || {
         let over = System::over(frames.1, m, cranks, load)?;
         let solver = ForceSolver::new(&at, &over, cell, z, n)?;
         if !over.is_second_order() {
             let all = solver.solution(&over, n)?.forces(&over)?;
-            let pairs = forces.iter().flat_map(rooms).zip(all.iter().flat_map(rooms));
+            let pairs = forces.iter().flat_map(all_left).zip(all.iter().flat_map(all_left));
             return pairs.map(|(p, o)| local::below_first_order(chart, cell, z, &p, &o)).reduce(Bounded::min);
         }
         let bend = solver.bend(&solution, &over, cell, z)?;
         let mut parts = Vec::with_capacity(12);
         for (i, f) in forces.iter().enumerate() {
             let (near, off) = bend.force(i, &solution, &at.factors[i]?, &over.factors[i]?);
-            parts.extend(SIGNS.map(|sign| (room(f, sign), room(&near, sign), off)));
+            parts.extend(SIGNS.map(|sign| (left(f, sign), left(&near, sign), off)));
         }
         // skip the quadratic form if the values alone show a lesser part
         parts.sort_by(|a, b| a.1.value.lo().total_cmp(&b.1.value.lo()));

@@ -14,7 +14,7 @@ use platform::manipulator::{Body, Manipulator};
 ///
 /// The weight of a leg is `(m_2 + k / q) g` at its platform joint, `k = m_1 s_1 - m_2 s_2`. Its drive pushes with
 /// `(k / q) g . u` more, another form of the same statics.
-fn room(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
+fn force_margin(m: &Manipulator, pose: &Pose, load: &Load, greatest: f64) -> f64 {
     let mut a = Matrix6::zeros();
     let (mut weight, mut lengthwise) = (Vector6::zeros(), Vector6::zeros());
     for (i, leg) in m.legs().iter().enumerate() {
@@ -88,7 +88,7 @@ fn bounds_hold(seed: u64, legs: impl Fn(&mut Rng) -> Option<LegsWeight>) {
                 force(&chart, &cell, &z, (&at, &over), (&m, None, greatest), &load)
             };
             let ((bounded, upper), (by_slopes, _)) = (bound(true), bound(false));
-            let of = |x: &[f64; 6]| room(&m, &chart.pose(x), &load, greatest);
+            let of = |x: &[f64; 6]| force_margin(&m, &chart.pose(x), &load, greatest);
             let above = upper - of(&z);
             assert!((0.0..1e-9).contains(&above), "{k}: {above}");
             let mut least = f64::INFINITY;

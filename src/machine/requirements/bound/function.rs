@@ -1,6 +1,6 @@
 //! The functions bounded over cells; their least values give the least margins of a kind.
 
-use super::CellJudge;
+use super::CellEvaluator;
 use crate::requirements::envelope::Envelope;
 use crate::requirements::term::{Term, TermKind};
 use platform::manipulator::Body;
@@ -58,7 +58,7 @@ impl BoundedFunction {
     }
 }
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     pub(super) fn functions(&self, kind: TermKind) -> Vec<BoundedFunction> {
         let pairs = self.m.pairs();
         match kind {

@@ -136,8 +136,8 @@ impl JointOffsets {
             Some(Interval::from(plain.offsets[1 - end].over(least)?.magnitude()))
         };
         let factors = [factor(0)?, factor(1)?];
-        let room = Interval::from(1.0) - factors[0] * factors[1];
-        if !(room.lo() > 0.0) {
+        let gap = Interval::from(1.0) - factors[0] * factors[1];
+        if !(gap.lo() > 0.0) {
             return None;
         }
         let mut ends = found.map(|v| v.map(|x| leg.line[0].alike(x)));
@@ -148,7 +148,7 @@ impl JointOffsets {
             for end in 0..2 {
                 for (k, width) in widths[end].iter_mut().enumerate() {
                     let most = sizes[1 - end][k] + factors[1 - end] * sizes[end][k];
-                    *width = factors[end] * most.checked_div(room)?;
+                    *width = factors[end] * most.checked_div(gap)?;
                 }
             }
             for end in 0..2 {

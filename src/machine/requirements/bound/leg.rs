@@ -1,7 +1,7 @@
 //! Functions of one leg or of a joint at its end, and their margins: lengths, joint angles, universal joints, speed,
 //! space in the envelope.
 
-use super::CellJudge;
+use super::CellEvaluator;
 use super::cone::{AllowedCone, Sector};
 use super::frame::CellFrame;
 use super::function::{BoundedFunction, Side};
@@ -15,7 +15,7 @@ use platform::geom::enclosed::IntervalVector;
 use platform::geom::{Chart, arc_cosine, degrees};
 use platform::manipulator::Body;
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     /// The angle of a universal joint, for the kinds that are one.
     pub(super) fn hinge(&self, kind: TermKind, leg: usize) -> Option<HingeLimit<'_>> {
         let (body, angle) = kind.hinge()?;
@@ -92,7 +92,7 @@ impl CellJudge<'_> {
         }
     }
 
-    /// The function of a leg whose least value gives the least margin ([`CellJudge::margin`]).
+    /// The function of a leg whose least value gives the least margin ([`CellEvaluator::margin`]).
     pub(super) fn leg_value(&self, kind: TermKind, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
         if self.required.cranks.is_some() {
             let speed = self.required.platform_speed.unwrap_or_default();

@@ -64,10 +64,10 @@ pub fn prove(
     prove_telling(m, required, space, (o, cells), &mut |_| {})
 }
 
-/// The next stage of a judgement.
+/// The next stage of an assessment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AssessStage {
-    /// Looks for the worst pose of each requirement.
+    /// Searches for the worst pose of each requirement.
     Searches,
     /// Bounds the margins of a requirement over the whole workspace.
     Bounds {
@@ -80,14 +80,14 @@ pub enum AssessStage {
     },
     /// Bounds `det J`, or the corresponding determinant of the rods.
     SingularPoses,
-    /// Looks for the worst conditioning.
+    /// Searches for the worst conditioning.
     Conditioning,
 }
 
 impl std::fmt::Display for AssessStage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Searches => f.write_str("looking for the worst poses"),
+            Self::Searches => f.write_str("searching for the worst poses"),
             Self::Bounds { kind, number, of } => {
                 write!(
                     f,
@@ -95,8 +95,8 @@ impl std::fmt::Display for AssessStage {
                     kind.label()
                 )
             }
-            Self::SingularPoses => f.write_str("looking for singular poses in the workspace"),
-            Self::Conditioning => f.write_str("looking for the worst conditioning"),
+            Self::SingularPoses => f.write_str("searching for singular poses in the workspace"),
+            Self::Conditioning => f.write_str("searching for the worst conditioning"),
         }
     }
 }
@@ -121,8 +121,8 @@ pub fn prove_telling(
     let axes = axes(m, required, cranks, joints, &home);
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    // additional cells serve undecided kinds only, and need not come close
-    let patient = CellJudge {
+    // additional cells only decide open kinds; they do not tighten bounds
+    let patient = CellEvaluator {
         m,
         required,
         terms: &terms,
@@ -134,12 +134,12 @@ pub fn prove_telling(
         options: o,
         close: false,
     };
-    let judge = CellJudge { charts, close: o.close, ..patient };
+    let evaluator = CellEvaluator { charts, close: o.close, ..patient };
     let of = margins.len();
     let mut bounds: Vec<MarginBound> = Vec::with_capacity(of);
     for (number, margin) in (1..).zip(&margins) {
         tell(AssessStage::Bounds { kind: margin.term.kind, number, of });
-        bounds.push(judge.proved(*margin, cells, o.seed));
+        bounds.push(evaluator.proved(*margin, cells, o.seed));
     }
     // once a design misses a requirement, the rest need not be known
     let missed =
@@ -202,7 +202,7 @@ fn dot_square(v: &IntervalVector) -> Interval {
     v[0].square() + v[1].square() + v[2].square()
 }
 
-struct CellJudge<'a> {
+struct CellEvaluator<'a> {
     m: &'a Manipulator,
     required: &'a Requirements,
     terms: &'a Terms<'a>,
@@ -219,7 +219,7 @@ struct CellJudge<'a> {
     close: bool,
 }
 
-impl CellJudge<'_> {
+impl CellEvaluator<'_> {
     /// Bounds of a margin and its safety margin, by at most this many cells each.
     fn proved(&self, found: Margin, cells: usize, seed: u64) -> MarginBound {
         let safety_margin = self.required.safety_margin(found.term.kind);

@@ -188,11 +188,11 @@ fn limits_of_drives_to_either_side_of_the_worst_length_are_decided() {
         let worst =
             |kind| 1000.0 - found.bounds.iter().find(|b| b.found.term.kind == kind).unwrap().found.value;
         let (longest, fastest) = (worst(TermKind::MaxLegLength), worst(TermKind::LegSpeed));
-        let judged = |factor: f64| {
+        let met = |factor: f64| {
             prove(&m, &with(longest * factor, fastest * factor), &space, &quick(), 600).all_met()
         };
-        assert_eq!(judged(1.0 + 1e-4), Some(true), "{sort:?}");
-        assert_eq!(judged(1.0 - 1e-4), Some(false), "{sort:?}");
+        assert_eq!(met(1.0 + 1e-4), Some(true), "{sort:?}");
+        assert_eq!(met(1.0 - 1e-4), Some(false), "{sort:?}");
         // the control: ideal joints have other longest legs
         let ideal = Requirements {
             hardware: Hardware { leg_length: Some(LengthLimits::Range(0.1, 1000.0)), ..Hardware::default() },

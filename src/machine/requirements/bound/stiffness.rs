@@ -324,12 +324,12 @@ impl CellMatrix<'_> {
             *l = self.cell.reach(self.z, k) * (EXPLAINED * slope.magnitude() + (slope.hi() - slope.lo()));
         }
         for j in 0..5 {
-            let (shared, room) = (self.values(s, j, 5).magnitude(), self.least(s, j).max(0.05));
-            sinks += shared * shared / room;
+            let (shared, diagonal) = (self.values(s, j, 5).magnitude(), self.least(s, j).max(0.05));
+            sinks += shared * shared / diagonal;
             let (_, across) = self.entry(s, j, 5);
             for (k, l) in loose.iter_mut().enumerate().take(self.chart.coordinates()) {
                 let part = self.cell.reach(self.z, k) * across.slope(k).magnitude();
-                *l += part * (shared / room).min(1.0);
+                *l += part * (shared / diagonal).min(1.0);
             }
         }
         (sinks, loose)

@@ -463,10 +463,12 @@ fn rooms_inside_envelopes_are_enclosed() {
             Envelope::Box { min: Point3::new(-2.0, -3.0, -1.0), max: Point3::new(3.0, 2.0, 2.0) },
         ];
         for shape in shapes {
-            let (room, found) =
+            let (margin, found) =
                 (shape.margin(at.coords.into(), &half, 0.3), shape.margin(enclosed(&at), &half, 0.3));
             assert!(
-                found.lo() - 1e-14 <= room && room <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
+                found.lo() - 1e-14 <= margin
+                    && margin <= found.hi() + 1e-14
+                    && found.hi() - found.lo() < 1e-13
             );
         }
     }

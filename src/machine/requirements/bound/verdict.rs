@@ -5,16 +5,16 @@ use crate::requirements::assess::Margin;
 num::answer_words! {
     /// The proved state of the least margin of a kind of requirement over all poses.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum MarginVerdict as name {
+    pub enum MarginVerdict as name | label {
         /// Proved: no margin is negative.
-        Met = "met",
+        Met = "met" | "met",
         /// Proved: no margin is negative by more than the rounding of its evaluation
         /// ([`Terms::rounding`](crate::requirements::Terms::rounding)).
-        AtLimit = "at_limit",
+        AtLimit = "at_limit" | "at limit",
         /// Proved: the margin is negative at the pose given, by more than that.
-        Violated = "violated",
+        Violated = "violated" | "violated",
         /// Unproved: no violation was found.
-        Searched = "searched",
+        Searched = "searched" | "not proved",
     }
 }
 

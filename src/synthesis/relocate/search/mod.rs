@@ -19,7 +19,7 @@ mod tests;
 
 use thiserror::Error;
 
-pub use self::targets::{HoleAnswer, HoleWord, JudgedHole};
+pub use self::targets::{CheckedHole, HoleAnswer, HoleWord};
 pub use candidate::{Candidate, LegSource, Placement};
 pub use targets::{Hole, Target, TargetMargin, Targets};
 
@@ -68,7 +68,7 @@ pub enum SearchError {
     )]
     NearlyDependent(usize),
     /// There is no pose.
-    #[error("no pose is given at which the legs are looked at")]
+    #[error("no pose is given at which the legs are checked")]
     NoPoses,
     /// A limit is negative or not finite.
     #[error("{what} is {value}, not a number of 0 or more")]
@@ -131,7 +131,7 @@ pub struct SearchOutcome {
     /// The best platforms, best first; without the verdict `Found` they miss a requirement.
     pub candidates: Vec<Candidate>,
     /// The possible legs at each hole.
-    pub holes: Vec<JudgedHole>,
+    pub holes: Vec<CheckedHole>,
     /// Patterns that are independent at generic parameters and reach all holes.
     pub patterns: usize,
     /// The searched patterns among them.

@@ -2,7 +2,7 @@
 //! six generic legs are independent.
 
 use super::candidate::LegSource;
-use super::targets::{Hole, HoleAnswer, JudgedHole, Targets};
+use super::targets::{CheckedHole, Hole, HoleAnswer, Targets};
 use crate::components::{Component, Components, MovingPoint, Parametrisation};
 use num::Rng;
 use num::linalg::LinalgError;
@@ -58,7 +58,7 @@ impl<'a> LegPool<'a> {
         m: &Manipulator,
         found: &'a Components,
         targets: &Targets,
-        records: &[JudgedHole],
+        records: &[CheckedHole],
         rng: &mut Rng,
     ) -> Result<Self, LinalgError> {
         let mut pool = Self { places: Vec::new(), drawn: true, found };

@@ -124,7 +124,7 @@ num::answer_words! {
 
 /// A hole with the decision about it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct JudgedHole {
+pub struct CheckedHole {
     /// The hole.
     pub hole: Hole,
     /// The answer within the tolerance.
@@ -143,7 +143,7 @@ pub struct JudgedHole {
     pub tolerance: f64,
 }
 
-impl JudgedHole {
+impl CheckedHole {
     /// The proof that the requirement cannot be met, if there is one.
     pub(super) fn impossible(&self, index: usize) -> Option<Impossibility> {
         match self.answer {
@@ -161,7 +161,7 @@ pub(super) fn records(
     m: &Manipulator,
     found: &Components,
     holes: &[Hole],
-) -> Result<Vec<JudgedHole>, LinalgError> {
+) -> Result<Vec<CheckedHole>, LinalgError> {
     let legs = m.legs();
     let mut out = Vec::new();
     for hole in holes {
@@ -172,7 +172,7 @@ pub(super) fn records(
         };
         let named = |i: usize| hole.legs.iter().any(|l| l.get() == i);
         let (all, others) = (among(&|_| true), among(&|i| !named(i)));
-        out.push(JudgedHole {
+        out.push(CheckedHole {
             hole: hole.clone(),
             answer,
             singular_value,

@@ -168,7 +168,7 @@ impl Regularity {
     }
 }
 
-/// Judges the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its
+/// Assesses the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its
 /// parts, and counts them.
 #[must_use]
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {

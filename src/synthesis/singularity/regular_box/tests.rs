@@ -172,7 +172,7 @@ fn wide_rotations_never_contradict_the_proved_set() {
 /// singular surface.
 #[test]
 #[ignore = "evidence"]
-fn a_workspace_is_judged_as_its_scale_is() {
+fn a_workspace_is_regular_as_its_scale_is() {
     let mut rng = Rng::new(5);
     let (mut regular, mut singular) = (0, 0);
     for k in 0..8 {
@@ -189,13 +189,13 @@ fn a_workspace_is_judged_as_its_scale_is() {
             ..PoseSpace::at(home)
         };
         if found.proved > 0.0 {
-            let (judged, _) = regular_workspace(&m, &space(0.99 * found.proved), 1200, 1);
-            assert!(!matches!(judged, Regularity::ChangesSign(_)));
-            regular += usize::from(judged == Regularity::Regular);
+            let (regularity, _) = regular_workspace(&m, &space(0.99 * found.proved), 1200, 1);
+            assert!(!matches!(regularity, Regularity::ChangesSign(_)));
+            regular += usize::from(regularity == Regularity::Regular);
         }
         if let Some(segment) = found.refuted {
-            let (judged, _) = regular_workspace(&m, &space(1.05 * segment.scale), 1200, 1);
-            let Regularity::ChangesSign(pose) = judged else { panic!("{k}: {judged:?}") };
+            let (regularity, _) = regular_workspace(&m, &space(1.05 * segment.scale), 1200, 1);
+            let Regularity::ChangesSign(pose) = regularity else { panic!("{k}: {regularity:?}") };
             let sign = |pose: &Pose| plucker_matrix(&m, pose, m.size()).determinant();
             assert!(sign(&pose) * sign(&home) < 0.0);
             singular += 1;

@@ -149,7 +149,8 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     let sampled = sampled.min(k);
     let reach = arcs.iter().map(Arc::reach).fold(0.0, f64::max);
     if let Some(rank) = constant {
-        at.verdict = PoseVerdict::Moves { dimension: 6 - rank, reach, evidence: MotionEvidence::ConstantRank };
+        at.verdict =
+            PoseVerdict::Moves { dimension: 6 - rank, reach, evidence: MotionEvidence::ConstantRank };
     } else if sampled > 0 {
         at.verdict = PoseVerdict::Moves { dimension: sampled, reach, evidence: MotionEvidence::Traced };
     }
@@ -470,10 +471,10 @@ impl SecondOrderForms {
             .map(|face| (0..k).map(|j| if j == face { [1.0, 1.0] } else { [-1.0, 1.0] }).collect())
             .collect();
         let mut least = f64::INFINITY;
-        let mut looked = 0;
+        let mut examined = 0;
         while let Some(cell) = boxes.pop() {
-            looked += 1;
-            if looked > BOXES {
+            examined += 1;
+            if examined > BOXES {
                 return None;
             }
             let middle: Vec<f64> = cell.iter().map(|x| 0.5 * (x[0] + x[1])).collect();

@@ -203,7 +203,7 @@ fn pose(y: &Point<f64>, size: f64) -> Pose {
 }
 
 fn curve(path: &trace::TracedCurve, start: usize, m: &Manipulator, s: &SquaredLegLengths) -> MotionCurve {
-    let wanted = s.lengths().get();
+    let given = s.lengths().get();
     let mut arc = 0.0;
     let mut last: Option<Point<f64>> = None;
     let points = path.points.iter().map(|on| {
@@ -211,10 +211,10 @@ fn curve(path: &trace::TracedCurve, start: usize, m: &Manipulator, s: &SquaredLe
         arc += last.map_or(0.0, |l| (on.y - l).norm());
         last = Some(on.y);
         let pose = pose(&on.y, m.size());
-        let error = |(leg, wanted): (&platform::manipulator::Leg, f64)| {
-            ((pose.transform(&leg.platform) - leg.base).norm() - wanted).abs() / m.size()
+        let error = |(leg, given): (&platform::manipulator::Leg, f64)| {
+            ((pose.transform(&leg.platform) - leg.base).norm() - given).abs() / m.size()
         };
-        let length_error = m.legs().iter().zip(wanted).map(error).fold(0.0, f64::max);
+        let length_error = m.legs().iter().zip(given).map(error).fold(0.0, f64::max);
         MotionPoint { pose, arc, length_error, gap: on.gap }
     });
     MotionCurve { points: points.collect(), end: path.end, crossings: path.crossings.clone(), start }

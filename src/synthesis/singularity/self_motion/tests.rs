@@ -181,8 +181,8 @@ fn every_real_component_is_found_from_one_complex_curve() {
 fn complex_poses_are_their_dual_quaternions() {
     let pose = some_pose();
     let y = critical::dual_quaternion(&pose.into(), 2.0);
-    let wanted = point(&pose, 2.0);
-    let scale = wanted[0] / y[0].re;
-    let error = y.iter().zip(wanted.iter()).map(|(z, x)| (z * scale - x).norm()).fold(0.0, f64::max);
+    let expected = point(&pose, 2.0);
+    let scale = expected[0] / y[0].re;
+    let error = y.iter().zip(expected.iter()).map(|(z, x)| (z * scale - x).norm()).fold(0.0, f64::max);
     assert!(error < 1e-14, "{error}");
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error as ThisError;
 
 pub use self::general::{ExploredDesign, NEAREST_EXTENSION, nearest_options};
-pub use self::octahedral::{ExploreJudgement, ExploredClass};
+pub use self::octahedral::{ExploreFinding, ExploredClass};
 use crate::optimizing::{EXTENSION, ends_of};
 use crate::{Design, Error, NoReplaceableLegs, OptimizeOptions, OptimizeProgress, SAMPLES};
 use files::design::DriveTable;
@@ -92,14 +92,14 @@ impl<'a> ExploreOptions<'a> {
         /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
         fn cancel(cancel: &Cancel) = cancel.clone();
         /// Sets a function that sees the progress, and may end the search for the best platform.
-        fn on_progress(look: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) = Some(Box::new(look));
+        fn on_progress(observe: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) = Some(Box::new(observe));
     }
 
     fn flow(&mut self, progress: ExploreProgress) -> ControlFlow<()> {
         if self.cancel.is_cancelled() {
             return ControlFlow::Break(());
         }
-        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
     }
 
     /// Every stage is run: only searches can be ended.
@@ -121,7 +121,7 @@ impl<'a> ExploreOptions<'a> {
             .explains(explains)
             .cancel(cancel)
             .on_progress(|p| match on_progress {
-                Some(look) => look(ExploreProgress::Search(p)),
+                Some(observe) => observe(ExploreProgress::Search(p)),
                 None => ControlFlow::Continue(()),
             });
         options.ends = *ends;

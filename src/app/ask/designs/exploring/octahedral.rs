@@ -38,7 +38,7 @@ pub struct ExploredClass {
 
 /// The decisive fact about the platform found: its requirements first, then the comparison.
 #[derive(Debug)]
-pub enum ExploreJudgement<'a> {
+pub enum ExploreFinding<'a> {
     /// There is no platform, and this is proved or no start led to one.
     Infeasible,
     /// No platform was found.
@@ -93,41 +93,41 @@ impl ExploredClass {
 
     /// The decisive fact about the platform found.
     #[must_use]
-    pub fn judgement(&self) -> ExploreJudgement<'_> {
+    pub fn finding(&self) -> ExploreFinding<'_> {
         match &self.holes {
-            Some(Err(why)) => return ExploreJudgement::NoHoles(why.to_string()),
+            Some(Err(why)) => return ExploreFinding::NoHoles(why.to_string()),
             Some(Ok(on)) => {
-                let Some((_, design)) = &on.found else { return ExploreJudgement::NoHoles(why_none(on)) };
+                let Some((_, design)) = &on.found else { return ExploreFinding::NoHoles(why_none(on)) };
                 return match on.met() {
-                    Some(true) => ExploreJudgement::OnHoles,
-                    Some(false) => ExploreJudgement::Violated(design),
-                    None => ExploreJudgement::Unproved(design),
+                    Some(true) => ExploreFinding::OnHoles,
+                    Some(false) => ExploreFinding::Violated(design),
+                    None => ExploreFinding::Unproved(design),
                 };
             }
             None => (),
         }
         match (self.search.design(), self.search.met(), &self.compared) {
             (None, ..) => match self.search.status {
-                OptimizeStatus::Infeasible | OptimizeStatus::Violated => ExploreJudgement::Infeasible,
-                _ => ExploreJudgement::NotFound,
+                OptimizeStatus::Infeasible | OptimizeStatus::Violated => ExploreFinding::Infeasible,
+                _ => ExploreFinding::NotFound,
             },
-            (Some(design), Some(false), _) => ExploreJudgement::Violated(design),
-            (Some(design), None, _) => ExploreJudgement::Unproved(design),
-            (Some(_), Some(true), Some(compared)) => ExploreJudgement::Compared(compared),
-            (Some(_), Some(true), None) => ExploreJudgement::New,
+            (Some(design), Some(false), _) => ExploreFinding::Violated(design),
+            (Some(design), None, _) => ExploreFinding::Unproved(design),
+            (Some(_), Some(true), Some(compared)) => ExploreFinding::Compared(compared),
+            (Some(_), Some(true), None) => ExploreFinding::New,
         }
     }
 
     /// The verdict of the exploration.
     #[must_use]
     pub fn verdict(&self) -> ExploreVerdict {
-        match self.judgement() {
-            ExploreJudgement::Infeasible => ExploreVerdict::Infeasible,
-            ExploreJudgement::Violated(_) | ExploreJudgement::NoHoles(_) => ExploreVerdict::Violated,
-            ExploreJudgement::OnHoles => ExploreVerdict::OnHoles,
-            ExploreJudgement::New => ExploreVerdict::NewKinematics,
-            ExploreJudgement::Compared(c) => ExploreVerdict::Compared(c.found.verdict.word()),
-            ExploreJudgement::NotFound | ExploreJudgement::Unproved(_) => {
+        match self.finding() {
+            ExploreFinding::Infeasible => ExploreVerdict::Infeasible,
+            ExploreFinding::Violated(_) | ExploreFinding::NoHoles(_) => ExploreVerdict::Violated,
+            ExploreFinding::OnHoles => ExploreVerdict::OnHoles,
+            ExploreFinding::New => ExploreVerdict::NewKinematics,
+            ExploreFinding::Compared(c) => ExploreVerdict::Compared(c.found.verdict.word()),
+            ExploreFinding::NotFound | ExploreFinding::Unproved(_) => {
                 ExploreVerdict::Compared(VerdictWord::Inconclusive)
             }
         }
@@ -207,7 +207,7 @@ fn on_holes(
     found: &OptimizeReport,
     options: &mut ExploreOptions<'_>,
 ) -> Result<OnHoles, NoExploration> {
-    let Some((grids, wanted)) = design.holes.zip(found.closest()) else { return Ok(None) };
+    let Some((grids, given)) = design.holes.zip(found.closest()) else { return Ok(None) };
     let first = match &found.evidence {
         OptimizeEvidence::Dimensions(of_shape) => {
             let solution = of_shape.report.solution().or(of_shape.report.nearest.as_deref());
@@ -217,7 +217,7 @@ fn on_holes(
         OptimizeEvidence::Offsets(_) | OptimizeEvidence::Front(_) => None,
     };
     let search = options.optimize(true).search();
-    let rounded = on_stated_holes(wanted, &grids, first, &search, &mut |p| {
+    let rounded = on_stated_holes(given, &grids, first, &search, &mut |p| {
         options.flow(ExploreProgress::Search(OptimizeProgress::Dimensions(p)))
     });
     rounded.map(Some).map_err(NoExploration::Holes)

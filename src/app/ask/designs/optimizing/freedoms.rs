@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::judged::{Checked, checked};
+use super::assessed::{Checked, checked};
 use super::platform_search::keeps_symmetry_of_start;
 use super::problem::dimensional_problem;
 use crate::Design;
@@ -481,8 +481,8 @@ impl FreedomSearch<'_, '_> {
         if ended && found.is_none() {
             return Ok(Some(ControlFlow::Break(())));
         }
-        let judged = found.map(|s| checked(design, problem, &s, (&self.options).into())).transpose()?;
-        let met = judged.filter(|c| c.met() != Some(false));
+        let assessed = found.map(|s| checked(design, problem, &s, (&self.options).into())).transpose()?;
+        let met = assessed.filter(|c| c.met() != Some(false));
         Ok(Some(ControlFlow::Continue(met.map(Box::new))))
     }
 }

@@ -1,22 +1,22 @@
 //! The best platform for a design; all callers ask the same question here.
 
+mod assessed;
 pub mod drives;
 pub mod freedoms;
-mod judged;
 mod platform_search;
 mod problem;
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+pub use self::assessed::Checked;
+pub(crate) use self::assessed::checked;
+pub use self::assessed::{Assessing, met_or_nothing_required};
+use self::assessed::{checked_offsets, offset_status};
 use self::drives::search_drives;
 pub use self::drives::{DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, SearchedDrive};
 use self::freedoms::FreedomSearch;
 pub use self::freedoms::{ConflictFreedom, FreedomOutcome, FreedomWord, OpenedFreedom, RelaxedRequirement};
-pub use self::judged::Checked;
-pub(crate) use self::judged::checked;
-pub use self::judged::{Judging, met_or_nothing_required};
-use self::judged::{checked_offsets, offset_status};
 pub use self::platform_search::{FoundFront, FoundPlatform};
 use self::platform_search::{find_front, find_platform};
 pub use self::problem::{
@@ -54,7 +54,7 @@ pub enum OptimizeProgress {
     /// The progress of this search with one more freedom.
     Freedom(ConflictFreedom, dimensional::Progress),
     /// The other local optima are being assessed.
-    Judging,
+    Assessing,
 }
 
 impl std::fmt::Display for OptimizeProgress {
@@ -64,7 +64,7 @@ impl std::fmt::Display for OptimizeProgress {
             Self::Dimensions(p) => p.fmt(f),
             Self::Drive(name, p) => write!(f, "{name}: {p}"),
             Self::Freedom(freedom, p) => write!(f, "with {} open: {p}", freedom.name()),
-            Self::Judging => f.write_str("other local optima are assessed"),
+            Self::Assessing => f.write_str("other local optima are assessed"),
         }
     }
 }
@@ -170,7 +170,7 @@ impl<'a> OptimizeOptions<'a> {
         /// Sets the cancellation of the search; the answer is then the best until then.
         fn cancel(cancel: &Cancel) = cancel.clone();
         /// Sets a function that sees the progress, and may end the search.
-        fn on_progress(look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) = Some(Box::new(look));
+        fn on_progress(observe: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) = Some(Box::new(observe));
     }
 
     fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
@@ -178,13 +178,13 @@ impl<'a> OptimizeOptions<'a> {
         if late || self.cancel.is_cancelled() {
             return ControlFlow::Break(());
         }
-        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
     }
 
     /// The options of a search under requirements.
     pub fn search(&self) -> ShapeSearchOptions {
         let threads = self.threads.count(MOST_THREADS);
-        let until = self.ends.map(|[_, judging]| judging);
+        let until = self.ends.map(|[_, assessing]| assessing);
         ShapeSearchOptions { seed: self.seed, threads, until, ..ShapeSearchOptions::default() }
     }
 }
@@ -354,13 +354,13 @@ impl OptimizeReport {
     }
 
     /// Assesses the other local optima like the answer.
-    fn judge_candidates(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), VerifyError> {
+    fn assess_candidates(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), VerifyError> {
         let OptimizeEvidence::Dimensions(found) = &self.evidence else { return Ok(()) };
         // an interruption now concerns the assessment, which ends by itself
-        let _ = options.flow(OptimizeProgress::Judging);
-        let judging = Judging::from(&options.search());
+        let _ = options.flow(OptimizeProgress::Assessing);
+        let assessing = Assessing::from(&options.search());
         let of = |(k, s): (usize, &DimensionalSolution)| {
-            let mut other = checked(&self.asked, &found.problem, s, judging)?;
+            let mut other = checked(&self.asked, &found.problem, s, assessing)?;
             other.design.name = format!("{}, candidate {}", other.design.name, k + 2);
             Ok(other)
         };
@@ -408,7 +408,7 @@ impl Design {
             report.open_freedoms(&mut options)?;
         }
         if options.candidates {
-            report.judge_candidates(&mut options)?;
+            report.assess_candidates(&mut options)?;
         }
         Ok(report)
     }
@@ -426,8 +426,8 @@ impl Design {
         let problem = offset_problem(&self, octahedral, poses, options.extension);
         let report =
             offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
-        let judging = Judging::from(&options.search());
-        let of = |s: &OffsetSolution| checked_offsets(&self, &problem, s, judging);
+        let assessing = Assessing::from(&options.search());
+        let of = |s: &OffsetSolution| checked_offsets(&self, &problem, s, assessing);
         let checked = report.solution().map(of).transpose()?;
         let status = offset_status(&report, checked.as_ref());
         let found = FoundOffsets { problem, report, checked };

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::super::Error;
 use super::OptimizeStatus;
-use super::judged::{Checked, Judging, checked, dimensional_status};
+use super::assessed::{Assessing, Checked, checked, dimensional_status};
 use super::problem::dimensional_problem;
 use crate::Design;
 use machine::manufacture::holes_turn;
@@ -59,14 +59,14 @@ pub struct FoundPlatform {
 }
 
 impl FoundPlatform {
-    fn judged(
+    fn assessed(
         design: &Design,
         problem: DimensionalProblem,
         report: DimensionalReport,
         symmetry: Option<StartSymmetry>,
-        judging: Judging,
+        assessing: Assessing,
     ) -> Result<Self, VerifyError> {
-        let of = |s: &DimensionalSolution| checked(design, &problem, s, judging);
+        let of = |s: &DimensionalSolution| checked(design, &problem, s, assessing);
         let found = report.solution().map(of).transpose()?;
         let nearest = report.nearest.as_deref().map(of).transpose()?;
         Ok(Self { checked: found, nearest, problem, report, symmetry })
@@ -117,17 +117,17 @@ pub(crate) fn find_platform(
     };
     let Some(kept) = keeps_symmetry_of_start(design, &free) else {
         let report = search(&free, progress)?;
-        return Ok(FoundPlatform::judged(design, free, report, None, options.into())?);
+        return Ok(FoundPlatform::assessed(design, free, report, None, options.into())?);
     };
     let report = optimize_without_conflict(&kept, options, progress)?;
-    let symmetric = FoundPlatform::judged(design, kept, report, Some(StartSymmetry::Kept), options.into())?;
+    let symmetric = FoundPlatform::assessed(design, kept, report, Some(StartSymmetry::Kept), options.into())?;
     if symmetric.is_met() || symmetric.report.interrupted {
         return Ok(symmetric);
     }
     let mut report = search(&free, progress)?;
     report.conic_programs += symmetric.report.conic_programs;
     let conic_programs = report.conic_programs;
-    let other = FoundPlatform::judged(design, free, report, Some(StartSymmetry::GivenUp), options.into())?;
+    let other = FoundPlatform::assessed(design, free, report, Some(StartSymmetry::GivenUp), options.into())?;
     if other.rank() >= symmetric.rank() {
         return Ok(other);
     }
@@ -151,15 +151,16 @@ pub struct FoundFront {
 }
 
 impl FoundFront {
-    fn judged(
+    fn assessed(
         design: &Design,
         problem: DimensionalProblem,
         report: ParetoReport,
         symmetry: Option<StartSymmetry>,
-        judging: Judging,
+        assessing: Assessing,
     ) -> Result<Self, VerifyError> {
-        let of =
-            |point: &optimize::dimensional::ParetoPoint| checked(design, &problem, &point.solution, judging);
+        let of = |point: &optimize::dimensional::ParetoPoint| {
+            checked(design, &problem, &point.solution, assessing)
+        };
         let members = report.front.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
         Ok(Self { problem, report, members, symmetry })
     }
@@ -196,7 +197,7 @@ pub(crate) fn find_front(
     let symmetric = match keeps_symmetry_of_start(design, &free) {
         Some(kept) => {
             let report = pareto(&kept, points, options, progress)?;
-            Some(FoundFront::judged(design, kept, report, Some(StartSymmetry::Kept), options.into())?)
+            Some(FoundFront::assessed(design, kept, report, Some(StartSymmetry::Kept), options.into())?)
         }
         None => None,
     };
@@ -207,7 +208,7 @@ pub(crate) fn find_front(
             let mut report = pareto(&free, points, options, progress)?;
             report.conic_programs += symmetric.as_ref().map_or(0, |s| s.report.conic_programs);
             let conic_programs = report.conic_programs;
-            let other = FoundFront::judged(design, free, report, given_up, options.into())?;
+            let other = FoundFront::assessed(design, free, report, given_up, options.into())?;
             Ok(match symmetric {
                 Some(found) if other.members.is_empty() && !found.members.is_empty() => {
                     let interrupted = other.report.interrupted;

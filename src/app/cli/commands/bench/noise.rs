@@ -20,7 +20,7 @@ pub(super) fn run(
     seed: u64,
 ) -> Result<Answer, Failure> {
     if args.svg.is_some() && classes.len() > NoiseFigure::MOST_CURVES {
-        let message = format!("a picture of {} classes cannot be read", classes.len());
+        let message = format!("a picture of {} classes would be unreadable", classes.len());
         return Err(Failure::refused("bench::too_many_classes", message)
             .with_help(format!("name at most {} classes", NoiseFigure::MOST_CURVES)));
     }

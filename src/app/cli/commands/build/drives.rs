@@ -147,12 +147,11 @@ fn assumptions(design: &Design, drives: &[Drive], with_forces: bool) -> Vec<Stri
     silent("speed", |d| d.speed, h.drive_limit(TermKind::LegSpeed).is_some());
     if h.leg_masses.is_none() && drives.iter().any(|d| d.mass.is_some()) {
         out.push(
-            "The legs have no masses in [hardware]: the mass of a drive decides between equal prices alone."
-                .into(),
+            "The legs have no masses in [hardware]: masses of drives only rank drives of equal price.".into(),
         );
     }
     if design.requirements().loads.is_empty() {
-        out.push("The design has neither loads nor masses: no force is asked of the drives at rest.".into());
+        out.push("The design has neither loads nor masses: the drives carry no force at rest.".into());
     }
     let at_rest = h.drive_limit(TermKind::LegForce).is_some() || drives.iter().any(|d| d.force.is_some());
     let at_rest = at_rest && !design.requirements().loads.is_empty();

@@ -38,7 +38,7 @@ pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Ans
         Some("toml") => Format::Toml,
         Some("json") => Format::Json,
         _ => {
-            let message = format!("{}: the extension does not tell the format", args.output.display());
+            let message = format!("{}: the extension names no known format", args.output.display());
             let failure = Failure::refused("convert::unknown_format", message);
             return Err(failure.with_help("end the name in .toml or .json"));
         }
@@ -47,10 +47,9 @@ pub(crate) fn run(args: &DesignConvertArgs, context: &mut Context) -> Result<Ans
     let mut sentences = Vec::new();
     if args.snap {
         let Some(snapped) = design.snapped() else {
-            let message =
-                format!("{}: no symmetry was found that the joints do not have exactly", design.name);
+            let message = format!("{}: no further symmetry of the joints was found", design.name);
             return Err(Failure::refused("convert::no_symmetry", message).with_help(
-                "joints are compared to two millionths of the size; constructed joints are exact already",
+                "joints are compared within two millionths of the size; constructed joints are already exact",
             ));
         };
         sentences = snapped.sentences(&design.units);

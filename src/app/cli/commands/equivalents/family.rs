@@ -59,12 +59,12 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
     if let Some(path) = &args.svg {
         files::write_text(path, &family.to_svg())?;
     }
-    let wanted = args.pattern.as_deref().map(parse_pattern).transpose()?;
+    let pattern = args.pattern.as_deref().map(parse_pattern).transpose()?;
     let members: Vec<&FamilyMember> =
-        family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
+        family.members().iter().filter(|m| pattern.as_ref().is_none_or(|p| m.pattern == *p)).collect();
     let mut answer = FamilyAnswer::new(&design.name, &original, &family, &members);
     let mut built = None;
-    if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
+    if let (Some(pattern), Some(offsets)) = (&pattern, &args.offsets) {
         let (record, platform, found) = realise(args, pattern, &design, &original, offsets)?;
         if args.explain {
             answer.derivation = Some(explain(pattern, &original, &platform, context)?);
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
         let said = map.explanation();
         sheet.line(format_args!("{} is made from an octahedral platform {said}\n", design.name));
     }
-    sheet.add(sheet::answers::family(&answer, wanted.is_some()));
+    sheet.add(sheet::answers::family(&answer, pattern.is_some()));
     // a result for a design made from the platform holds as far as the design is equivalent to it
     let of_design = original.map.as_ref().map_or(Relation::Equivalent, |map| map.relation);
     let exit = match (of_design, built.as_ref().map(|map| map.relation)) {
@@ -88,8 +88,8 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
         let written = built.as_ref().is_some_and(LegMapOutcome::is_regular_within_rounding);
         match exit {
             _ if written => sheet.line(format_args!("wrote {}", path.display())),
-            Exit::No => sheet.line("no design is written: the platform is architecturally singular"),
-            _ => sheet.line("no design is written: the platform may be architecturally singular"),
+            Exit::No => sheet.line("No design is written: the platform is architecturally singular."),
+            _ => sheet.line("No design is written: the platform may be architecturally singular."),
         }
     }
     Ok(Answer::new(exit, answer, sheet))
@@ -120,7 +120,7 @@ fn original(design: &Design) -> Result<Original, Failure> {
     };
     if original.map.as_ref().is_some_and(|map| map.relation == Relation::Singular) {
         let message = format!(
-            "{} is made from an octahedral platform, but singular: it is equivalent to none",
+            "{} is made from an octahedral platform but singular, so it is equivalent to no octahedral platform",
             design.name
         );
         return Err(no("family::singular", message).with_help("`equipod check DESIGN` says why"));
@@ -143,7 +143,10 @@ fn realise(
     original: &Original,
     offsets: &[String],
 ) -> Result<(InstanceRecord, Design, LegMapOutcome), Failure> {
-    let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
+    let refused = |e: &dyn std::fmt::Display| {
+        Failure::refused("family::bad_offsets", e.to_string())
+            .with_help("give one finite offset for each S of the pattern, separated by commas")
+    };
     let shares = original.shares(pattern, offsets).map_err(|e| refused(&e))?;
     let offsets: Vec<f64> = shares.iter().map(Share::nearest).collect();
     let (built, map) = original.equivalent_at(pattern, &shares).map_err(|e| refused(&e))?;

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &EquivalentsMapArgs, context: &mut Context) -> Result<An
     same_units(&from, &to, "map::different_units")?;
     let second = args.frames.apply(&from, &to, context)?;
     let outcome = second
-        .judged(from.manipulator())
+        .compared(from.manipulator())
         .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
     let exit = match (outcome.relation, second.refuted()) {
         (Relation::Equivalent, _) => Exit::Yes,

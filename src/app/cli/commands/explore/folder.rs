@@ -141,8 +141,10 @@ impl Folder {
         let Ok(found) = path.symlink_metadata() else { return Ok(Manifest::default()) };
         let known = if found.is_file() { files::found_record::<Manifest>(&path) } else { None };
         known.filter(|manifest| manifest.written_by.starts_with("equipod ")).ok_or_else(|| {
-            let message =
-                format!("{} is no list that `explore` wrote, and one would replace it", path.display());
+            let message = format!(
+                "{} is not a list written by `explore`, but would be replaced by one",
+                path.display()
+            );
             Failure::refused("explore::not_ours", message).with_help("move that file, or name another folder")
         })
     }

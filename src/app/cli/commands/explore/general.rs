@@ -103,9 +103,9 @@ fn replaceable(run: &mut ExploreRun<'_>) -> Result<(), Failure> {
     run.folder.keep(folder::COMPONENTS, document(answer, run.provenance.clone(), &[])?);
     let all = if families.found.doubts.is_empty() { "there are no others" } else { "there may be others" };
     let text = match families.found.components.len() {
-        0 => format!("no leg belongs to a family of replaceable legs; {all}"),
-        1 => format!("one family of legs that can be replaced without changing the platform; {all}"),
-        n => format!("{n} families of legs that can be replaced without changing the platform; {all}"),
+        0 => format!("no leg is replaceable; {all}"),
+        1 => format!("one family of replaceable legs; {all}"),
+        n => format!("{n} families of replaceable legs; {all}"),
     };
     run.done(StageWord::Components, text);
     Ok(())
@@ -117,7 +117,7 @@ fn moves(run: &mut ExploreRun<'_>) -> Result<Option<MoveSearchAnswer>, Failure> 
         let why = if run.found.is_singular() {
             "the design is architecturally singular, and so is every platform made of its legs"
         } else {
-            "no leg can be moved"
+            "no leg is replaceable"
         };
         run.done(StageWord::Moves, why);
         return Ok(None);
@@ -203,10 +203,8 @@ fn explanation(
         (Some(moves), ..) => moves.explanation.clone(),
         (None, ..) => match found.verdict() {
             ExploreVerdict::Compared(VerdictWord::Singular) => "the design is architecturally singular",
-            ExploreVerdict::None => {
-                "no leg can be replaced: no platform other than the design is equivalent to it"
-            }
-            _ => "no replaceable leg was found, but there may be some",
+            ExploreVerdict::None => "no leg is replaceable, so no other platform is equivalent to the design",
+            _ => "no replaceable leg was found, but some may exist",
         }
         .into(),
     }

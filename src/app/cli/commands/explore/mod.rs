@@ -27,7 +27,7 @@ use ask::exporting::octahedral_of_controllers;
 use ask::optimizing::{EXTENSION, SAFETY_MARGIN_PERCENT};
 use ask::rounding::DesignOnHoles;
 use ask::{
-    ComparedDesigns, Design, ExploreJudgement, ExploreOptions, ExploreReport, ExploreVerdict, ExploredClass,
+    ComparedDesigns, Design, ExploreFinding, ExploreOptions, ExploreReport, ExploreVerdict, ExploredClass,
     FreedomWord, NoExploration, NoOwnPoses, OptimizeEvidence, SAMPLES,
 };
 use fk::FkOptions;
@@ -111,45 +111,45 @@ impl Results {
 
     /// The explanation: one sentence with the deciding facts.
     fn explanation(&self) -> String {
-        let judged = |design: &Design| {
+        let assessed = |design: &Design| {
             self.assessment.as_ref().map_or_else(
-                || format!("{} does not have the space that separate joints need", design.name),
+                || format!("{} has too little space for separate joints", design.name),
                 sheet::answers::sentence,
             )
         };
         let of_offsets = matches!(self.found.search.evidence, OptimizeEvidence::Offsets(_));
-        match (self.found.judgement(), of_offsets) {
-            (ExploreJudgement::Infeasible, true) => {
-                "every branch of offsets is proved to violate the limits".into()
+        match (self.found.finding(), of_offsets) {
+            (ExploreFinding::Infeasible, true) => {
+                "every branch of offsets violates the limits: proved".into()
             }
-            (ExploreJudgement::Infeasible, false) => {
+            (ExploreFinding::Infeasible, false) => {
                 format!(
-                    "no start met the requirements together; the conflict stands in optimize.json{}",
+                    "no start met the requirements together; optimize.json has the conflict{}",
                     self.what_resolves_it()
                 )
             }
-            (ExploreJudgement::NotFound, true) => {
-                "no offsets were found that keep the limits, but some branches are not proved empty".into()
+            (ExploreFinding::NotFound, true) => {
+                "no offsets were found within the limits, but some branches are not proved to be empty".into()
             }
-            (ExploreJudgement::NotFound, false) => {
+            (ExploreFinding::NotFound, false) => {
                 format!(
-                    "no platform that meets the requirements was found, and no conflict{}",
+                    "no platform that meets the requirements was found, and no conflict either{}",
                     self.what_resolves_it()
                 )
             }
-            (ExploreJudgement::Violated(design) | ExploreJudgement::Unproved(design), _) => judged(design),
-            (ExploreJudgement::OnHoles, _) => match (self.found.built(), &self.assessment) {
+            (ExploreFinding::Violated(design) | ExploreFinding::Unproved(design), _) => assessed(design),
+            (ExploreFinding::OnHoles, _) => match (self.found.built(), &self.assessment) {
                 (Some(_), Some(a)) => {
                     format!("{}; its joints are on the holes", sheet::answers::sentence(a))
                 }
-                _ => "all joints are on the holes; nothing is required besides".into(),
+                _ => "all joints are on the holes; the design has no other requirements".into(),
             },
-            (ExploreJudgement::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
-            (ExploreJudgement::Compared(_), _) => {
+            (ExploreFinding::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
+            (ExploreFinding::Compared(_), _) => {
                 self.verified.as_ref().map_or_else(String::new, |v| v.explanation.clone())
             },
-            (ExploreJudgement::New, _) => {
-                "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
+            (ExploreFinding::New, _) => {
+                "the platform meets its requirements. Its triangles were chosen too, so its kinematics are new".into()
             }
         }
     }
@@ -179,7 +179,7 @@ fn machine(design: &Design, folder: &mut Folder) -> Result<MachineFiles, Failure
 /// The answer of `build round` about the platform on its holes.
 fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAnswer {
     let report = RoundReport {
-        design: &on.wanted,
+        design: &on.given,
         choices: &on.choices,
         found: &on.rounding,
         rounded: on.found.as_ref().map(|(way, design)| (*way, design)),
@@ -231,8 +231,7 @@ pub(crate) fn run(args: &ExploreArgs, context: &mut Context) -> Result<Answer, F
         context.no_effect("time_limit", why)?;
         optimize::refuse_drives(&design, why)?;
         if design.holes.is_some() {
-            let message =
-                "the design states [holes], and joints are put on them for octahedral designs alone";
+            let message = "the design states [holes], but only joints of octahedral designs are put on holes";
             return Err(Failure::refused("explore::holes", message).with_help(
                 "`equipod build round` puts the joints of this design on its holes; without [holes] it can be explored",
             ));

@@ -131,7 +131,7 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
         format!(" Chosen again after rounding: {}.", plain(&again.join(", ")))
     };
     let rows = joints.into_iter().flatten().map(|j| {
-        let name = on.wanted.joint_names(j.joint.body)[j.joint.index].clone();
+        let name = on.given.joint_names(j.joint.body)[j.joint.index].clone();
         let hole = j.cell.map_or_else(|| "as given".into(), |[i, k]| format!("{i}, {k}"));
         [j.joint.body.to_string(), name, hole, format!("{:.3}", j.moved.norm())]
     });

@@ -11,7 +11,7 @@ use ask::{Design, ExploreProgress, OptimizeProgress};
 /// Refuses a design whose answer is not a single platform.
 pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
     if matches!(SearchKind::of(design, true), SearchKind::Front(_)) {
-        let message = "mode = \"pareto\" asks for many platforms, and the folder is about one";
+        let message = "mode = \"pareto\" gives many platforms, but the folder is about one";
         return Err(Failure::refused("explore::front", message).with_help(
             "`equipod optimize` gives the front; explore one of its members, or set another mode",
         ));
@@ -26,8 +26,7 @@ pub(super) fn refuse_options(design: &Design, with_drives: bool, context: &Conte
     }
     optimize::refuse_extension(design, context)?;
     if dimensional_problem(design, EXTENSION).variables.triangles != Triangles::Fixed {
-        let why =
-            "a platform with other triangles has kinematics of its own, which are compared with nothing";
+        let why = "a platform with other triangles has other kinematics, so it is not compared";
         context.no_effect("samples", why)?;
     }
     Ok(())

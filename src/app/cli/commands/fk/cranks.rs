@@ -53,14 +53,11 @@ pub(super) fn run(
     (design, platform): (&Design, &RotaryPlatform),
     context: &Context,
 ) -> Result<Answer, Failure> {
-    context.no_effect(
-        "lengths",
-        "the rods of a design with cranks have one length; poses are asked for by --angles",
-    )?;
+    context.no_effect("lengths", "the rods of a design with cranks have constant lengths; give --angles")?;
     let series = given(args.angles.as_deref(), context)?;
     let frames = args.frames.of(design);
     let table = PoseTable {
-        wanted: args.csv,
+        requested: args.csv,
         all: args.all,
         time_name: series.time_name.clone(),
         frames,
@@ -70,7 +67,7 @@ pub(super) fn run(
     let one = series.rows.len() == 1 && series.rows[0].line == 0;
     let machine = CrankMachine { design, platform, frames, seed: context.seed() };
     let (exits, outcomes) = if let Some(start) = &args.near {
-        context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
+        context.no_effect("threads", "each row is followed from the row before it")?;
         let start = poses::parse(start, &frames, "--near", "fk::bad_pose")?;
         machine.follow(&series.rows, &start)?
     } else {
@@ -136,7 +133,7 @@ impl CrankMachine<'_> {
     ) -> Result<(Vec<Exit>, Vec<FkRowOutcome>), Failure> {
         let angles = self.platform.ik(start).map_err(|why| {
             Failure::refused("fk::bad_pose", format!("--near: the cranks do not hold this pose: {why}"))
-                .with_help("give a pose that `equipod ik` finds angles for")
+                .with_help("give a pose for which `equipod ik` finds angles")
         })?;
         let mut tracker = RotaryTracker::new(self.platform.clone(), *start, angles);
         let (mut exits, mut outcomes) = (Vec::new(), Vec::new());

@@ -11,7 +11,7 @@ const BESIDE_COMPLETENESS: usize = 14;
 #[derive(Debug, Clone)]
 pub(super) struct PoseTable {
     /// Whether the table is requested.
-    pub(super) wanted: bool,
+    pub(super) requested: bool,
     /// Whether complex poses are included.
     pub(super) all: bool,
     /// The column of times of the lengths.
@@ -25,7 +25,7 @@ pub(super) struct PoseTable {
 impl PoseTable {
     /// The table, if requested.
     pub(super) fn text(&self, design: &Design, answer: &FkAnswer) -> Option<String> {
-        if !self.wanted {
+        if !self.requested {
             return None;
         }
         let many = matches!(answer, FkAnswer::Rows(_));

@@ -16,8 +16,7 @@ pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
     if !design.hardware.is_coupled() {
         return Ok(());
     }
-    let message =
-        "the joints are not ideal, and all poses for given lengths are found for distances of joints only";
+    let message = "the joints are not ideal; all poses are found only for ideal joints";
     let help = "give --near POSE to follow one pose, or remove `offset` and `screw_lead` from the file for the machine with ideal joints";
     Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help))
 }

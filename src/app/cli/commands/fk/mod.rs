@@ -119,9 +119,10 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
     }
     let given = lengths::given(args.lengths.as_deref(), &design, context)?;
     let frames = args.frames.of(&design);
-    let table = PoseTable { wanted: args.csv, all: args.all, time_name: None, frames, limits: args.limits };
+    let table =
+        PoseTable { requested: args.csv, all: args.all, time_name: None, frames, limits: args.limits };
     if let Some(text) = &args.near {
-        context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
+        context.no_effect("threads", "each row is followed from the row before it")?;
         let start = poses::parse(text, &frames, "--near", "fk::bad_pose")?;
         if let Some(legs) = Context::coupled_of(&design)? {
             return Ok(drives::run(&design, legs, &given, start, context.seed(), &table));

@@ -161,7 +161,7 @@ pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Fa
     let motions = chosen.motions(&design, context)?;
     if chosen.is_empty() && !args.stiffness {
         let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
-        return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
+        return Err(Failure::refused("motion::no_motion", "no motion is given").with_help(help));
     }
     note_frames(&args.frames.of(&design), context);
     let masses = masses(args, &design)?;
@@ -204,7 +204,7 @@ fn refuse_without_effect(args: &MotionArgs, design: &Design, context: &Context) 
     if args.sine.is_empty() && args.accelerate.is_empty() && !args.stiffness {
         context.no_effect(
             "about",
-            "there is neither a sine nor an acceleration, and no stiffness is asked for",
+            "there is neither a sine nor an acceleration, and --stiffness is not given",
         )?;
     }
     if design.moving_payload().is_none() {
@@ -229,16 +229,15 @@ fn stiffness(
         return Ok(None);
     }
     if design.has_cranks() {
-        let message =
-            "the legs are rods on cranks, and stiffness is computed of legs that change their lengths";
+        let message = "the legs are rods on cranks; stiffness is computed for legs of variable length only";
         return Err(Failure::refused("motion::no_stiffness", message).with_help(
             "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
         ));
     }
     let found =
         design.stiffness_at(&about(&args.about, &args.frames.of(design))?, masses).ok_or_else(|| {
-            Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
-                .with_help("add leg_stiffness to [hardware], force units per design unit")
+            Failure::refused("motion::no_stiffness", "the design has no stiffness of its legs")
+                .with_help("add `leg_stiffness` to [hardware], in force units per design unit")
         })?;
     Ok(Some(StiffnessRecord::new(&found)))
 }

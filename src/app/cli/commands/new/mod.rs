@@ -121,11 +121,11 @@ const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --plat
 /// Questions on a terminal.
 fn asked() -> Result<PromptedHexapod, Failure> {
     if !streams::input_is_terminal() {
-        let message = "nothing says what the new design is, and there is no terminal to ask on";
+        let message = "no sizes are given, and there is no terminal for questions";
         return Err(Failure::refused("new::nothing_given", message).with_help(WAYS));
     }
     prompts::ask(&mut stdin().lock(), &mut stderr().lock()).ok_or_else(|| {
-        Failure::refused("new::nothing_given", "the questions were not answered").with_help(WAYS)
+        Failure::refused("new::nothing_given", "no answer was given to the questions").with_help(WAYS)
     })
 }
 
@@ -147,7 +147,8 @@ fn sizes(args: &NewArgs) -> Result<HexapodSizes, Failure> {
 }
 
 fn bad(why: impl Into<String>) -> Failure {
-    Failure::refused("new::bad_sizes", why).with_help("choose other sizes")
+    Failure::refused("new::bad_sizes", why)
+        .with_help("give positive radii and a positive height, and spreads from 0 to less than 120 degrees whose sum is not 120")
 }
 
 fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str, context: &Context) -> Result<Made, Failure> {

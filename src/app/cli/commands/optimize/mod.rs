@@ -95,7 +95,7 @@ fn refuse_options(args: &OptimizeArgs, design: &Design, context: &Context) -> Re
     if kind == SearchKind::Offsets {
         context.no_effect(
             "candidates",
-            "the search for offsets alone looks for the best of all; --survey gives the best of every branch",
+            "the search for offsets alone finds only the best of all branches; --survey gives the best of each",
         )?;
         if !(args.gap > 0.0 && args.gap.is_finite()) {
             let message = format!("--gap is {}, not a positive number", args.gap);
@@ -103,18 +103,18 @@ fn refuse_options(args: &OptimizeArgs, design: &Design, context: &Context) -> Re
         }
         return Ok(());
     }
-    let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
+    let why = "a bound over all offsets is proved only for designs whose offsets are the only variables";
     context.no_effect("gap", why)?;
     context.no_effect(
         "survey",
-        "the branches of the offsets are not searched for a design that asks for more",
+        "the branches of the offsets are searched only for designs without further variables or requirements",
     )?;
     refuse_extension(design, context)?;
     if let SearchKind::Front(_) = kind {
         context.no_effect("history", "a front is the result of many runs")?;
         context.no_effect("candidates", "a front is a list of platforms already")?;
-        context.no_effect("drives", "a front is many platforms, and a drive is chosen for one")?;
-        refuse_drives(design, "a front is many platforms, and a drive is chosen for one")?;
+        context.no_effect("drives", "a front has many platforms, but a drive is chosen for one")?;
+        refuse_drives(design, "a front has many platforms, but a drive is chosen for one")?;
     }
     Ok(())
 }
@@ -206,14 +206,14 @@ pub(super) fn refuse_singular_home(design: &Design, extension: f64, code: &str) 
     let Some(home) = hopeless_home(design, extension) else { return Ok(()) };
     let message = format!("{home}, and no equivalent platform holds it");
     Err(Failure::new(Exit::No, code, message).with_help(
-        "state another pose in [home], for example a turn about the vertical axis, or let the search choose the triangles or the height of home",
+        "state another pose in [home], for example rotated about the vertical axis, or let the search choose the triangles or the height of home",
     ))
 }
 
 /// Refuses `--extension` if the search under requirements does not use it.
 pub(super) fn refuse_extension(design: &Design, context: &Context) -> Result<(), Failure> {
     if design.search.offset_bounds.is_some() {
-        context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
+        context.no_effect("extension", "the design has `offset_bounds`")?;
     }
     if !dimensional_problem(design, EXTENSION).variables.offsets {
         context.no_effect("extension", "no offsets are chosen")?;

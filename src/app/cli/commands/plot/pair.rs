@@ -7,7 +7,7 @@ use crate::app::cli::{Context, Exit, Failure};
 use files::plot::{PairFigure, platform_pair};
 use platform::geom::PoseConvention;
 use synthesis::Relation;
-use verify::judge;
+use verify::decide_map;
 
 /// Arguments of `plot pair`.
 #[derive(Debug, clap::Args)]
@@ -27,7 +27,7 @@ pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String,
     let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
     let pose =
         poses::parse(&args.pose, &a.pose_frames(PoseConvention::default()), "--pose", "plot::bad_pose")?;
-    let found = judge(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
+    let found = decide_map(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
     let between = match found.relation {
         Relation::Equivalent => {
             vec!["s\u{2032} = A s + c".into(), format!("det A = {:.3}", found.determinant)]
@@ -42,7 +42,7 @@ pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String,
                 found.explanation()
             );
             return Err(Failure::new(Exit::No, "plot::no_leg_map", message).with_help(
-                "`equipod equivalents map A B --align` looks for other frames of the second design",
+                "`equipod equivalents map A B --align` searches for other frames of the second design",
             ));
         }
     };

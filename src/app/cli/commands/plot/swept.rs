@@ -58,17 +58,22 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
         args.columns.len(),
     );
     if !(least..=most).contains(&given) {
-        let message = format!("{given} columns were given for {kind}");
-        let help = if least == most { format!("give {least}") } else { format!("give {least} to {most}") };
+        let message =
+            format!("--columns names {given} of the columns, too few or too many for the kind {kind}");
+        let help = if least == most {
+            format!("give {least} names")
+        } else {
+            format!("give {least} to {most} names")
+        };
         return Err(Failure::refused("plot::columns", message).with_help(help));
     }
     let table = SweptTable::open(&args.table, &args.keep)?;
-    let wanted = args.columns.iter().map(|name| table.column(name)).collect::<Result<Vec<usize>, _>>()?;
+    let chosen = args.columns.iter().map(|name| table.column(name)).collect::<Result<Vec<usize>, _>>()?;
     let mut candidates = Vec::new();
-    let mut values = vec![Vec::new(); wanted.len()];
+    let mut values = vec![Vec::new(); chosen.len()];
     table.each_row(|row| {
         candidates.push(row[0].as_number().unwrap_or(-1.0) as i64);
-        for (list, k) in values.iter_mut().zip(&wanted) {
+        for (list, k) in values.iter_mut().zip(&chosen) {
             list.push(row[*k].as_number().unwrap_or(f64::NAN));
         }
     })?;
@@ -78,7 +83,7 @@ pub(super) fn draw(args: &PlotSweptArgs) -> Result<String, Failure> {
         None => all[*k].name.clone(),
     };
     let columns =
-        wanted.iter().zip(values).map(|(k, values)| SweptColumn { label: label(k), values }).collect();
+        chosen.iter().zip(values).map(|(k, values)| SweptColumn { label: label(k), values }).collect();
     let digest = table.note("equipod.plan_sha256");
     let filter = if args.keep.is_empty() { String::new() } else { format!(" with {}", args.keep.join(", ")) };
     let note = format!(

@@ -184,10 +184,10 @@ fn inside(region: Region, widths: &[f64; 6], x: &[f64; 6]) -> f64 {
 
 fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
     let mut out = vec![
-        "The other four freedoms are those of the marked pose. Of several limits the one missed by the largest share gives the colour.".to_string(),
+        "The other four coordinates are those of the marked pose. The colour shows the limit with the largest relative violation.".to_string(),
         "Evaluated at the points of the grid; nothing is proved between them.".to_string(),
     ];
-    if !limits.judges_singularity() {
+    if !limits.checks_singularity() {
         out.push("Home is singular: singular poses are not shown as a limit.".into());
     }
     if design.requirements() == machine::requirements::Requirements::default() {

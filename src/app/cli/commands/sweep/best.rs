@@ -16,7 +16,7 @@ const PAGE: &str = "report.html";
 /// Greatest number of designs written: the page compares all of them.
 const MOST: u64 = 50;
 /// Number of candidates tried for each requested design: several may be one design.
-const SPARE: usize = 20;
+const RANKED: usize = 20;
 
 /// Arguments of `sweep best`.
 #[derive(Debug, clap::Args)]
@@ -64,13 +64,13 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
         }
         ranked.push((value, k.cast_unsigned()));
         // the memory does not grow with the table
-        if ranked.len() >= 2 * SPARE * count {
+        if ranked.len() >= 2 * RANKED * count {
             ranked.sort_by(better);
-            ranked.truncate(SPARE * count);
+            ranked.truncate(RANKED * count);
         }
     })?;
     ranked.sort_by(better);
-    ranked.truncate(SPARE * count);
+    ranked.truncate(RANKED * count);
     let (mut candidates, mut paths, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     if !ranked.is_empty() {
         files::make_folder(&args.output)?;
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
             break;
         }
         let text = sweep.design_text(k).map_err(|why| {
-            Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
+            Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} gives no design: {why}"))
         })?;
         // candidates may differ only in lengths and poses, which are not part of the design
         if texts.contains(&text) {
@@ -100,7 +100,7 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
     }
     if candidates.is_empty() {
         let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: None };
-        return Ok(Answer::new(Exit::No, answer, "no row has a value and is kept\n"));
+        return Ok(Answer::new(Exit::No, answer, "No row passes the filters and has a value.\n"));
     }
     let page = args.output.join(PAGE);
     files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name)))?;

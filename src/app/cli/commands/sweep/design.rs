@@ -25,11 +25,12 @@ pub(crate) fn run(args: &SweepDesignArgs) -> Result<Answer, Failure> {
     let sweep = folder.sweep()?;
     let k = args.candidate;
     if k >= sweep.count() {
-        let message = format!("there is no candidate {k}: the sweep has {}, counted from 0", sweep.count());
+        let message =
+            format!("there is no candidate {k}; the sweep has {} candidates, counted from 0", sweep.count());
         return Err(Failure::refused("sweep::no_candidate", message));
     }
     let text = sweep.design_text(k).map_err(|why| {
-        Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
+        Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} gives no design: {why}"))
     })?;
     let (file, said) = match &args.output {
         Some(path) => {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::app::cli::sweep_folder::{
-    PartLook, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
+    PartCheck, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
 };
 use crate::app::cli::{Answer, Exit, Failure, OutputPath, files};
 use records::SweepMergeAnswer;
@@ -35,10 +35,10 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
         .with_help("name a file"));
     }
     let states: Vec<ShardState> =
-        (0..folder.record.shards).map(|s| folder.state(s, PartLook::Whole)).collect();
+        (0..folder.record.shards).map(|s| folder.state(s, PartCheck::Whole)).collect();
     let is_done = |s: &ShardState| matches!(s, ShardState::Done(_));
-    let numbers = |wanted: bool| {
-        (0..).zip(&states).filter(|(_, s)| is_done(s) == wanted).map(|(k, _)| k).collect::<Vec<u64>>()
+    let numbers = |requested: bool| {
+        (0..).zip(&states).filter(|(_, s)| is_done(s) == requested).map(|(k, _)| k).collect::<Vec<u64>>()
     };
     let (done, missing) = (numbers(true), numbers(false));
     if done.is_empty() || !(missing.is_empty() || args.partial) {
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     }
     let first = folder.reader(done[0])?;
     let (description, columns) = (first.note("equipod.description"), first.columns);
-    let wanted: Vec<usize> = (0..columns.len()).collect();
+    let requested: Vec<usize> = (0..columns.len()).collect();
     let path = &args.output;
     let failed = |e: PartError| part_failed(path, &e);
     let written = write_whole(path, |to| {
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
         for shard in &done {
             let reader = folder.reader(*shard)?;
             for group in 0..reader.groups() {
-                for mut row in reader.group(group, &wanted).map_err(failed)? {
+                for mut row in reader.group(group, &requested).map_err(failed)? {
                     rows += 1;
                     writer.push(&mut row).map_err(failed)?;
                 }
@@ -71,7 +71,8 @@ pub(crate) fn run(args: &SweepMergeArgs) -> Result<Answer, Failure> {
     })?;
     let Some((rows, bytes, sha256)) = written else { return Err(Failure::internal("nothing was written")) };
     let output = path.display().to_string();
-    let text = format!("{output}: {rows} rows of {} parts, {bytes} bytes\nsha256 {sha256}\n", done.len());
+    let text =
+        format!("wrote {output}: {rows} rows of {} parts, {bytes} bytes\nsha256 {sha256}\n", done.len());
     let answer = SweepMergeAnswer { output, parts: done.len() as u64, rows, bytes, sha256 };
     Ok(Answer::new(Exit::Yes, answer, text))
 }

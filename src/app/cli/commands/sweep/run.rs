@@ -1,6 +1,6 @@
 //! `equipod sweep run`: the candidates of a plan, or one shard of them.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use crate::app::cli::diagnostic;
 use crate::app::cli::progress::{Interrupt, ProgressLine};
 use crate::app::cli::sweep_folder::{
-    MOST_SHARDS, PartLook, ShardState, SweepFolder, SweepTexts, default_shards,
+    MOST_SHARDS, PartCheck, ShardState, SweepFolder, SweepTexts, default_shards,
 };
 use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath};
 use fk::Threads;
@@ -59,7 +59,7 @@ impl std::str::FromStr for ShardNumber {
         let (shard, shards) = text.split_once('/').ok_or_else(form)?;
         let (shard, shards) = (shard.parse().map_err(|_| form())?, shards.parse().map_err(|_| form())?);
         if !(1..=MOST_SHARDS).contains(&shards) {
-            return Err(format!("{shards} shards: from 1 to {MOST_SHARDS} are possible"));
+            return Err(format!("{shards} shards, but 1 to {MOST_SHARDS} are possible"));
         }
         Ok(Self { shard, shards })
     }
@@ -85,7 +85,7 @@ pub(crate) fn run(args: &SweepRunArgs, context: &mut Context) -> Result<Answer, 
     }
     // clap ensures this
     let Some(output) = &args.output else { return Err(Failure::internal("there is no folder")) };
-    let wanted = match args.shard {
+    let shard = match args.shard {
         None => None,
         Some(ShardNumber { shard, shards }) => {
             let number = shard.saturating_add(args.shard_offset);
@@ -98,20 +98,20 @@ pub(crate) fn run(args: &SweepRunArgs, context: &mut Context) -> Result<Answer, 
         }
     };
     let folder = SweepFolder::begin(output, &texts, &sweep, args.shard.map(|s| s.shards).or(args.shards))?;
-    compute(&folder, &sweep, wanted, threads, context)
+    compute(&folder, &sweep, shard, threads, context)
 }
 
 fn compute(
     folder: &SweepFolder,
     sweep: &Arc<Sweep>,
-    wanted: Option<u64>,
+    shard: Option<u64>,
     threads: usize,
     context: &Context,
 ) -> Result<Answer, Failure> {
     let shards = folder.record.shards;
-    let all = wanted.map_or(0..shards, |s| s..s + 1);
+    let all = shard.map_or(0..shards, |s| s..s + 1);
     let mut known: BTreeMap<u64, ShardState> =
-        all.clone().map(|shard| (shard, folder.state(shard, PartLook::Whole))).collect();
+        all.clone().map(|shard| (shard, folder.state(shard, PartCheck::Whole))).collect();
     let is_open =
         |(shard, state): (&u64, &ShardState)| (!matches!(state, ShardState::Done(_))).then_some(*shard);
     let open: Vec<u64> = known.iter().filter_map(is_open).collect();
@@ -122,7 +122,7 @@ fn compute(
         let sample = CandidateSample::of(sweep);
         let seconds = sample.seconds_each() * total as f64 / threads as f64;
         diagnostic::print_note(&format!(
-            "{total} candidates in {} shards, about {} on {threads} thread{}, from a sample of {}",
+            "{total} candidates in {} shards: {} on {threads} thread{}, estimated from a sample of {}",
             open.len(),
             spoken(seconds),
             if threads == 1 { "" } else { "s" },
@@ -149,7 +149,7 @@ fn compute(
                 break;
             }
             // another process may have finished and removed the same shard meanwhile
-            Err(error) => match folder.state(shard, PartLook::Whole) {
+            Err(error) => match folder.state(shard, PartCheck::Whole) {
                 ShardState::Done(manifest) => {
                     known.insert(shard, ShardState::Done(manifest));
                     continue;
@@ -161,7 +161,7 @@ fn compute(
         computed.push(shard);
     }
     let mut status = folder.status_after(computed, |shard| {
-        known.remove(&shard).unwrap_or_else(|| folder.state(shard, PartLook::Size))
+        known.remove(&shard).unwrap_or_else(|| folder.state(shard, PartCheck::Size))
     });
     if status.missing.is_empty() {
         folder.tidy();
@@ -171,7 +171,7 @@ fn compute(
     let exit = if interrupted || left { Exit::Inconclusive } else { Exit::Yes };
     let mut text = super::status::text(&status);
     if interrupted {
-        text.push_str("Interrupted: the same command goes on where it ended.\n");
+        text.push_str("Interrupted: the same command continues the run.\n");
     }
     Ok(Answer::new(exit, SweepRunAnswer::Run(status), text))
 }
@@ -215,9 +215,9 @@ impl CandidateSample {
 fn spoken(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".into(),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
+        s if s < 120.0 => format!("about {s:.0} s"),
+        s if s < 7200.0 => format!("about {:.0} min", s / 60.0),
+        s => format!("about {:.1} h", s / 3600.0),
     }
 }
 
@@ -238,7 +238,7 @@ fn estimate(sweep: &Sweep, threads: usize, shards: Option<u64>) -> Answer {
         columns: sweep.columns.iter().map(SweepColumnRecord::from).collect(),
     };
     let mut text = format!(
-        "{}: {} candidates in {} shards, {:.3} ms each, about {} on {threads} thread{}\n{} of {} candidates of the sample are kept, {} have an error\n\n",
+        "{}: {} candidates in {} shards, {:.3} ms each, {} on {threads} thread{}\n{} of {} sampled candidates pass the filters, {} have an error\n\n",
         answer.name,
         answer.candidates,
         answer.shards,

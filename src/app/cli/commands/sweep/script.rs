@@ -1,6 +1,6 @@
 //! `equipod sweep script`: a script that submits the shards of a plan to a cluster.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -47,8 +47,8 @@ pub(crate) fn run(args: &SweepScriptArgs, context: &mut Context) -> Result<Answe
     let each = CandidateSample::of(&sweep).seconds_each();
     let seconds = each * sweep.count() as f64 / args.threads as f64;
     let shards = args.shards.unwrap_or_else(|| {
-        let wanted = (seconds / (60.0 * args.minutes as f64)).ceil().clamp(1.0, MOST_SHARDS as f64);
-        (wanted as u64).min(sweep.count().max(1))
+        let needed = (seconds / (60.0 * args.minutes as f64)).ceil().clamp(1.0, MOST_SHARDS as f64);
+        (needed as u64).min(sweep.count().max(1))
     });
     let script =
         Script { args, seed, shards, minutes: seconds / 60.0 / shards as f64, name: &sweep.plan.name }
@@ -126,7 +126,7 @@ shard)
     ;;
 merge)
     if ! "$equipod" sweep verify "$folder"; then
-        echo "not merged: once the reason is mended, the same script submits what is missing" >&2
+        echo "not merged: remove the cause, then the same script submits the missing shards" >&2
         exit 1
     fi
     exec "$equipod" sweep merge "$folder" --output "$folder/merged.parquet"

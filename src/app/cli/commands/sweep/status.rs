@@ -24,7 +24,7 @@ pub(crate) fn run(args: &SweepStatusArgs) -> Result<Answer, Failure> {
 
 pub(super) fn text(s: &SweepStatusAnswer) -> String {
     let mut out = format!(
-        "{}: {} of {} shards are done, {} rows of {} candidates, {} with an error\n",
+        "{}: {} of {} shards finished; {} rows of {} candidates, {} with an error\n",
         s.name,
         s.done.len(),
         s.shards,
@@ -39,7 +39,7 @@ pub(super) fn text(s: &SweepStatusAnswer) -> String {
         let _ = writeln!(out, "shard {}: {}", d.shard, d.reason);
     }
     if !s.unfinished.is_empty() {
-        let _ = writeln!(out, "being written, or left by a run that was ended: {}", s.unfinished.join(", "));
+        let _ = writeln!(out, "being written, or left by an interrupted run: {}", s.unfinished.join(", "));
     }
     out
 }

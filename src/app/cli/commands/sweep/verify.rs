@@ -1,6 +1,6 @@
 //! `equipod sweep verify`: checks the digests of all parts, and recomputes a random sample.
 
-#![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
+#![allow(clippy::cast_sign_loss, reason = "only shares of counts are cast")]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -44,12 +44,12 @@ pub(crate) fn run(args: &SweepVerifyArgs, context: &mut Context) -> Result<Answe
     let mut text = super::status::text(&status);
     let _ = writeln!(
         text,
-        "{} candidates computed again: {}",
+        "{} candidates recomputed: {}",
         checked.len(),
         if different.is_empty() {
-            "all rows are the same, bit for bit".into()
+            "all rows equal bit for bit".into()
         } else {
-            format!("other rows at {different:?}")
+            format!("different rows {different:?}")
         }
     );
     let exit = if same { Exit::Yes } else { Exit::No };
@@ -71,7 +71,7 @@ fn sample(sweep: &Sweep, n: u64, seed: u64) -> Vec<u64> {
 }
 
 /// The rows of these candidates in the part of a shard.
-fn rows(folder: &SweepFolder, shard: u64, wanted: &[u64]) -> Result<BTreeMap<u64, SweepRow>, Failure> {
+fn rows(folder: &SweepFolder, shard: u64, candidates: &[u64]) -> Result<BTreeMap<u64, SweepRow>, Failure> {
     let reader = folder.reader(shard)?;
     let damaged = |e: sweep::part::PartError| {
         Failure::refused("sweep::damaged", format!("{}: {e}", folder.part(shard).display()))
@@ -81,7 +81,7 @@ fn rows(folder: &SweepFolder, shard: u64, wanted: &[u64]) -> Result<BTreeMap<u64
     for group in 0..reader.groups() {
         for row in reader.group(group, &columns).map_err(damaged)? {
             if let SweepCell::Integer(k) = row[0]
-                && let Some(k) = u64::try_from(k).ok().filter(|k| wanted.binary_search(k).is_ok())
+                && let Some(k) = u64::try_from(k).ok().filter(|k| candidates.binary_search(k).is_ok())
             {
                 found.insert(k, row);
             }

@@ -15,7 +15,7 @@ impl PlanReader<'_, '_> {
 
     /// Checks that free quantities fit each other and the base design.
     pub(super) fn quantities(&mut self, plan: &SweepPlan, place: &Span) {
-        let has = |wanted: &dyn Fn(&FreeQuantity) -> bool| plan.quantities().filter(|q| wanted(q)).count();
+        let has = |counts: &dyn Fn(&FreeQuantity) -> bool| plan.quantities().filter(|q| counts(q)).count();
         let offsets = has(&|q| matches!(q, FreeQuantity::Offset(_)));
         let pattern = has(&|q| *q == FreeQuantity::Pattern) > 0;
         if (offsets > 0 || pattern) && plan.text_is_fixed() && Original::of(&self.base.design).is_none() {
@@ -135,7 +135,7 @@ impl PlanReader<'_, '_> {
                     self.report.refuse(
                         Code::ConflictingKeys,
                         place,
-                        "the base design requires nothing that `assess` could answer",
+                        "the base design has no requirements that `assess` could check",
                         "add [hardware] to the design, or leave the field out",
                     );
                 }

@@ -16,8 +16,8 @@ pub(super) fn to_coordinates(
     guesses: &mut Vec<String>,
 ) -> Result<(), InvalidPointTable> {
     let Some(header) = sheet.header.clone() else { return Ok(()) };
-    let columns = |wanted: fn(&str) -> bool| -> Vec<usize> {
-        (0..header.len()).filter(|c| wanted(&header[*c])).collect()
+    let columns = |accepts: fn(&str) -> bool| -> Vec<usize> {
+        (0..header.len()).filter(|c| accepts(&header[*c])).collect()
     };
     let (radii, angles) = (columns(is_radius), columns(is_angle));
     if radii.is_empty() && angles.is_empty() {

@@ -23,7 +23,7 @@
 #define FLOOR floorf
 #define CEIL ceilf
 /* A cosine that is greater than 1 by so little is 1 rounded. */
-#define ROOM 5e-6
+#define ROUNDING 5e-6
 #else
 #define SQRT sqrt
 #define FABS fabs
@@ -34,7 +34,7 @@
 #define HYPOT hypot
 #define FLOOR floor
 #define CEIL ceil
-#define ROOM 1e-14
+#define ROUNDING 1e-14
 #endif
 
 #define TURN R(6.283185307179586)
@@ -82,7 +82,7 @@ int equipod_crank_angles(const equipod_cranks *cranks, const equipod_pose *pose,
         x = dot(d, cranks->zero[i]);
         y = dot(d, cranks->quarter[i]);
         cosine = (dot(d, d) + r * r - l * l) / (R(2) * r) / HYPOT(x, y);
-        if (!(FABS(cosine) <= R(1) + R(ROOM))) {
+        if (!(FABS(cosine) <= R(1) + R(ROUNDING))) {
             return i + 1;
         }
         cosine = cosine > R(1) ? R(1) : cosine < R(-1) ? R(-1) : cosine;

@@ -86,16 +86,16 @@ static void angles(const angle_vector *v, unsigned number)
     equipod_crank_transmissions(&equipod_design_cranks, &pose, kept, transmissions);
     check(equipod_crank_jacobian(&equipod_design_cranks, &pose, kept, j), "regular cranks", number);
     for (i = 0; i < 6; i += 1) {
-        const double room = ANGLES / fabs(v->transmissions[i]);
+        const double tolerance = ANGLES / fabs(v->transmissions[i]);
         double row = 0;
-        check(fabs((double)kept[i] - v->kept[i]) <= room, "an angle", number);
-        check(fabs((double)other[i] - v->other[i]) <= room, "an angle of the other side", number);
-        check(fabs((double)transmissions[i] - v->transmissions[i]) <= room, "a transmission", number);
+        check(fabs((double)kept[i] - v->kept[i]) <= tolerance, "an angle", number);
+        check(fabs((double)other[i] - v->other[i]) <= tolerance, "an angle of the other side", number);
+        check(fabs((double)transmissions[i] - v->transmissions[i]) <= tolerance, "a transmission", number);
         for (k = 0; k < 6; k += 1) {
             row = fmax(row, fabs(v->jacobian[i][k]));
         }
         for (k = 0; k < 6; k += 1) {
-            check(fabs((double)j[i][k] - v->jacobian[i][k]) <= row * room / fabs(v->transmissions[i]), "the Jacobian", number);
+            check(fabs((double)j[i][k] - v->jacobian[i][k]) <= row * tolerance / fabs(v->transmissions[i]), "the Jacobian", number);
         }
     }
 }
@@ -105,7 +105,7 @@ static void step(const step_vector *v, unsigned number)
     const equipod_pose start = pose_from(&v->start);
     real_t from[6], to[6];
     equipod_result found;
-    const double room = POSES / v->frobenius_ratio;
+    const double tolerance = POSES / v->frobenius_ratio;
     int i, k;
     for (i = 0; i < 6; i += 1) {
         from[i] = R(v->from[i]);
@@ -117,9 +117,9 @@ static void step(const step_vector *v, unsigned number)
         return;
     }
     for (i = 0; i < 3; i += 1) {
-        check(fabs((double)found.pose.position[i] - v->pose.position[i]) <= room * EQUIPOD_DESIGN_SIZE, "a tracked position", number);
+        check(fabs((double)found.pose.position[i] - v->pose.position[i]) <= tolerance * EQUIPOD_DESIGN_SIZE, "a tracked position", number);
         for (k = 0; k < 3; k += 1) {
-            check(fabs((double)found.pose.rotation[i][k] - v->pose.rotation[i][k]) <= room, "a tracked rotation", number);
+            check(fabs((double)found.pose.rotation[i][k] - v->pose.rotation[i][k]) <= tolerance, "a tracked rotation", number);
         }
     }
 }

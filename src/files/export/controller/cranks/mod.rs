@@ -82,7 +82,7 @@ fn source(export: &Export, cranks: &ExportCranks) -> String {
     out
 }
 
-/// Numbers of the library for the self-test: poses about home, some of them out of reach, and ways from one to the
+/// Numbers of the library for the self-test: poses about home, some of them out of reach, and paths from one to the
 /// next.
 fn vectors(export: &Export, cranks: &ExportCranks) -> String {
     let mut rng = Rng::new(SEED);
@@ -127,7 +127,7 @@ fn angles(export: &Export, cranks: &ExportCranks, pose: &Pose) -> Option<String>
     Some(braces([pose_numbers(pose), "0".into(), row(&kept), row(&other), row(&transmissions), rows]))
 }
 
-/// The way to the angles of a pose, if the library tracks it within the segments of the controller.
+/// The path to the angles of a pose, if the library tracks it within the segments of the controller.
 fn step(cranks: &ExportCranks, tracker: &mut RotaryTracker, pose: &Pose) -> Option<String> {
     let angles = cranks.platform.ik(pose).ok()?;
     let (start, from) = (tracker.pose(), *tracker.angles());

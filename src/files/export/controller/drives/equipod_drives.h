@@ -42,7 +42,7 @@ typedef enum {
     EQUIPOD_DRIVES_REACHED,        /* the corrections settled: the pose has the lengths asked for, within rounding */
     EQUIPOD_DRIVES_NOT_CONTRACTING,/* they did not settle: no pose */
     EQUIPOD_DRIVES_NOT_TRACKED,    /* the pose of the distances was not followed to its end, see near */
-    EQUIPOD_DRIVES_NO_LENGTH       /* a drive has no length at a pose on the way */
+    EQUIPOD_DRIVES_NO_LENGTH       /* a drive has no length at a pose on the path */
 } equipod_drive_status;
 
 typedef struct {

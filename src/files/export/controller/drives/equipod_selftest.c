@@ -80,7 +80,7 @@ static equipod_pose pose_from(const pose_numbers *numbers)
 }
 
 /* The arc tangent of a screw is that of the mathematical library; everything else is arithmetic. */
-static int same(const real_t *ours, const double *theirs, int count, double room)
+static int same(const real_t *ours, const double *theirs, int count, double tolerance)
 {
     int i, all = 1;
     for (i = 0; i < count; i += 1) {
@@ -90,7 +90,7 @@ static int same(const real_t *ours, const double *theirs, int count, double room
             continue;
         }
 #endif
-        all = all && fabs((double)ours[i] - theirs[i]) <= room;
+        all = all && fabs((double)ours[i] - theirs[i]) <= tolerance;
     }
     return all;
 }
@@ -118,7 +118,7 @@ static void drive(const drive_vector *v, unsigned number)
 static void follow(const follow_vector *v, unsigned number)
 {
     const equipod_pose start = pose_from(&v->start);
-    const double room = POSES / fmax(1e-3, v->frobenius_ratio), size = (double)equipod_design_drives.size;
+    const double tolerance = POSES / fmax(1e-3, v->frobenius_ratio), size = (double)equipod_design_drives.size;
     equipod_drive_result found;
     equipod_drive_bound bound;
     real_t lengths[6];
@@ -131,9 +131,9 @@ static void follow(const follow_vector *v, unsigned number)
     if (v->status != (int)EQUIPOD_DRIVES_REACHED || found.status != EQUIPOD_DRIVES_REACHED) {
         return;
     }
-    check(same(found.near.pose.position, v->pose.position, 3, room * size), "a tracked position", number);
-    check(same(&found.near.pose.rotation[0][0], &v->pose.rotation[0][0], 9, room), "a tracked rotation", number);
-    check(same(found.distances, v->distances, 6, room * size), "distances", number);
+    check(same(found.near.pose.position, v->pose.position, 3, tolerance * size), "a tracked position", number);
+    check(same(&found.near.pose.rotation[0][0], &v->pose.rotation[0][0], 9, tolerance), "a tracked rotation", number);
+    check(same(found.distances, v->distances, 6, tolerance * size), "distances", number);
 #ifndef EQUIPOD_FLOAT
     if (equipod_design_drives.lead == R(0)) {
         check(found.steps == v->steps && same(&found.factor, &v->factor, 1, 0), "steps and factor", number);

@@ -83,7 +83,7 @@ fn source(export: &Export, drives: &CoupledLegs) -> String {
     out
 }
 
-/// Numbers of the library for the self-test: poses about home, one with a leg along its first axis, and ways from one
+/// Numbers of the library for the self-test: poses about home, one with a leg along its first axis, and paths from one
 /// to the next.
 fn vectors(export: &Export, drives: &CoupledLegs) -> String {
     let mut rng = Rng::new(SEED);
@@ -128,7 +128,7 @@ fn lengths(drives: &CoupledLegs, pose: &Pose) -> String {
     ])
 }
 
-/// The way to the lengths of a pose.
+/// The path to the lengths of a pose.
 fn follow(drives: &CoupledLegs, tracker: &mut CoupledTracker, pose: &Pose) -> Option<String> {
     let lengths = drives.drives(pose).ok()?;
     let start = tracker.pose();

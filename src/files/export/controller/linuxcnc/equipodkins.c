@@ -21,9 +21,9 @@
  * Screws that are not kept from turning change their length as their joints turn against each other. With u along the leg, n the axis at the
  * base and m = R n' that at the platform, and the parts of n and m across u: correction = lead asin(u . (n x m)) / (2 pi).
  *
- * Where the joints of the design are not ideal (equipod_drives.h), joint N is the length of drive N, `correction` what it is longer than the distance of its
- * joints, base-n and platform-n the first axes of the joints, and screw-lead begins as the design has it, each leg turned by nothing at home. `octahedral` and
- * `position-error` give way to
+ * If the joints of the design are not ideal (equipod_drives.h), joint N is the length of drive N. `correction` is its excess over the distance of its joints;
+ * base-n and platform-n are the first axes of the joints, and screw-lead begins as the design has it, with no leg twisted at home. Two pins replace `octahedral`
+ * and `position-error`:
  *
  *     equipodkins.base-joint-offset, .platform-joint-offset  from the first to the second axis of the joints, millimetres
  *

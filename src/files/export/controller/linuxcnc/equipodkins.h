@@ -24,7 +24,7 @@
 #endif
 
 #define LEGS 6
-/* Segments of a way. */
+/* Segments of a path. */
 #define SEGMENTS 200u
 #define DEGREE 0.017453292519943295
 #define TWO_PI 6.283185307179586
@@ -245,7 +245,7 @@ static int corrections(const machine_t *machine, const equipod_legs *legs, const
     return 1;
 }
 
-/* One way to a pose of these legs. A tracked pose has a finite bound of its error. */
+/* One path to a pose of these legs. A tracked pose has a finite bound of its error. */
 static void track(const machine_t *machine, const equipod_legs *legs, const double s[LEGS], const equipod_pose *from, equipod_result *result)
 {
 #ifdef EQUIPOD_HAS_OCTAHEDRAL
@@ -307,7 +307,7 @@ static void follow(const machine_t *machine, const equipod_legs *legs, const dou
 }
 
 #ifdef EQUIPOD_HAS_OCTAHEDRAL
-/* p + by (R e_z - e_z). With the way of the tool this is the pose of the platform without the tool, with its opposite the pose back. */
+/* p + by (R e_z - e_z). With the length of the tool this is the pose of the platform without the tool; with its negative it is the pose with it. */
 static void move_origin(double by, const equipod_pose *pose, equipod_pose *moved)
 {
     int k;
@@ -362,7 +362,7 @@ static int joints_at(const machine_t *machine, const equipod_pose *pose, double 
 #endif
 
 /* The pose for joint values: it continues the pose given, else the last pose found (null: none), else the home pose. With `reset` it
- * continues the home pose alone. The result of no pose is that of the way from the last pose, or from home. */
+ * continues the home pose alone. The result of no pose is that of the path from the last pose, or from home. */
 static equipod_status pose_of_joints(const machine_t *machine, const double joints[LEGS], const equipod_pose *given, const equipod_pose *last,
                                      int reset, equipod_result *result)
 {

@@ -8,7 +8,7 @@
  *
  * The forward kinematics continues the pose it is given, else the last pose of its caller's scratch block, else the home pose; with
  * `reset` the home pose alone. The tool frame is the platform's:
- * tool-offset is the way from the tip to the joints along z. The Jacobian is left to LinuxCNC, which takes differences of the inverse kinematics. */
+ * tool-offset is the distance from the tip to the joints along z. The Jacobian is left to LinuxCNC, which takes differences of the inverse kinematics. */
 #include <rtapi.h>
 #include <rtapi_app.h>
 #include <rtapi_math.h>

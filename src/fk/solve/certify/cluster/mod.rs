@@ -559,12 +559,12 @@ pub(super) fn clusters_near<'a>(
     let plain = (2..=MOST).map(move |m| (m, m));
     // of three roots that are close two may be closer
     let attempts = std::iter::once((2, 2)).chain(std::iter::once((3, 2))).chain(plain.skip(1));
-    Ok(attempts.take_while(move |(m, _)| *m <= most).map(move |(m, wanted)| {
+    Ok(attempts.take_while(move |(m, _)| *m <= most).map(move |(m, expected)| {
         let middle = Middle::of(system, &start, m)?;
-        if m == wanted {
+        if m == expected {
             return prove(system, &middle, m);
         }
-        let pair = flat_points(system, &middle).iter().find_map(|flat| prove(system, flat, wanted).ok());
+        let pair = flat_points(system, &middle).iter().find_map(|flat| prove(system, flat, expected).ok());
         pair.ok_or(WhyUncertified::SingularJacobian)
     }))
 }

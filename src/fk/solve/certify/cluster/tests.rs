@@ -150,7 +150,7 @@ fn three_roots_that_are_apart_by_a_little_are_of_the_cluster_and_others_are_not(
         let three = certifier.clusters_near(&pose.into(), MOST).find(|(_, c)| c.multiplicity() == 3);
         let Some((middle, cluster)) = three else { continue };
         let mut found: Vec<Certificate> = Vec::new();
-        let mut look = |start: &ComplexPose| -> Option<ComplexPose> {
+        let mut find = |start: &ComplexPose| -> Option<ComplexPose> {
             let end = certifier.refine(start).ok()?.pose();
             let outcome = certifier.certify(&end);
             let c = outcome.certificate()?;
@@ -160,10 +160,10 @@ fn three_roots_that_are_apart_by_a_little_are_of_the_cluster_and_others_are_not(
             is_of(c, &cluster).then_some(end)
         };
         for round in 0..60 {
-            let Some(one) = look(&near(&pose, &mut rng, [1e-4, 1e-3, 1e-1][round % 3])) else { continue };
+            let Some(one) = find(&near(&pose, &mut rng, [1e-4, 1e-3, 1e-1][round % 3])) else { continue };
             for third in [1.0, 2.0] {
                 let turn = Complex64::from_polar(1.0, third * std::f64::consts::TAU / 3.0);
-                look(&ComplexPose {
+                find(&ComplexPose {
                     rotation: middle.rotation + (one.rotation - middle.rotation) * turn,
                     position: middle.position + (one.position - middle.position) * turn,
                 });

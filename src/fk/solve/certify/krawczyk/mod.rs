@@ -171,13 +171,13 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
 }
 
 fn radii(b: &KrawczykBounds) -> Result<RootBall, WhyUncertified> {
-    let room = 1.0 - b.kappa;
-    let admissible = room * room / (4.0 * b.beta);
+    let gap = 1.0 - b.kappa;
+    let admissible = gap * gap / (4.0 * b.beta);
     let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
-    // the smaller root of beta r^2 - room r + eta, a little enlarged; the proof is the check below
+    // the smaller root of beta r^2 - gap r + eta, a little enlarged; the proof is the check below
     let smallest = |eta: f64| {
-        let root = (room * room - 4.0 * b.beta * eta).sqrt();
-        2.0 * eta / (room + root) * (1.0 + 1e-3)
+        let root = (gap * gap - 4.0 * b.beta * eta).sqrt();
+        2.0 * eta / (gap + root) * (1.0 + 1e-3)
     };
     let inside = |eta: f64, r: f64| (eta + b.kappa * r + b.beta * r * r) * UP <= r;
     let radius = smallest(b.eta);
@@ -186,8 +186,8 @@ fn radii(b: &KrawczykBounds) -> Result<RootBall, WhyUncertified> {
     if !contracts {
         return Err(failure);
     }
-    // any radius below room / beta - radius will do; it exceeds the radius because lipschitz < 1
-    let uniqueness_radius = room / b.beta * (1.0 - 1e-9) - radius;
+    // any radius below gap / beta - radius will do; it exceeds the radius because lipschitz < 1
+    let uniqueness_radius = gap / b.beta * (1.0 - 1e-9) - radius;
     let unique = uniqueness_radius > radius * (1.0 + 1e-9)
         && (b.kappa + b.beta * (radius + uniqueness_radius)) * UP < 1.0;
     // the same theorem for one member of the data

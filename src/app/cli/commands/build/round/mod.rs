@@ -199,7 +199,7 @@ pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer
     let grids = grids(args, &design)?;
     let tool = tool_point(&args.tool, &design.units, "round::bad_tool")?;
     if args.variant != Variant::Rule {
-        context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
+        context.no_effect("keep", "--variant chooses the rounding")?;
     }
     if !(args.keep >= 0.0 && args.keep.is_finite()) {
         return Err(Failure::refused(
@@ -217,9 +217,12 @@ pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer
         seed: context.seed(),
     };
     let found = design.rounded(&choices).map_err(|why| {
-        let code =
-            if matches!(why, NoRounding::NotPlanar(_)) { "round::not_planar" } else { "round::bad_grid" };
-        Failure::refused(code, why.to_string())
+        let message = why.to_string();
+        if matches!(why, NoRounding::NotPlanar(_)) {
+            return Failure::refused("round::not_planar", message);
+        }
+        Failure::refused("round::bad_grid", message)
+            .with_help("give the distance of neighbouring holes, --grid 25, or state the grid in [holes]")
     })?;
     let taken = chosen(&found, args.variant, args.keep);
     let missing = || found.least_missed(&design.requirements(), design.manipulator().size());

@@ -26,7 +26,7 @@ impl RoundReport<'_> {
             units: self.design.units.clone(),
             grids: (&self.choices.grids).into(),
             free_grid: self.choices.free,
-            given: self.found.wanted.clone(),
+            given: self.found.given.clone(),
             exact: ExactRoundingOutcome::new(self.design, &self.found.exact),
             nearest: NearestRoundingOutcome::new(self.design, &self.found.nearest),
             assessment: self.assessment.clone(),

@@ -25,7 +25,7 @@ pub(crate) struct BuildTolerancesArgs {
     /// Design file (.toml or .json); its home pose and workspace give the poses
     design: PathBuf,
     /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees
-    #[arg(long, value_name = "LENGTH,DEG")]
+    #[arg(long, value_name = "LENGTH,DEG", allow_hyphen_values = true)]
     bound: String,
     /// Tool point, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
@@ -114,8 +114,8 @@ fn solved(
 /// Numbers separated by commas.
 pub(crate) fn numbers<const N: usize>(text: &str, option: &str, code: &str) -> Result<[f64; N], Failure> {
     crate::app::cli::numbers::parse(text).ok_or_else(|| {
-        let message = format!("{option}: `{text}` is not {N} numbers separated by commas");
-        Failure::refused(code, message).with_help("write finite numbers, for instance 0.1,0.05")
+        let message = crate::app::cli::numbers::fault(option, text, N);
+        Failure::refused(code, message).with_help(format!("give {N} numbers separated by commas"))
     })
 }
 
@@ -169,7 +169,7 @@ pub(in crate::app::cli::commands) fn joint_radius(
         Failure::new(
             Exit::No,
             "tolerances::lost",
-            "no error of the joints was found that keeps the bound when it is solved",
+            "no joint error was found that keeps the bound without linearisation",
         )
         .with_help("give a smaller [workspace] or a wider bound")
     })

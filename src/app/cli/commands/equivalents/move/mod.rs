@@ -61,17 +61,17 @@ pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<A
         let message = format!("{option} is a target of --search");
         return Err(Failure::refused("move::target_without_search", message).with_help("add --search"));
     }
-    let wanted = args.moves()?;
-    if wanted.is_empty() {
+    let moves = args.moves()?;
+    if moves.is_empty() {
         let families = design.families_in_words(&families(&design, options)?);
-        let failure = Failure::refused("move::nothing_asked", "no move is asked for");
+        let failure = Failure::refused("move::nothing_asked", "no move is given");
         return Err(failure.with_help(families.map_err(|e| Failure::internal(e.to_string()))?));
     }
-    if wanted.len() < 2 {
+    if moves.len() < 2 {
         context.no_effect("together", "a single leg is moved")?;
     }
     let asked = MoveOptions { together: args.together, search: options };
-    let found = design.move_legs(&wanted, asked).map_err(|why| refusal(&why))?;
+    let found = design.move_legs(&moves, asked).map_err(|why| refusal(&why))?;
     let mut answer = MovesAnswer::new(&design, &found);
     if let (Some(path), Some(new), true) = (&args.output, &found.design, found.is_regular()) {
         files::write_design(path, new)?;
@@ -116,13 +116,15 @@ fn no_families(why: &NoReplaceableLegs) -> Failure {
 }
 
 impl EquivalentsMoveArgs {
-    /// All moves asked for, in order.
+    /// All requested moves in order.
     fn moves(&self) -> Result<Vec<LegMoveRequest>, Failure> {
         let parts = self.leg.as_deref().zip(self.along.as_deref()).zip(self.to.as_deref());
         let in_parts = parts.map(|((leg, along), to)| LegMoveRequest::of(leg, along, to));
         let in_words = self.moves.iter().map(|text| text.parse());
         in_parts.into_iter().chain(in_words).collect::<Result<_, _>>().map_err(|why| match why {
-            InvalidMove::Leg(_) => Failure::refused("move::no_such_leg", why.to_string()),
+            InvalidMove::Leg(_) => {
+                Failure::refused("move::no_such_leg", why.to_string()).with_help("give a leg from 1 to 6")
+            }
             InvalidMove::Form(_) | InvalidMove::Parameter(_) => {
                 Failure::refused("move::bad_move", why.to_string()).with_help(FORM)
             }

@@ -43,8 +43,8 @@ pub(crate) struct EquivalentsTopologiesArgs {
 
 /// Lists the catalogue, or the topology of one design.
 pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Result<Answer, Failure> {
-    let mut wanted = catalogue();
-    let count = wanted.len();
+    let mut listed = catalogue();
+    let count = listed.len();
     let (mut of_design, mut by_virtual_legs) = (None, None);
     if let Some(path) = &args.design {
         let design = context.load(path)?;
@@ -55,12 +55,12 @@ pub(crate) fn run(args: &EquivalentsTopologiesArgs, context: &mut Context) -> Re
             topology: found.topology.name(),
             exchanged: found.exchanged,
         });
-        wanted = vec![found.topology];
+        listed = vec![found.topology];
     } else {
-        by_virtual_legs = Some(VirtualLegsRecord::of(&wanted));
+        by_virtual_legs = Some(VirtualLegsRecord::of(&listed));
     }
-    let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
-    let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
+    let moved = if args.rearrangements { Some(rearrangements::cases(&listed)?) } else { None };
+    let entries = listed.into_iter().map(|t| entry(t, args.members, context.seed()));
     let entries = entries.collect::<Result<Vec<TopologyFindings>, Failure>>()?;
     write_files(args, &entries)?;
     if let Some(list) = &moved {
@@ -123,12 +123,12 @@ pub(in crate::app::cli::commands) fn drawing(
     members: u64,
     seed: u64,
 ) -> Result<String, Failure> {
-    let wanted = match design {
+    let listed = match design {
         Some(design) => vec![recognised(design)?.topology],
         None => catalogue(),
     };
     let entries: Result<Vec<TopologyFindings>, Failure> =
-        wanted.into_iter().map(|t| entry(t, members, seed)).collect();
+        listed.into_iter().map(|t| entry(t, members, seed)).collect();
     Ok(sheet(&entries?))
 }
 

@@ -75,7 +75,7 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
     let lengths::GivenLengths::One(given) = lengths::given(args.lengths.as_deref(), design, context)? else {
         return Err(Failure::refused(
             "locus::one_row",
-            "--lengths names a table, but one set of lengths is wanted",
+            "--lengths names a table, but the picture needs one set of lengths",
         )
         .with_help("give six lengths separated by commas"));
     };
@@ -93,7 +93,7 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
         NoLocus::IsLeg(leg) => {
             let names = args.between.as_deref().unwrap_or_default();
             Failure::refused("locus::is_a_leg", format!("--between: {leg} joins {names}"))
-                .with_help("take two joints that no leg joins")
+                .with_help("give two joints without a common leg")
         }
         NoLocus::NoVirtualLeg => {
             Failure::refused("locus::no_virtual_leg", why.to_string()).with_help("give --between")

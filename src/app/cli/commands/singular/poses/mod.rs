@@ -106,14 +106,18 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
     Ok(render::answer(&design, &found, &frames))
 }
 
+/// The help for `--box`.
+const HALF_WIDTHS: &str =
+    "give six half widths: three lengths, then three angles in degrees, for instance 50,50,50,10,10,10";
+
 /// The half widths of `--box`.
 fn half_widths(text: &str) -> Result<[[f64; 3]; 2], Failure> {
     let v: [f64; 6] = numbers::parse(text).ok_or_else(|| {
-        Failure::refused("poses::bad_numbers", format!("--box: `{text}` is not six finite numbers"))
+        Failure::refused("poses::bad_numbers", numbers::fault("--box", text, 6)).with_help(HALF_WIDTHS)
     })?;
     if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
-        let message = "--box: half widths are not negative, and not all zero";
-        return Err(Failure::refused("poses::bad_numbers", message));
+        let message = "--box has a negative half width, or all are zero";
+        return Err(Failure::refused("poses::bad_numbers", message).with_help(HALF_WIDTHS));
     }
     Ok([[v[0], v[1], v[2]], [v[3], v[4], v[5]]])
 }

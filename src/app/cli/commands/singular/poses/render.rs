@@ -9,7 +9,7 @@ use records::{
     ScaledPoseRecord, SingularitiesAnswer,
 };
 
-fn judged(j: &PoseFigures) -> PoseFiguresRecord {
+fn figures(j: &PoseFigures) -> PoseFiguresRecord {
     PoseFiguresRecord {
         pose: (&j.pose).into(),
         determinant: Number(j.determinant),
@@ -26,9 +26,9 @@ pub(super) fn answer(design: &Design, found: &SingularPoses, frames: &PoseFrames
         name: design.name.clone(),
         units: design.units.clone(),
         regular: report.safe.as_ref().map(|(regularity, cells)| RegularityRecord::new(regularity, *cells)),
-        pose: judged(&report.middle),
+        pose: figures(&report.middle),
         lengths: report.lengths.get(),
-        assembly_modes: report.modes.iter().map(judged).collect(),
+        assembly_modes: report.modes.iter().map(figures).collect(),
         assembly_modes_accounted: report.modes_complete,
         regular_box: RegularBoxRecord {
             translation: report.options.translation,

@@ -25,7 +25,7 @@ pub(crate) fn figure(design: &Design, freedoms: Freedoms, pose: &Pose, options: 
     SliceFigure {
         title: format!("Singular poses of {}", design.name),
         quantity: "det J".into(),
-        note: "the other four freedoms are those of the marked pose; rotation vector in the base frame; det J of the leg lines"
+        note: "the other four coordinates are those of the marked pose; rotation vector in the base frame; det J of the leg lines"
             .into(),
         across,
         up,

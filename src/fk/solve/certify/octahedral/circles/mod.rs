@@ -381,14 +381,14 @@ fn radii(eta: Reals, kappa: Reals, beta: Reals) -> (Reals, Reals) {
     let (mut radius, mut uniqueness) = (Reals::ZERO, Reals::ZERO);
     for k in 0..LANES {
         let (eta, kappa, beta) = (eta.0[k], kappa.0[k], beta.0[k]);
-        let room = 1.0 - kappa;
-        let root = (room * room - 4.0 * beta * eta).sqrt();
-        // the smaller root of beta r^2 - room r + eta, a little enlarged; the proof is the check below
-        let r = 2.0 * eta / (room + root) * (1.0 + 1e-3);
+        let contraction_gap = 1.0 - kappa;
+        let root = (contraction_gap * contraction_gap - 4.0 * beta * eta).sqrt();
+        // the smaller root of beta r^2 - contraction_gap r + eta, a little enlarged; the proof is the check below
+        let r = 2.0 * eta / (contraction_gap + root) * (1.0 + 1e-3);
         let inside = (eta + kappa * r + beta * r * r) * UP <= r;
         let contracts = (kappa + 2.0 * beta * r) * UP < 1.0;
         // both balls lie where the second derivatives are bounded
-        let wide = room / beta * (1.0 - 1e-9) - r;
+        let wide = contraction_gap / beta * (1.0 - 1e-9) - r;
         let wide = if wide < REACH { wide } else { REACH };
         let alone = wide > r * (1.0 + 1e-9) && (kappa + beta * (r + wide)) * UP < 1.0;
         let proved = inside && contracts && alone && kappa < 1.0 && r < REACH;

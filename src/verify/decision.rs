@@ -1,4 +1,4 @@
-//! The common judgement on two platforms, used by every command that asks for their equivalence.
+//! The common verdict on two platforms, used by every command that asks for their equivalence.
 
 use num::linalg::LinalgError;
 use platform::manipulator::{Level, Manipulator};
@@ -19,7 +19,7 @@ use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
 ///
 /// # Errors
 /// When a singular value decomposition does not converge.
-pub fn judge(a: &Manipulator, b: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
+pub fn decide_map(a: &Manipulator, b: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
     let map = leg_map(a, b, LegMapTolerances::default())?;
     if map.relation == Relation::Singular {
         return Ok(map);

@@ -1,4 +1,4 @@
-//! One judgement for each question. All commands that ask whether a design is singular, or two are equivalent, give the
+//! One verdict for each question. All commands that ask whether a design is singular, or two are equivalent, give the
 //! same word, with the same level and exit code.
 
 use equipod::methods::manipulator::Level;
@@ -279,8 +279,8 @@ fn check_map_and_verify_agree_on_exact_designs() {
         });
         for (n, member) in picked {
             let can_be_singular = full || member.pattern.to_string() == "S123456";
-            for wanted in [false, true].into_iter().filter(|wanted| !wanted || can_be_singular) {
-                let t = offsets(&member.pattern, wanted, &mut rng);
+            for zero in [false, true].into_iter().filter(|zero| !zero || can_be_singular) {
+                let t = offsets(&member.pattern, zero, &mut rng);
                 let Ok((design, _)) = class.build(&member.pattern, &t) else { continue };
                 // multiples of 1/20: the determinant is zero or at least 20^-6
                 let expected = member.pattern.determinant(&t).unwrap().abs() < 1e-10;

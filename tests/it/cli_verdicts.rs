@@ -1,4 +1,4 @@
-//! Judgements that a script can ask for. Is the workspace safe? How well is a pose conditioned? Is a platform singular?
+//! Verdicts that a script can ask for. Is the workspace safe? How well is a pose conditioned? Is a platform singular?
 //! Are all poses of a path found?
 
 use std::fmt::Write as _;
@@ -89,7 +89,7 @@ fn a_singular_member_of_the_family_is_refused_as_by_move() {
         let out = member(offsets);
         let text = String::from_utf8(out.stdout).unwrap();
         assert_eq!(out.status.code(), Some(1), "{text}");
-        assert!(text.contains("no design is written: the platform is architecturally singular"));
+        assert!(text.contains("No design is written: the platform is architecturally singular."));
         assert!(!file.exists());
     }
     assert_eq!(member("0.2,0.8,0.3,0.7,0.1,0.8").status.code(), Some(0));
@@ -171,9 +171,9 @@ fn no_command_calls_a_design_good_that_assess_refuses() {
                 _ => vec![&answer["assessment"]],
             };
             // a search lists platforms that miss something after the others
-            let judged = if refused { &assessments[..] } else { &assessments[..1] };
-            assert!(!judged.is_empty(), "{line}: {answer}");
-            for found in judged {
+            let assessed = if refused { &assessments[..] } else { &assessments[..1] };
+            assert!(!assessed.is_empty(), "{line}: {answer}");
+            for found in assessed {
                 assert_eq!(found["met"], !refused, "{line}: {found}");
                 let rows = found["requirements"].as_array().unwrap();
                 let row = rows.iter().find(|r| r["name"] == "min_leg_length").unwrap();

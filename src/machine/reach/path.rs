@@ -1,4 +1,4 @@
-//! Ways of the platform: constant velocity of its origin, constant angular velocity.
+//! Paths of the platform: constant velocity of its origin, constant angular velocity.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -31,7 +31,7 @@ impl PoseAxis {
     }
 }
 
-/// A way from a pose: `R(t) = exp(t [w]) R`, while the pivot, a point `c` of the platform, moves on a line:
+/// A path from a pose: `R(t) = exp(t [w]) R`, while the pivot, a point `c` of the platform, moves on a line:
 /// `R(t) c + p(t) = R c + p + t v`, base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightPath {
@@ -46,7 +46,7 @@ pub struct StraightPath {
 }
 
 impl StraightPath {
-    /// The way on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay. A
+    /// The path on which one of the six numbers of a pose grows by `t` (design units, radians) and the others stay. A
     /// moving angle rotates about a fixed axis: `R e_x` for roll, `Rz(yaw) e_y` for pitch, `e_z` for yaw.
     #[must_use]
     pub fn axis(start: &Pose, axis: PoseAxis) -> Self {
@@ -78,7 +78,7 @@ impl StraightPath {
         Self { start: *from, velocity, turn, pivot: Vector3::zeros() }
     }
 
-    /// The same way backwards from its start.
+    /// The same path backwards from its start.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self { velocity: -self.velocity, turn: -self.turn, ..*self }

@@ -144,14 +144,14 @@ impl Checked {
 
 /// The options of assessing a platform.
 #[derive(Debug, Clone, Copy)]
-pub struct Judging {
+pub struct Assessing {
     /// Seed of the search and of the sampled poses.
     pub seed: u64,
     /// The time at which proofs end with their result so far.
     pub until: Option<Instant>,
 }
 
-impl From<&ShapeSearchOptions> for Judging {
+impl From<&ShapeSearchOptions> for Assessing {
     fn from(options: &ShapeSearchOptions) -> Self {
         Self { seed: options.seed, until: options.until }
     }
@@ -162,12 +162,12 @@ pub(crate) fn checked(
     design: &Design,
     problem: &DimensionalProblem,
     s: &DimensionalSolution,
-    judging: Judging,
+    assessing: Assessing,
 ) -> Result<Checked, VerifyError> {
-    let out = optimised(design, problem, s, judging.seed);
+    let out = optimised(design, problem, s, assessing.seed);
     let v = &problem.variables;
     let keeps_class = (v.offsets || v.components) && v.triangles == Triangles::Fixed;
-    judged(design, problem, out, (&s.home, &s.poses), keeps_class, judging)
+    assessed(design, problem, out, (&s.home, &s.poses), keeps_class, assessing)
 }
 
 /// The platform of a search for offsets, evaluated in the same way.
@@ -175,22 +175,22 @@ pub(crate) fn checked_offsets(
     design: &Design,
     problem: &OffsetProblem,
     s: &OffsetSolution,
-    judging: Judging,
+    assessing: Assessing,
 ) -> Result<Checked, VerifyError> {
     let general = as_dimensional(design, problem);
-    let out = optimised_design(design, problem, s, judging.seed);
-    judged(design, &general, out, (&design.home_or_default(), &problem.poses), true, judging)
+    let out = optimised_design(design, problem, s, assessing.seed);
+    assessed(design, &general, out, (&design.home_or_default(), &problem.poses), true, assessing)
 }
 
 /// A platform found for a design over held poses, evaluated independently of every search. `keeps_class`: it should be
 /// equivalent to the design.
-fn judged(
+fn assessed(
     design: &Design,
     problem: &DimensionalProblem,
     out: Design,
     (home, held): (&Pose, &[Pose]),
     keeps_class: bool,
-    Judging { seed, until }: Judging,
+    Assessing { seed, until }: Assessing,
 ) -> Result<Checked, VerifyError> {
     let space = problem.space.with_home(*home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };

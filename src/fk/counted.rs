@@ -15,9 +15,9 @@ use crate::solve::pose_count::{
 };
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 
-/// The judgement of the roots by the count.
+/// The verdict of the count on the roots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum RealityJudgement {
+pub(super) enum CountVerdict {
     /// Proved before, or as many as there are.
     Complete,
     /// Poses are missing.
@@ -31,7 +31,7 @@ pub(super) enum RealityJudgement {
     Silent,
 }
 
-/// The count, if it is wanted.
+/// The count, if it is requested.
 pub(super) fn counted(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Option<PoseCount> {
     if o.pose_count == PoseCounting::Never {
         return None;
@@ -69,21 +69,21 @@ pub(super) fn are_distinct(found: &FkSolutions) -> bool {
 }
 
 /// Compares the certified roots with the count and files both.
-pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<RealityJudgement, FkError> {
+pub(super) fn compare(found: &mut FkSolutions, count: &PoseCount) -> Result<CountVerdict, FkError> {
     found.pose_count = Some(count.clone());
     let distinct = are_distinct(found);
     let certified = found.certified_count();
     let error_probability = count.error_probability;
     let given = count.lengths == CountedLengths::Given;
     let counted = match &count.set {
-        PoseSet::Undecided { .. } => return Ok(RealityJudgement::Silent),
+        PoseSet::Undecided { .. } => return Ok(CountVerdict::Silent),
         // nothing follows for the lengths at hand, but that isolated poses are not more
         PoseSet::PositiveDimensional { .. } | PoseSet::Finite { count: 0, .. } if !given => {
-            return Ok(RealityJudgement::Silent);
+            return Ok(CountVerdict::Silent);
         }
         PoseSet::PositiveDimensional { dimension, .. } => {
             found.completeness.learn(set_counted(count, false));
-            return Ok(RealityJudgement::PositiveDimensional { dimension: *dimension });
+            return Ok(CountVerdict::PositiveDimensional { dimension: *dimension });
         }
         PoseSet::Finite { count, .. } if distinct && certified > *count => {
             let what =
@@ -98,7 +98,7 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
         } else {
             Reason::FewerThanGeneric { counted, certified, error_probability }
         });
-        return Ok(RealityJudgement::Short);
+        return Ok(CountVerdict::Short);
     }
     found.completeness.learn(Completeness::Modular {
         poses: certified,
@@ -109,7 +109,7 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
         found.solution_set = SolutionSet::Empty;
     }
     reject_others(found);
-    Ok(RealityJudgement::Complete)
+    Ok(CountVerdict::Complete)
 }
 
 /// The completeness that follows from the count when poses form a set of positive dimension, or seem to within
@@ -130,7 +130,7 @@ pub(super) fn set_counted(count: &PoseCount, established: bool) -> Completeness 
     Completeness::unproved(reason)
 }
 
-/// The answer of a method that does not look for more when poses are missing.
+/// The answer of a method that does not search for more when poses are missing.
 pub(super) fn compared_with_count(
     mut found: FkSolutions,
     m: &Manipulator,
@@ -142,7 +142,7 @@ pub(super) fn compared_with_count(
         return Ok(found);
     }
     if let Some(count) = counted(m, s, o)
-        && let RealityJudgement::PositiveDimensional { dimension } = judge(&mut found, &count)?
+        && let CountVerdict::PositiveDimensional { dimension } = compare(&mut found, &count)?
     {
         reject_others(&mut found);
         found.solution_set =
@@ -180,27 +180,27 @@ mod tests {
         let (m, s, found) = sixteen();
         let count = counted(&m, &s, &FkOptions::default()).unwrap();
         assert_eq!((count.finite(), count.lengths), (Some(16), CountedLengths::Generic));
-        let judged = |n: usize| {
+        let compared = |n: usize| {
             let (mut found, mut count) = (found.clone(), count.clone());
             count.set = PoseSet::Finite { count: n, by_degree: vec![n] };
-            judge(&mut found, &count).map(|j| (j, found))
+            compare(&mut found, &count).map(|j| (j, found))
         };
-        let (judgement, complete) = judged(16).unwrap();
-        assert_eq!(judgement, RealityJudgement::Complete);
+        let (verdict, complete) = compared(16).unwrap();
+        assert_eq!(verdict, CountVerdict::Complete);
         let generic =
             matches!(complete.completeness, Completeness::Modular { lengths: CountedLengths::Generic, .. });
         assert!(generic && complete.is_complete() && complete.missing().is_none());
         // more for generic lengths: nothing is said to be missing
-        let (judgement, fewer) = judged(20).unwrap();
-        assert_eq!(judgement, RealityJudgement::Short);
+        let (verdict, fewer) = compared(20).unwrap();
+        assert_eq!(verdict, CountVerdict::Short);
         assert!(!fewer.is_complete() && !fewer.all_accounted() && fewer.missing().is_none());
         assert!(fewer.completeness.to_string().contains("may be missing"), "{}", fewer.completeness);
-        assert!(judged(15).is_err());
+        assert!(compared(15).is_err());
         // no pose for generic lengths does not say that there is none for these
         let (mut none, mut count) = (found.clone(), count.clone());
         none.roots.clear();
         count.set = PoseSet::Finite { count: 0, by_degree: Vec::new() };
-        assert_eq!(judge(&mut none, &count).unwrap(), RealityJudgement::Silent);
+        assert_eq!(compare(&mut none, &count).unwrap(), CountVerdict::Silent);
         assert!(!none.is_complete() && none.solution_set != SolutionSet::Empty);
     }
 }

@@ -131,9 +131,9 @@ impl AssessedPoses {
 }
 
 /// The limitation of a list of poses.
-const BETWEEN: &str = "poses between them are not judged";
+const BETWEEN: &str = "poses between them are not assessed";
 /// The same limitation beside a region or a trajectory.
-const BETWEEN_LISTED: &str = "motions between the poses listed are not judged by themselves";
+const BETWEEN_LISTED: &str = "motions between the poses listed are not assessed";
 
 /// A number of poses in words.
 fn poses(n: usize) -> String {
@@ -200,15 +200,15 @@ impl AssessReport {
     }
 
     /// The kinds of requirements with this answer.
-    fn kinds(&self, of: impl Fn(&MarginBound) -> Option<bool>, wanted: Option<bool>) -> Vec<&'static str> {
-        let these = self.proof.bounds.iter().filter(|b| of(b) == wanted);
+    fn kinds(&self, of: impl Fn(&MarginBound) -> Option<bool>, answer: Option<bool>) -> Vec<&'static str> {
+        let these = self.proof.bounds.iter().filter(|b| of(b) == answer);
         these.map(|b| b.found.term.kind.label()).collect()
     }
 
     /// The requirements with this answer, singularity among them.
-    pub(super) fn names(&self, wanted: Option<bool>) -> String {
-        let mut names = self.kinds(|b| b.verdict.is_met(), wanted);
-        names.extend((self.regularity.is_regular() == wanted).then_some("no singular pose"));
+    pub(super) fn names(&self, answer: Option<bool>) -> String {
+        let mut names = self.kinds(|b| b.verdict.is_met(), answer);
+        names.extend((self.regularity.is_regular() == answer).then_some("no singular pose"));
         names.join("; ")
     }
 
@@ -218,9 +218,9 @@ impl AssessReport {
         match self.regularity {
             Regularity::Regular => self.assessed_poses.regular_in_words(),
             Regularity::ChangesSign(_) => {
-                "The workspace holds a singular pose: det J changes its sign on the way to it".to_owned()
+                "The workspace contains a singular pose: det J changes its sign on the path to it".to_owned()
             }
-            Regularity::Undecided(_) => "Not proved to be free of singular poses".to_owned(),
+            Regularity::Undecided(_) => "Undecided whether a pose of the workspace is singular".to_owned(),
         }
     }
 }
@@ -241,7 +241,7 @@ impl std::fmt::Display for AssessReport {
             f.write_str("; no workspace stated, assessed at home")?;
         }
         if self.proof.bounds.iter().any(|b| b.safety_margin.is_some()) {
-            let short = |wanted| self.kinds(MarginBound::keeps_safety_margin, wanted).join("; ");
+            let short = |answer| self.kinds(MarginBound::keeps_safety_margin, answer).join("; ");
             match self.proof.all_keep_safety_margin() {
                 Some(true) => f.write_str("; every safety margin is kept")?,
                 Some(false) => write!(f, "; the safety margin is not kept: {}", short(Some(false)))?,
@@ -388,8 +388,8 @@ impl Design {
     ) -> Result<AssessReport, Error> {
         let length = self.characteristic_length();
         match cells {
-            Some(cells) => self.judged_by((options, cells), length, tell),
-            None => self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, tell),
+            Some(cells) => self.assessed_by((options, cells), length, tell),
+            None => self.assessed_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, tell),
         }
     }
 
@@ -398,11 +398,11 @@ impl Design {
     /// # Errors
     /// [`Error::NothingRequired`] for a design without requirements.
     pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
-        self.judged_by((options, cells), self.characteristic_length(), &mut |_| {})
+        self.assessed_by((options, cells), self.characteristic_length(), &mut |_| {})
     }
 
     /// The assessment, with this characteristic length for the conditioning.
-    fn judged_by(
+    fn assessed_by(
         &self,
         (options, cells): (&AssessOptions, usize),
         length: f64,
@@ -462,7 +462,7 @@ impl Design {
     }
 
     fn decided_by(&self, options: &AssessOptions, length: f64) -> Option<AssessReport> {
-        self.judged_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok()
+        self.assessed_by((&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS), length, &mut |_| {}).ok()
     }
 
     /// The same with a conditioning by a given length, common to all designs of a comparison. The conditioning exists
