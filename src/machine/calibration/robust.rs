@@ -4,10 +4,15 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::chi_square::{chi_square_exceeds, chi_square_quantile};
 
-num::answer_words! {
+num::words! {
     /// The loss of a distance.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum Loss as name {
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum Loss: name, ALL, FromStr("loss") {
         /// The square of the distance.
         #[default]
         Squares = "squares",
