@@ -2,12 +2,15 @@
 //!
 //! The method is that of Storn, Price (1997), with steps towards one of the best (Zhang, Sanderson 2009) for half of
 //! the trials. Requirements follow the rule of Deb (2000): points that meet them are ranked by their gain, before all
-//! others by their violation. A trial ends at the first pose at which it is no better than its parent.
+//! others by their violation. A trial competes with the nearest member (crowding, Thomsen 2004): competing with its
+//! parent would soon move all members into the largest feasible region. It ends at the first pose at which it is no
+//! better than this member.
 
 use super::leg_lines::{HeldPose, LegLines};
 use super::model::Model;
 use super::worst_pose::PointJudging;
 use crate::climb::{PENALTY, PointValues, Task};
+use crate::offsets::Branch;
 use num::Rng;
 
 /// The merit of a point.
@@ -59,6 +62,8 @@ const MEMBERS: (usize, usize, usize) = (6, 24, 60);
 const SETTLED: f64 = 1e-3;
 /// The best members are one in this many.
 const BEST: usize = 8;
+/// Distance from the nearest better member beyond which a member leads a niche, in means of these distances.
+const FAR: f64 = 2.0;
 
 /// Judges points, beginning with the pose that refused the last one.
 pub(crate) struct Judge<'m, 'a> {
@@ -160,7 +165,8 @@ pub(crate) fn evolve(
         }
         for i in 0..all.len() {
             let x = trial(model, &all, i, &free, rng);
-            all[i] = match judge.worth(&x, FEW, Some(&all[i].worth)) {
+            let k = nearest(model, &all, &x);
+            all[k] = match judge.worth(&x, FEW, Some(&all[k].worth)) {
                 Some(worth) => Member { x, worth },
                 None => continue,
             };
@@ -175,6 +181,38 @@ pub(crate) fn evolve(
         }
     }
     all
+}
+
+/// Distance of two points: their variables in widths of the ranges, and 1 for each offset in another zone of its side.
+///
+/// Joints have to stay away from the corners, which separates the zones: each has its own optima, however small it is.
+fn apart(model: &Model<'_>, a: &[f64], b: &[f64]) -> f64 {
+    let shape = &model.shape;
+    let bounds = shape.bounds.iter().enumerate().filter(|(_, (low, high))| high > low);
+    let square: f64 = bounds.map(|(k, (low, high))| ((a[k] - b[k]) / (high - low)).powi(2)).sum();
+    let branches = shape.offsets(a).zip(shape.offsets(b)).map(|(s, t)| (Branch::of(&s), Branch::of(&t)));
+    let zones = branches.map_or(0, |(s, t)| s.0.iter().zip(&t.0).filter(|(s, t)| s != t).count());
+    square.sqrt() + zones as f64
+}
+
+/// The member nearest to a point.
+fn nearest(model: &Model<'_>, all: &[Member], x: &[f64]) -> usize {
+    let distances = all.iter().map(|m| apart(model, &m.x, x)).enumerate();
+    distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k)
+}
+
+/// The best member of each niche, best first, of members in this order.
+///
+/// A member leads a niche if the nearest better one is more than twice as far away as such members are on average
+/// (nearest-better clustering, Preuss 2010).
+pub(super) fn leaders(model: &Model<'_>, members: Vec<Member>) -> Vec<Member> {
+    let to_better = |i: usize| {
+        members[..i].iter().map(|m| apart(model, &m.x, &members[i].x)).fold(f64::INFINITY, f64::min)
+    };
+    let distances: Vec<f64> = (0..members.len()).map(to_better).collect();
+    let finite = distances.iter().filter(|d| d.is_finite());
+    let far = FAR * finite.sum::<f64>() / members.len().saturating_sub(1).max(1) as f64;
+    members.into_iter().zip(distances).filter(|(_, d)| *d > far).map(|(m, _)| m).collect()
 }
 
 /// Largest difference of two members in a variable.

@@ -1,5 +1,6 @@
 //! Populations, climbs from their best members, and polishing of the best ends with added poses until none is worse.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -10,7 +11,7 @@ use super::outcome::{
     ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
     outcome, solution,
 };
-use super::population::{Judge, PointMerit, evolve, is_close, offspring};
+use super::population::{Judge, Member, PointMerit, evolve, is_close, leaders, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::worst_pose::worse_poses;
 use crate::climb::{Effort, PENALTY, Run, Task};
@@ -28,7 +29,7 @@ pub struct ShapeSearchOptions {
     pub populations: usize,
     /// Generations of each.
     pub generations: usize,
-    /// Number of members of each population with climbs in the first pass.
+    /// Greatest number of niches of each population with a climb in the first pass.
     pub starts: usize,
     /// Number of polished runs.
     pub polished: usize,
@@ -38,7 +39,7 @@ pub struct ShapeSearchOptions {
 
 impl Default for ShapeSearchOptions {
     fn default() -> Self {
-        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 12, polished: 8, until: None }
+        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 6, polished: 8, until: None }
     }
 }
 
@@ -107,8 +108,8 @@ const STARTS_PER_MIXTURE: usize = 4;
 const SHORT_ROUNDS: usize = 3;
 /// Greatest number of rounds of adding poses.
 const ROUNDS: usize = 12;
-/// Members that differ by more in some variable are separate starts.
-const DISTINCT_STARTS: f64 = 0.1;
+/// Ends that differ by less in every variable count as one.
+const DISTINCT_ENDS: f64 = 0.1;
 /// Ends whose values differ by less, relatively, count as equal.
 const DISTINCT_GAINS: f64 = 1e-4;
 /// The same for ends of the first pass, whose climbs are less accurate.
@@ -152,13 +153,11 @@ pub(crate) fn refine_adding(
     seed: u64,
 ) -> RefinedRun {
     let mut run = model.climb(&poses, task, start, Effort::POLISH);
-    // a run with an objective ends if it misses a requirement at the first poses; one without continues to the best it
-    // can meet
-    let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible();
+    // a run with an objective ends once it misses a requirement; one without continues to the best it can meet
+    let only_while_met = adding == PoseAdding::WhileMet || task.weights.iter().any(|w| *w > 0.0);
     let mut complete = false;
     for round in 0..ROUNDS {
-        let given_up = hopeless || adding == PoseAdding::WhileMet && !run.is_feasible();
-        if given_up || model.is_stopped() {
+        if only_while_met && !run.is_feasible() || model.is_stopped() {
             break;
         }
         let sign = model.sign(&run.x);
@@ -173,13 +172,22 @@ pub(crate) fn refine_adding(
     RefinedRun { run, poses, complete }
 }
 
+/// A climb of the first pass.
+struct Climbed {
+    /// The population of its start; none for a mixture of ends.
+    population: Option<usize>,
+    run: Run,
+}
+
 /// A point with its most important poses.
 pub(crate) struct SearchStart {
     pub x: Vec<f64>,
     few: Vec<HeldPose>,
+    /// The population it comes from; none for a mixture of ends.
+    population: Option<usize>,
 }
 
-/// The best distinct members of a population.
+/// The best members of the niches of a population.
 pub(super) fn population(
     model: &Model<'_>,
     task: &Task,
@@ -192,13 +200,8 @@ pub(super) fn population(
     let generations = if is_long { LONG_FACTOR * o.generations } else { o.generations };
     let members = evolve(&mut judge, given, generations, &mut Purpose::POPULATIONS.item(o.seed, k as u64));
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
-    let mut out: Vec<SearchStart> = Vec::new();
-    for m in members {
-        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT_STARTS)) {
-            out.push(SearchStart { x: m.x, few: few.clone() });
-        }
-    }
-    out
+    let start = |m: Member| SearchStart { x: m.x, few: few.clone(), population: Some(k) };
+    leaders(model, members).into_iter().take(o.starts.max(1)).map(start).collect()
 }
 
 fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
@@ -360,10 +363,10 @@ pub(crate) fn search_task(
     let coarse = without_axes.as_ref().unwrap_or(model);
     let search = TaskSearch { model, coarse, task, options };
     let (runs, unmet) = search.first_pass(&search.given(given), watch);
-    let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible()).count());
+    let (climbed, feasible) = (runs.len(), runs.iter().filter(|c| c.run.is_feasible()).count());
     let mut refined = unmet.unwrap_or_else(|| {
         let points =
-            runs.into_iter().map(|run| FirstPassEnd::new(model, without_axes.is_some(), run)).collect();
+            runs.into_iter().map(|c| FirstPassEnd::new(model, without_axes.is_some(), c.run)).collect();
         let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
         search.polished(ends, watch)
     });
@@ -371,13 +374,13 @@ pub(crate) fn search_task(
     SearchedShape { refined, starts: climbed, feasible }
 }
 
-/// Whether no other end is expected after `runs` climbs with `ends` different ends.
+/// Whether no other end is expected after `trials` independent trials with `ends` different ends.
 ///
-/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` climbs. No other end is
-/// expected if the estimate is below `w + 1/2` (Boender, Rinnooy Kan 1987). It assumes independent starts, which holds
-/// between separate populations but not within one.
-pub(super) fn expects_no_other(runs: usize, ends: usize) -> bool {
-    let (n, w) = (runs as f64, ends as f64);
+/// The Bayesian estimate of the number of ends is `w (n - 1) / (n - w - 2)` for `w` ends of `n` trials. No other end is
+/// expected if the estimate is below `w + 1/2` (Boender, Rinnooy Kan 1987). This is no proof: an end that few trials
+/// reach may be missing.
+pub(super) fn expects_no_other(trials: usize, ends: usize) -> bool {
+    let (n, w) = (trials as f64, ends as f64);
     n > w + 2.0 && w * (n - 1.0) / (n - w - 2.0) < w + 0.5
 }
 
@@ -429,7 +432,7 @@ impl TaskSearch<'_, '_> {
         members.reverse();
         let few: Vec<HeldPose> =
             members.first().and_then(|m| m.first()).map_or(Vec::new(), |s| s.few.clone());
-        let given = given.iter().map(|x| SearchStart { x: x.clone(), few: few.clone() });
+        let given = given.iter().map(|x| SearchStart { x: x.clone(), few: few.clone(), population: Some(0) });
         members.into_iter().flatten().chain(given).collect()
     }
 
@@ -442,9 +445,9 @@ impl TaskSearch<'_, '_> {
         &self,
         given: &[Vec<f64>],
         watch: &mut ProgressReport<'_, '_, '_>,
-    ) -> (Vec<Run>, Option<Vec<RefinedRun>>) {
+    ) -> (Vec<Climbed>, Option<Vec<RefinedRun>>) {
         let populations = self.options.populations.max(1);
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<Climbed> = Vec::new();
         for first in (0..populations).step_by(LONG_EVERY) {
             let batch = first..populations.min(first + LONG_EVERY);
             let starts = self.starts(batch, given, watch);
@@ -459,12 +462,13 @@ impl TaskSearch<'_, '_> {
         let mut rng = Purpose::MIXTURES.rng(self.options.seed);
         for _ in 0..GENERATIONS_OF_ENDS {
             let mut judge = Judge::new(self.coarse, self.task);
-            let ends: Vec<&[f64]> = runs.iter().map(|r| r.x.as_slice()).collect();
+            let ends: Vec<&[f64]> = runs.iter().map(|r| r.run.x.as_slice()).collect();
             let trials = offspring(&mut judge, &ends, mixtures, &mut rng);
-            let with_poses = |x: Vec<f64>| SearchStart { few: judge.worst(&x, FEW_POSES), x };
+            let with_poses =
+                |x: Vec<f64>| SearchStart { few: judge.worst(&x, FEW_POSES), x, population: None };
             let mixed: Vec<SearchStart> = trials.into_iter().map(with_poses).collect();
             runs.extend(self.climbs(&mixed, runs.len(), watch));
-            if self.are_all_found(&runs) || self.model.is_stopped() {
+            if self.model.is_stopped() {
                 break;
             }
         }
@@ -472,27 +476,36 @@ impl TaskSearch<'_, '_> {
     }
 
     /// [`unmet`], called if no climb met the requirements.
-    fn unmet(&self, runs: &[Run], watch: &mut ProgressReport<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
-        if runs.iter().any(Run::is_feasible) {
+    fn unmet(&self, runs: &[Climbed], watch: &mut ProgressReport<'_, '_, '_>) -> Option<Vec<RefinedRun>> {
+        if runs.iter().any(|c| c.run.is_feasible()) {
             return None;
         }
         let (model, without_axes) = (self.model, !std::ptr::eq(self.model, self.coarse));
         let ends: Vec<Vec<f64>> =
-            runs.iter().map(|run| FirstPassEnd::new(model, without_axes, run.clone()).x).collect();
+            runs.iter().map(|c| FirstPassEnd::new(model, without_axes, c.run.clone()).x).collect();
         unmet(model, &ends, self.options.threads, watch)
     }
 
-    /// Whether further climbs are unlikely to reach another end; ends count as equal by their merit over the same
-    /// poses.
-    fn are_all_found(&self, runs: &[Run]) -> bool {
+    /// Whether further populations are unlikely to lead to another end.
+    ///
+    /// A trial of [`expects_no_other`] is a whole population, because its starts depend on each other; its outcome is
+    /// its best end. Ends count as equal by their merit over the same poses.
+    fn are_all_found(&self, runs: &[Climbed]) -> bool {
         let mut judge = Judge::new(self.coarse, self.task);
-        let mut ends: Vec<PointMerit> = Vec::new();
-        for worth in runs.iter().filter_map(|r| judge.worth(&r.x, usize::MAX, None)) {
-            if !ends.iter().any(|known| known.is_close(&worth, SAME_END)) {
-                ends.push(worth);
+        let mut best: BTreeMap<usize, PointMerit> = BTreeMap::new();
+        for Climbed { population, run } in runs {
+            if let (Some(k), Some(end)) = (population, judge.worth(&run.x, usize::MAX, None)) {
+                let own = best.entry(*k).or_insert(end);
+                *own = if end.order(own).is_lt() { end } else { *own };
             }
         }
-        expects_no_other(runs.len(), ends.len())
+        let mut ends: Vec<PointMerit> = Vec::new();
+        for end in best.values() {
+            if !ends.iter().any(|known| known.is_close(end, SAME_END)) {
+                ends.push(*end);
+            }
+        }
+        expects_no_other(best.len(), ends.len())
     }
 
     /// A short climb from each start; `known` climbs of `total` are already done.
@@ -501,11 +514,14 @@ impl TaskSearch<'_, '_> {
         starts: &[SearchStart],
         known: usize,
         watch: &mut ProgressReport<'_, '_, '_>,
-    ) -> Vec<Run> {
+    ) -> Vec<Climbed> {
         let total = known + starts.len();
-        let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
-        let tick = &mut |done: usize, run: &Run| {
-            watch.see(run);
+        let climbed = |k: usize| Climbed {
+            population: starts[k].population,
+            run: rank(self.coarse, self.task, &starts[k]),
+        };
+        let tick = &mut |done: usize, c: &Climbed| {
+            watch.see(&c.run);
             watch.tell(Stage::Climbs, (known + done, total), None);
         };
         parallel(starts.len(), self.options.threads, climbed, tick)
@@ -514,8 +530,6 @@ impl TaskSearch<'_, '_> {
     /// Polishes the most promising ends, batch after batch, while others are more promising than the best result.
     fn polished(&self, mut ends: FirstPass, watch: &mut ProgressReport<'_, '_, '_>) -> Vec<RefinedRun> {
         let Self { model, coarse, task, options } = *self;
-        let has_objective = task.weights.iter().any(|w| *w > 0.0);
-        let adding = if has_objective { PoseAdding::UntilNoneIsWorse } else { PoseAdding::WhileMet };
         let mut refined: Vec<RefinedRun> = Vec::new();
         for _ in 0..BATCHES {
             let gains = refined.iter().filter(|r| r.run.is_feasible()).map(|r| r.run.judged.gain(task));
@@ -523,7 +537,8 @@ impl TaskSearch<'_, '_> {
             let batch = ends.choose(coarse, task, best, options.polished.max(1));
             let polish = |i: usize| {
                 let end = &ends.points[batch[i]];
-                let refined = refine_adding(adding, model, task, &end.x, ends.poses.clone(), options.seed);
+                let (adding, poses) = (PoseAdding::WhileMet, ends.poses.clone());
+                let refined = refine_adding(adding, model, task, &end.x, poses, options.seed);
                 RefinedRun { run: refined.run.after(end.run.history.clone()), ..refined }
             };
             let size = batch.len();
@@ -699,7 +714,7 @@ pub(super) fn distinct<'r>(
     value: impl Fn(&RefinedRun) -> f64,
 ) -> Vec<&'r RefinedRun> {
     let is_one = |a: &RefinedRun, b: &RefinedRun| {
-        is_close(value(a), value(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
+        is_close(value(a), value(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_ENDS)
     };
     let mut kept: Vec<&RefinedRun> = Vec::new();
     for run in runs {
@@ -761,7 +776,11 @@ fn through_levels(
     let levels = model.problem.objectives.len();
     for level in 1..levels {
         let gain = refined[0].run.judged.gains[level - 1];
-        task.floors[level - 1] = Some(gain - slack * gain.abs());
+        let floor = gain - slack * gain.abs();
+        // local optima below the bound of this level cannot reach it
+        let is_below = |r: &RefinedRun| r.run.judged.gains[level - 1] < floor;
+        refined.retain(|r| r.run.is_feasible() && !is_below(r));
+        task.floors[level - 1] = Some(floor);
         task.weights = (0..levels).map(|m| f64::from(u8::from(m == level))).collect();
         let again = |k: usize| {
             let from = &refined[k];
@@ -770,8 +789,7 @@ fn through_levels(
         let total = refined.len();
         let tick =
             &mut |done: usize, r: &RefinedRun| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
-        let next = parallel(total, options.threads, again, tick);
-        refined = next;
+        refined = parallel(total, options.threads, again, tick);
         refined.sort_by(|a, b| better(&task, &a.run, &b.run));
     }
     (task, refined)

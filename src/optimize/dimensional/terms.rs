@@ -68,11 +68,14 @@ impl<'a> RequirementTerms<'a> {
         Self { required, size, home, joints: shape.joints, axes: shape.axes, plates }
     }
 
+    /// The line of a leg at home.
+    fn line_at_home(&self, ends: &JointEnds, leg: usize) -> Vector3<f64> {
+        self.home.rotation * ends.platform[leg] + self.home.position + ends.lift - ends.base[leg]
+    }
+
     /// The plates under the joints, on the side away from the legs at home.
     fn placed_plates(&self, ends: &JointEnds) -> impl Iterator<Item = PlacedPlate<'_>> {
-        let line =
-            |i: usize| self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
-        let towards: Vector3<f64> = (0..6).map(line).sum();
+        let towards: Vector3<f64> = (0..6).map(|i| self.line_at_home(ends, i)).sum();
         let (ends, home) = (*ends, self.home.rotation);
         self.plates.iter().map(move |plate| match plate.body {
             Body::Base => plate.place(&ends, &towards),
@@ -211,8 +214,7 @@ impl<'a> RequirementTerms<'a> {
             }
             (None, _) => {
                 // along the leg at home, which moves with the joints
-                let line =
-                    self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+                let line = self.line_at_home(ends, i);
                 let turn =
                     |v: &Vector3<f64>| here(&if body == 0 { *v } else { self.home.rotation.inverse() * v });
                 let unturn = |g: &Vector3<f64>| {
@@ -283,7 +285,7 @@ impl<'a> RequirementTerms<'a> {
         let across = |v: &Vector3<f64>| first.cross(&v.cross(&first));
         let d = turn.inverse() * l.line[i];
         let aside = across(&d);
-        let at_home = self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+        let at_home = self.line_at_home(ends, i);
         let axis = match rest_axes {
             JointAxes::Given(axes) => axes[i].into_inner(),
             JointAxes::Home | JointAxes::Optimize => home.inverse() * at_home.normalize(),
@@ -322,22 +324,26 @@ impl<'a> RequirementTerms<'a> {
         }
     }
 
+    /// The least allowed gap of a kind of clearance.
+    fn least_clearance(&self, kind: TermKind) -> f64 {
+        self.required.hardware.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(kind)
+    }
+
+    /// The requirement that a gap is at least the allowed one.
+    fn clearance<P: Gradient>(&self, id: TermId, (gap, least): (f64, f64), pull: P) -> PoseTerm<P> {
+        PoseTerm { id, value: (gap - least) / self.size, pull: pull.scaled(1.0 / self.size), exact: None }
+    }
+
     fn leg_clearance<P: Gradient>(
         &self,
         l: &LegLines,
         (i, j): (usize, usize),
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
-        let h = &self.required.hardware;
-        let Some(body) = h.leg_body else { return };
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(TermKind::LegClearance);
+        let Some(body) = self.required.hardware.leg_body else { return };
+        let least = self.least_clearance(TermKind::LegClearance);
         l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
-            see(PoseTerm {
-                id: (TermKind::LegClearance, i, j, gap.part),
-                value: (gap.value - clearance) / self.size,
-                pull: gap.pull.scaled(1.0 / self.size),
-                exact: None,
-            });
+            see(self.clearance((TermKind::LegClearance, i, j, gap.part), (gap.value, least), gap.pull));
         });
     }
 
@@ -363,16 +369,10 @@ impl<'a> RequirementTerms<'a> {
         shape: (&KeepOutShape, Body),
         see: &mut impl FnMut(PoseTerm<P>),
     ) {
-        let h = &self.required.hardware;
-        let Some(body) = h.leg_body else { return };
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(kind);
+        let Some(body) = self.required.hardware.leg_body else { return };
+        let least = self.least_clearance(kind);
         l.keep_out_gaps(&body, i, shape, &mut |gap: Gap<P>| {
-            see(PoseTerm {
-                id: (kind, i, k, gap.part),
-                value: (gap.value - clearance) / self.size,
-                pull: gap.pull.scaled(1.0 / self.size),
-                exact: None,
-            });
+            see(self.clearance((kind, i, k, gap.part), (gap.value, least), gap.pull));
         });
     }
 
@@ -386,17 +386,12 @@ impl<'a> RequirementTerms<'a> {
         let h = &self.required.hardware;
         let Some(leg_body) = h.leg_body else { return };
         let kind = TermKind::PlateClearance;
-        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.safety_margin(kind);
+        let least = self.least_clearance(kind);
         for (plate, model) in self.placed_plates(ends).zip(&self.plates) {
             for i in 0..6 {
                 let reach = h.joint_reach(model.body, i);
                 plate.clearances(l, (&leg_body, i, reach), &mut |part, gap, pull: P| {
-                    see(PoseTerm {
-                        id: (kind, i, model.body.index(), part),
-                        value: (gap - clearance) / self.size,
-                        pull: pull.scaled(1.0 / self.size),
-                        exact: None,
-                    });
+                    see(self.clearance((kind, i, model.body.index(), part), (gap, least), pull));
                 });
             }
         }

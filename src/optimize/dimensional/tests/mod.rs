@@ -1,6 +1,7 @@
 //! Derivatives, convex forms, optima, conflicts.
 
 mod outcomes;
+mod starts;
 
 use std::ops::ControlFlow;
 

@@ -220,9 +220,9 @@ fn a_search_that_is_told_to_end_names_no_conflict() {
     assert!(matches!(found.outcome, DimensionalOutcome::Infeasible(_)), "{found:?}");
 }
 
-/// Eight climbs with a single end are enough; climbs with all different ends never are.
+/// Eight trials with a single end are enough; trials with all different ends never are.
 #[test]
-fn climbs_are_enough_when_their_ends_repeat() {
+fn trials_are_enough_when_their_ends_repeat() {
     let first = |ends: usize| (1..1000).find(|n| expects_no_other(*n, ends));
     assert_eq!([1, 2, 3, 8].map(first), [Some(8), Some(17), Some(30), Some(155)]);
     assert!((1..1000).all(|n| !expects_no_other(n, n)));

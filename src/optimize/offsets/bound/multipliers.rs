@@ -28,18 +28,7 @@ pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
     if !(scale > 0.0 && scale.is_finite()) {
         return None;
     }
-    let mut tableau = Tableau::new(samples, scale);
-    for _ in 0..MOST_PIVOTS {
-        let Some(column) = tableau.entering() else { break };
-        let row = tableau.leaving(column)?;
-        tableau.pivot(row, column);
-    }
-    let mut mu = vec![0.0; n];
-    for (row, variable) in tableau.basic.iter().enumerate() {
-        if *variable < n {
-            mu[*variable] = tableau.entry(row, tableau.columns).max(0.0);
-        }
-    }
+    let mu = Tableau::new(samples, scale).least(n)?;
     let largest = mu.iter().copied().fold(0.0, f64::max);
     let greatest = |i: usize| {
         let at = |j: usize| mu.iter().zip(samples).map(|(m, s)| m * s[i][j]).sum::<f64>();
@@ -77,18 +66,8 @@ pub(super) fn game<const N: usize>(values: &[[f64; N]]) -> Option<Vec<f64>> {
     }
     entries[N * (n + 1)..][..n].fill(-1.0);
     let basic = (n..n + N).collect();
-    let mut tableau = Tableau { rows: N, columns: n, entries, basic, other: (0..n).collect(), small: SMALL };
-    for _ in 0..MOST_PIVOTS {
-        let Some(column) = tableau.entering() else { break };
-        let row = tableau.leaving(column)?;
-        tableau.pivot(row, column);
-    }
-    let mut mu = vec![0.0; n];
-    for (row, variable) in tableau.basic.iter().enumerate() {
-        if *variable < n {
-            mu[*variable] = tableau.entry(row, n).max(0.0);
-        }
-    }
+    let tableau = Tableau { rows: N, columns: n, entries, basic, other: (0..n).collect(), small: SMALL };
+    let mu = tableau.least(n)?;
     let total: f64 = mu.iter().sum();
     if !(total > 0.0 && total.is_finite()) {
         return None;
@@ -143,6 +122,20 @@ impl Tableau {
             other: (0..columns).collect(),
             small: SMALL * scale.min(1.0),
         }
+    }
+
+    /// The first `n` variables after all pivots; `None` for a program without a least value.
+    fn least(mut self, n: usize) -> Option<Vec<f64>> {
+        for _ in 0..MOST_PIVOTS {
+            let Some(column) = self.entering() else { break };
+            let row = self.leaving(column)?;
+            self.pivot(row, column);
+        }
+        let mut out = vec![0.0; n];
+        for (row, variable) in self.basic.iter().enumerate().filter(|(_, variable)| **variable < n) {
+            out[*variable] = self.entry(row, self.columns).max(0.0);
+        }
+        Some(out)
     }
 
     fn entry(&self, row: usize, column: usize) -> f64 {
