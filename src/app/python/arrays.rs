@@ -103,7 +103,7 @@ pub(super) fn entry<T: From<f64> + Copy>(r: &Matrix3<T>, p: &Vector3<T>, (i, j):
 
 /// The matrices of real poses.
 pub(super) fn matrices(poses: &[Pose]) -> Array3<f64> {
-    let of = |(k, i, j)| entry(poses[k].rotation.matrix(), &poses[k].position, (i, j));
+    let of = |(k, i, j): (usize, usize, usize)| entry(poses[k].rotation.matrix(), &poses[k].position, (i, j));
     Array3::from_shape_fn((poses.len(), 4, 4), of)
 }
 
@@ -114,7 +114,7 @@ pub(super) fn rotations(poses: &[Pose]) -> Array3<f64> {
 
 /// The matrices of complex poses.
 pub(super) fn complex_matrices(poses: &[&ComplexPose]) -> Array3<Complex64> {
-    let of = |(k, i, j)| entry(&poses[k].rotation, &poses[k].position, (i, j));
+    let of = |(k, i, j): (usize, usize, usize)| entry(&poses[k].rotation, &poses[k].position, (i, j));
     Array3::from_shape_fn((poses.len(), 4, 4), of)
 }
 

@@ -9,7 +9,9 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray2, PyRea
 use pyo3::prelude::*;
 
 use super::answers::document;
-use super::arrays::{leg_map_arrays, as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
+use super::arrays::{
+    as_it_stands, at_poses, leg_map_arrays, lengths_in, matrices, pose_entries, poses_in, shaped,
+};
 use super::failure::{interrupted, interruptible, raised, refused, refused_for_cranks};
 use super::forms::{ConventionWords, words_of};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns, SolvedFor};

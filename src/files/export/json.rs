@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    DrilledHole, Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, LengthUnit, Plate, SizeChoice,
-    Unsupported, Writer,
+    DrilledHole, Export, ExportBody, ExportCalibration, ExportLeg, ExportedFile, LengthUnit, Plate,
+    SizeChoice, Unsupported, Writer,
 };
 use platform::geom::Pose;
 
