@@ -184,7 +184,7 @@ fn commands_take_joints_per_leg_or_refuse_them() {
     let (code, answer, _) = to("c");
     assert_eq!(code, Some(1), "{answer}");
     let why = answer["formats"][0]["refused"].as_str().unwrap();
-    assert!(why.contains("different greatest angles"), "{why}");
+    assert!(why.contains("different cone angles"), "{why}");
     let (code, answer, out) = to("csv");
     assert_eq!(code, Some(0), "{answer}");
     let table = std::fs::read_to_string(out.join("parts.csv")).unwrap();

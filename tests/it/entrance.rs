@@ -212,7 +212,7 @@ fn verify_shows_its_samples_and_can_be_ended() {
     let mut inches = b.clone();
     inches.units = "in".into();
     assert!(matches!(verify(&a, &inches), Err(Error::Units(_))));
-    assert!(leg_map(&a, &inches).unwrap_err().to_string().contains("same unit"));
+    assert!(leg_map(&a, &inches).unwrap_err().to_string().contains("has the unit"));
 }
 
 #[test]

@@ -71,9 +71,9 @@ pub(super) fn points(text: &str, units: &str) -> Result<MadeRecord, Refusal> {
 
 /// The design with the symmetry of its joints as constructions.
 pub(super) fn snapped(design: &Design) -> Result<MadeRecord, Refusal> {
-    let snapped = design.snapped().ok_or_else(|| {
-        Refusal::new("symmetry", "no symmetry was found that the joints do not have exactly")
-    })?;
+    let snapped = design
+        .snapped()
+        .ok_or_else(|| Refusal::new("symmetry", "no further symmetry of the joints was found"))?;
     let guesses = snapped.sentences(&design.units);
     Ok(MadeRecord { toml: snapped.design.to_toml(), guesses })
 }

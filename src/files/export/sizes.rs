@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::model::ExportedJoint;
-use super::telescope::has_room;
+use super::telescope::fits;
 use super::units::{LengthUnit, UnknownUnit};
 use crate::design::DesignModel;
 use machine::requirements::{Hardware, MovingBodies, PlateDesign, seat_height};
@@ -253,7 +253,7 @@ impl LegSizes {
                 foot + 0.5 * (cylinder_diameter - rod_diameter) + (greatest - least) + 2.0 * rod_diameter;
             let bounded = half.max(deep).min(least - tip);
             // a machine retracted at home, or with joints nearly as long as its least length, has no space for that
-            if has_room(foot, bounded, shortest - tip) { bounded } else { half }
+            if fits(foot, bounded, shortest - tip) { bounded } else { half }
         });
         let cylinder_length = choose(
             choices,

@@ -84,7 +84,7 @@ pub(super) fn kind_suffix(k: usize, count: usize) -> String {
 }
 
 /// Whether the balls of a leg leave space for a cylinder and a rod; `head` is the start of the platform ball.
-pub(super) fn has_room(foot: f64, mouth: f64, head: f64) -> bool {
+pub(super) fn fits(foot: f64, mouth: f64, head: f64) -> bool {
     foot < mouth && mouth < head
 }
 
@@ -138,7 +138,7 @@ impl Export {
         let leg: &ExportLeg = &self.legs[kind.legs[0]];
         let [foot, tip] = [0, 1].map(|k: usize| 0.5 * self.bodies[k].ball_diameter);
         let (mouth, length) = (leg.cylinder, kind.length);
-        if !has_room(foot, mouth, length - tip) {
+        if !fits(foot, mouth, length - tip) {
             let taken = foot.max(mouth) + tip;
             return Err(Unsupported::LegTooShort { leg: leg.number, length, taken });
         }

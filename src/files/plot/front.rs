@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn one_member_has_room_around_it() {
+    fn one_member_has_padding_around_it() {
         let one = FrontFigure { members: vec![vec![2.0, 0.0]], ..figure(2) };
         assert!(!pareto_front(&one).contains("NaN"));
     }

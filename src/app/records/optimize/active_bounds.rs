@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_of_ranges_are_named_together_and_what_has_room_is_not() {
+    fn ends_of_ranges_are_named_together_and_inner_ones_are_not() {
         let all =
             [variable("t1", -0.3), variable("t2", 0.2), variable("t3", -0.3 + 1e-8), variable("t4", 1.3)];
         let bounds: Vec<ActiveBoundRecord> = all.iter().filter_map(at_end).collect();

@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_apply_takes_no_room() {
+    fn what_does_not_apply_takes_no_space() {
         let told = |list: &str| {
             let list: Vec<Value> = serde_json::from_str(list).unwrap();
             rows(&list).to_string()

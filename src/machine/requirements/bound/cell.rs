@@ -175,8 +175,8 @@ impl CellEvaluator<'_> {
                 let value = |frame: &CellFrame<'_>| self.joint_value(leg, end, side, frame);
                 let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else { return nothing };
                 let mut bounded = local::below(chart, cell, z, &at, &over);
-                bounded.below = self.room_left(leg, end, side, Interval::from(bounded.below)).lo();
-                let upper = self.room_left(leg, end, side, at.value).hi();
+                bounded.below = self.envelope_margin(leg, end, side, Interval::from(bounded.below)).lo();
+                let upper = self.envelope_margin(leg, end, side, at.value).hi();
                 let slope = std::array::from_fn(|k| at.slope(k).centre_and_radius().0);
                 AtPoint { bounded, upper, slope: Some(slope), ..nothing }
             }

@@ -77,7 +77,7 @@ impl CellEvaluator<'_> {
     }
 
     /// The margin for a value of the function of a joint, increasing with it.
-    pub(super) fn room_left(&self, leg: usize, end: usize, side: Side, value: Interval) -> Interval {
+    pub(super) fn envelope_margin(&self, leg: usize, end: usize, side: Side, value: Interval) -> Interval {
         let housing = self.required.hardware.housing(Body::BOTH[end], leg);
         // the same double as in the evaluation of a pose; its rounding belongs to the definition of the housing
         let ball = Interval::from(envelope::ball(housing));
