@@ -22,72 +22,72 @@ use platform::manipulator::{Body, Manipulator, jacobian};
     serde(rename_all = "snake_case")
 )]
 pub enum TermKind {
-    /// Leg length minus the least one.
+    /// Leg length minus minimum.
     MinLegLength,
-    /// Greatest leg length minus the leg length.
+    /// Maximum minus leg length.
     MaxLegLength,
-    /// Limit minus the joint angle between leg and axis at the base.
+    /// Limit minus joint angle at the base.
     BaseConeAngle,
-    /// Limit minus the joint angle between leg and axis at the platform.
+    /// Limit minus joint angle at the platform.
     PlatformConeAngle,
-    /// Limit minus the angle about the first axis of a universal joint at the base.
+    /// Limit minus first universal joint angle at the base.
     BaseFirstAngle,
-    /// Limit minus the angle about its second axis.
+    /// Limit minus second angle.
     BaseSecondAngle,
-    /// Limit minus the angle about the first axis of a universal joint at the platform.
+    /// Limit minus first universal joint angle at the platform.
     PlatformFirstAngle,
-    /// Limit minus the angle about its second axis.
+    /// Limit minus second angle.
     PlatformSecondAngle,
-    /// Gap between two legs minus the required clearance.
+    /// Gap of two legs minus clearance.
     LegClearance,
-    /// Gap between a leg and a keep-out minus the required clearance.
+    /// Gap of leg and keep-out minus clearance.
     KeepOut,
-    /// Greatest leg force minus the force under a load.
+    /// Limit minus leg force under a load.
     LegForce,
-    /// Greatest leg speed minus the speed in the worst direction of motion.
+    /// Limit minus leg speed in the worst direction.
     LegSpeed,
-    /// Gap between two housings of the base, or distance of joint centres minus the least one.
+    /// Gap of two base housings, or distance of joint centres minus the least one.
     BaseSpacing,
-    /// Gap between two housings of the platform, or distance of joint centres minus the least one.
+    /// Gap of two platform housings, or distance of joint centres minus the least one.
     PlatformSpacing,
-    /// Distance of a base joint with its housing inside the envelope of the base.
+    /// Distance of base housings inside their envelope.
     BaseEnvelope,
-    /// Distance of a platform joint with its housing inside the envelope of the platform.
+    /// Distance of platform housings inside their envelope.
     PlatformEnvelope,
-    /// Distance of a joint with its housing inside the envelope of the whole machine.
+    /// Distance of housings inside the machine envelope.
     MachineEnvelope,
-    /// Distance of the holes under a base joint from the outline of the plate, minus the required one.
+    /// Distance of holes from the base outline, minus the required one.
     BaseHoleEdge,
-    /// Distance of the holes under a platform joint from the outline of the plate, minus the required one.
+    /// Distance of holes from the platform outline, minus the required one.
     PlatformHoleEdge,
-    /// Distance between the holes and feet of two base joints, or between the holes of one, minus the required one.
+    /// Gap of base holes and feet, or between the holes of one, minus the required one.
     BaseHoleGap,
-    /// Distance between the holes and feet of two platform joints, or between the holes of one, minus the required one.
+    /// Gap of platform holes and feet, or between the holes of one, minus the required one.
     PlatformHoleGap,
-    /// Gap between a leg and a plate minus the required clearance.
+    /// Gap of leg and plate minus clearance.
     PlateClearance,
-    /// Gap between a leg and the payload minus the required clearance.
+    /// Gap of leg and payload minus clearance.
     PayloadClearance,
-    /// Stiffness of the platform against a force in the softest direction minus the least one.
+    /// Softest stiffness against a force minus minimum.
     LinearStiffness,
-    /// Stiffness of the platform against a torque about the softest axis minus the least one.
+    /// Softest stiffness against a torque minus minimum.
     AngularStiffness,
-    /// Lowest natural frequency minus the least one.
+    /// Lowest natural frequency minus minimum.
     NaturalFrequency,
-    /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
+    /// Rod length minus nearest distance of platform joint and crank circle.
     MinRodLength,
-    /// Distance of the platform joint from the farthest point of the crank circle minus the rod length.
+    /// Farthest distance of platform joint and crank circle minus rod length.
     MaxRodLength,
-    /// Transmission angle of a crank minus the least one. Its sine is the share of a push along the rod that turns the
-    /// crank. At 0 degrees crank and rod are in a plane with the axis.
+    /// Transmission angle minus minimum. Its sine is the share of a push along the rod that turns the crank. At 0
+    /// degrees crank and rod are in a plane with the axis.
     CrankTransmission,
-    /// Distance of the angle of a crank from its limits.
+    /// Distance of the crank angle from its limits.
     CrankAngle,
-    /// Limit minus the angle between a rod and the plane in which its crank turns.
+    /// Limit minus angle of rod and crank plane.
     TipAngle,
-    /// Greatest torque of a crank minus the torque under a load.
+    /// Limit minus crank torque under a load.
     CrankTorque,
-    /// Greatest speed of a crank minus the speed in the worst direction of motion.
+    /// Limit minus crank speed in the worst direction.
     CrankSpeed,
 }
 

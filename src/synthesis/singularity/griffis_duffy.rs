@@ -176,22 +176,22 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), serde(tag = "verdict", rename_all = "snake_case"), schemars(rename = "AssemblyRecord", transform = num::nullable))]
 pub enum Assembly {
-    /// The lengths violate the condition.
+    /// Incompatible lengths.
     // by more than rounding: there is no pose, real or complex
     Incompatible {
         /// The relative violation.
         defect: f64,
     },
-    /// The triangles of the legs do not close.
+    /// Triangles of the legs do not close.
     // the condition holds within rounding, and there is no real pose
     NoRealPose {},
-    /// The search found no real pose.
+    /// No real pose found.
     Undecided {
         /// Squared lengths of the octahedral platforms.
         #[cfg_attr(feature = "serde", serde(rename = "octahedral_squared_lengths"))]
         corners: CornerLengths,
     },
-    /// There is a real pose, and the platform has a self-motion.
+    /// Real pose exists, and the platform has a self-motion.
     Real {
         /// The pose.
         pose: Pose,
