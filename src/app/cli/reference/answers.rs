@@ -544,8 +544,12 @@ impl Answers {
         for (name, property) in own {
             let field = self.field(name, property);
             let has_list = self.has_list_below(property);
+            // a reminder is of the nearest field with this name, so all of them have to be the same
+            let mut namesakes = around.iter().chain(shown.iter()).filter(|known| known.name == *name);
+            let agree = namesakes.all(|known| known.loose() == field.loose());
             let is_described =
                 self.common.contains(&field.loose()) || around.contains(&field) || shown.contains(&field);
+            let is_described = agree && is_described;
             if is_described && !has_list {
                 before.push(field.reminder());
                 continue;

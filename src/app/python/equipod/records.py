@@ -3512,8 +3512,8 @@ class OptimizeAnswer(Record):
     #: Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by
     #: falling gain of the first objective; null in other modes.
     front: Union[tuple[FrontMemberRecord, ...], None]
-    #: Reason for optimising sizes and home height, one sentence. Null: the variables come from the design
-    #: or are the usual ones.
+    #: Reason for choosing sizes and home height, one sentence. Null: the variables come from the design or
+    #: are the usual ones.
     choice: Union[str, None]
     #: Limits of the search.
     limits: SearchLimitsRecord

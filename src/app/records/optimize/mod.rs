@@ -66,7 +66,7 @@ pub struct OptimizeAnswer {
     /// Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling gain
     /// of the first objective; null in other modes.
     pub front: Option<Vec<FrontMemberRecord>>,
-    /// Reason for optimising sizes and home height, one sentence. Null: the variables come from the design or are the
+    /// Reason for choosing sizes and home height, one sentence. Null: the variables come from the design or are the
     /// usual ones.
     pub choice: Option<String>,
     /// Limits of the search.

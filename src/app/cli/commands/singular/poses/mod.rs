@@ -30,8 +30,8 @@ pub(crate) struct SingularPosesArgs {
     /// Six lengths for the assembly modes, design units; default: from the pose
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// Half widths of the box: positions (design units) and rotation vector (degrees); default: the workspace, or half
-    /// the size and 30 degrees
+    /// Shape of the box: half widths of positions (design units) and of the rotation vector (degrees); default: the
+    /// workspace, or half the size and 30 degrees
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
     /// Greatest number of cells for the proof
@@ -55,7 +55,7 @@ pub(crate) struct SingularPosesArgs {
     /// Write a picture of det J along this path
     #[arg(long, value_name = "FILE", requires = "path")]
     path_svg: Option<OutputPath>,
-    /// Compute det J between all assembly modes, and find modes joined by other regular paths
+    /// Compute det J along straight paths between all assembly modes, and find modes joined by other regular paths
     #[arg(long)]
     between: bool,
     /// Number of random poses for such paths, for each sign of det J
