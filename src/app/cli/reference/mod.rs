@@ -117,8 +117,11 @@ fn lines<'a>(arguments: impl Iterator<Item = &'a Arg>) -> String {
         let rest = meaning(a);
         rest.strip_prefix(DESIGN).is_none_or(|rest| !(rest.is_empty() || rest.starts_with(", or `-`")))
     };
-    let all = first.into_iter().chain(rest).filter(said);
-    all.map(|arg| format!("- `{}`: {}\n", spelling(arg), meaning(arg))).collect()
+    let mut out = String::new();
+    for arg in first.into_iter().chain(rest).filter(said) {
+        let _ = writeln!(out, "- `{}`: {}", spelling(arg), meaning(arg));
+    }
+    out
 }
 
 /// Purpose, examples and options of one command and its own commands; options of all commands are listed only for the

@@ -18,7 +18,7 @@ use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 pub(crate) struct BuildDrivesArgs {
     /// Design file (.toml or .json) with home, workspace, limits and loads
     design: PathBuf,
-    /// Table of drives (.csv) with columns such as stroke, force_N and price_EUR; default: `drives` in `[hardware]`
+    /// Table of drives (.csv) with columns such as `force_N` and `price_EUR`; default: `drives` in `[hardware]`
     table: Option<PathBuf>,
     /// Table of times and poses; the drives must be fast and strong enough for it
     #[arg(long, value_name = "FILE")]
