@@ -83,8 +83,8 @@ pub struct BoundedProof {
     /// of real rotations are at most 1. Null: the proof is about real poses alone.
     #[cfg_attr(feature = "serde", serde(rename = "R"))]
     pub rotation: Option<f64>,
-    /// Largest change of the two ends of a leg (both together) in a neighbouring design that has no more poses, design
-    /// units. The proof is then about real poses. Null: it is about far poses.
+    /// Change of leg ends to a neighbouring design without more poses, design units. The proof is then about real
+    /// poses. Null: it is about far poses.
     pub neighbour: Option<f64>,
     /// The far poses, the nearest ones first.
     pub others: Vec<FarPoses>,
@@ -94,9 +94,9 @@ pub struct BoundedProof {
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema))]
 pub struct FarPoses {
-    /// Number of poses in the group: two that are too close to be told apart, or one.
+    /// Number of poses: two that are too close to be told apart, or one.
     pub poses: usize,
-    /// The largest entry of their rotation matrices is at least this.
+    /// Lower bound on their largest rotation entry.
     pub rotation: f64,
     /// It is at most this; null: they may be at infinity.
     pub rotation_at_most: Option<f64>,

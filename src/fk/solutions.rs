@@ -187,13 +187,13 @@ num::answer_words! {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
 pub struct PathReport {
-    /// Index of the start point.
+    /// Start index.
     pub start: usize,
-    /// The end of the path.
+    /// Path end.
     pub end: PathEnd,
     /// Index into `solutions`, from 0.
     pub root: Option<usize>,
-    /// Index of the mirror image, where one path stands for two.
+    /// Mirror image index, where one path stands for two.
     // Base and platform are planar, and one path of each pair of mirror images was tracked, 20 of 40. The index equals
     // `root` when the pose is its own image.
     pub mirror_root: Option<usize>,
@@ -205,7 +205,7 @@ pub struct PathReport {
     pub winding: u32,
     /// |e.e| / |e|^2 at the end.
     pub isotropy: f64,
-    /// Number of repeated trackings with smaller steps.
+    /// Number of repetitions with smaller steps.
     pub retracked: u32,
 }
 
@@ -235,7 +235,7 @@ pub enum RejectionReason {
 pub struct Rejected {
     /// The reason of the rejection.
     pub reason: RejectionReason,
-    /// Error of the candidate in the leg equations, over the squared size.
+    /// Leg equation error of the candidate, over the squared size.
     pub residual: f64,
 }
 
@@ -251,7 +251,7 @@ pub struct LibraryCalls {
     pub library: &'static str,
     /// The kind of computation: `plu`, a triangular factor with partial pivoting, or `qz`, generalised eigenvectors.
     pub computation: &'static str,
-    /// Rows and columns of the matrix.
+    /// Rows and columns.
     pub size: [usize; 2],
     /// Number of calls.
     pub calls: usize,

@@ -14,22 +14,22 @@ use platform::pentapod::{Pentapod, RationalPoint, joints_of_legs, lines_without_
 )]
 #[non_exhaustive]
 pub enum PlacedFirst {
-    /// Five legs end on a line of this body and place it; the sixth turns the platform about it, in two ways.
+    /// Line of five leg ends; the sixth turns the platform about it, in two ways.
     Line {
         /// The body.
         body: Body,
-        /// The legs, counted from 1.
+        /// Legs, from 1.
         legs: Vec<usize>,
-        /// The polynomial that places it; null when the legs are dependent, or joints are no fractions.
+        /// Polynomial for it; null when the legs are dependent, or joints are no fractions.
         class: Option<LineClass>,
-        /// The five other ends lie in a plane: a line-plane component.
+        /// Whether the five other ends are coplanar: a line-plane component.
         other_ends_in_plane: bool,
     },
-    /// Three legs meet in a joint of this body and place it by three distances; the others turn the platform about it.
+    /// Joint of three legs; the others turn the platform about it.
     Joint {
         /// The body.
         body: Body,
-        /// The legs, counted from 1.
+        /// Legs, from 1.
         legs: Vec<usize>,
     },
 }
@@ -38,9 +38,9 @@ pub enum PlacedFirst {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 pub struct Solvability {
-    /// A chain of quadratic equations gives all poses.
+    /// Whether quadratic equations give all poses.
     pub quadratic: bool,
-    /// The parts that can be placed first; empty where the legs do not decouple in these ways.
+    /// Parts that can be placed first; empty where the legs do not decouple in these ways.
     pub placed_first: Vec<PlacedFirst>,
 }
 

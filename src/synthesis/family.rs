@@ -45,21 +45,21 @@ pub struct FamilyTopology {
 pub struct FamilyCounts {
     /// Patterns of kept and moved legs.
     pub patterns: usize,
-    /// Patterns up to the symmetries of the hexagon that keep base and platform apart.
+    /// Patterns up to symmetries that keep base and platform apart.
     pub classes: usize,
-    /// Patterns up to all symmetries of the hexagon.
+    /// Patterns up to all symmetries.
     pub classes_exchange: usize,
-    /// Topologies of shared joints, including the octahedral one.
+    /// Topologies, including the octahedral one.
     pub topologies: usize,
-    /// The same with base and platform exchangeable.
+    /// The same, base and platform exchangeable.
     pub topologies_exchange: usize,
-    /// Topologies that are reached by offsets introduced one at a time.
+    /// Topologies reached by offsets one at a time.
     pub sequential_topologies: usize,
-    /// The same with base and platform exchangeable.
+    /// The same, base and platform exchangeable.
     pub sequential_topologies_exchange: usize,
-    /// Patterns that are reached by offsets introduced one at a time.
+    /// Patterns reached by offsets one at a time.
     pub sequential_patterns: usize,
-    /// Patterns that split joints only.
+    /// Patterns that only split joints.
     pub splitting_patterns: usize,
 }
 

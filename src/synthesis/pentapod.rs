@@ -196,8 +196,8 @@ fn primitive(polynomial: LinePolynomial) -> LinePolynomial {
 )]
 #[non_exhaustive]
 pub enum DecouplingLeg {
-    /// The five legs hold a line of this body. Any leg off the line determines the rotation about it, with two
-    /// solutions for each pose of the line.
+    /// Five legs hold a line of this body. Any leg off the line determines the rotation about it, with two solutions
+    /// for each pose of the line.
     OffTheLine {
         /// The body.
         body: Body,

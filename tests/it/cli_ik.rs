@@ -99,7 +99,7 @@ fn poses_become_lengths_and_lengths_the_poses_again_with_their_times() {
     assert_eq!(found[0][..5], ["row", "Zeit", "pose", "nearest_home", "mode"].map(String::from));
     let nearest: Vec<&Vec<String>> = found.iter().filter(|row| row[3] == "true").collect();
     assert_eq!(nearest.len(), 2, "one for each row");
-    assert_eq!((nearest[1][0].as_str(), nearest[1][1].as_str(), nearest[1][2].as_str()), ("2", "0.5", "1"));
+    assert_eq!((nearest[1][0].as_str(), nearest[1][1].as_str()), ("2", "0.5"));
     assert_eq!(nearest[1][4], "above");
     let value = |row: &[String], name: &str| -> f64 {
         row[found[0].iter().position(|n| n == name).unwrap()].parse().unwrap()
@@ -122,6 +122,47 @@ fn poses_become_lengths_and_lengths_the_poses_again_with_their_times() {
     assert_eq!(column(&again, "Zeit"), ["0.0", "0.5"]);
     let (a, b): (f64, f64) = (again[2][3].parse().unwrap(), rows[2][3].parse().unwrap());
     assert!((a - b).abs() < 1e-9);
+}
+
+/// The real positions of all poses of a JSON answer, in the order of their numbers.
+fn positions(doc: &serde_json::Value) -> Vec<[f64; 3]> {
+    let list = |name: &str| doc[name].as_array().into_iter().flatten().collect::<Vec<_>>();
+    let all = list("solutions").into_iter().chain(list("witness_points"));
+    all.map(|s| [0, 1, 2].map(|i| s["p"]["re"][i].as_f64().unwrap())).collect()
+}
+
+#[test]
+fn one_number_names_a_pose_in_the_text_in_the_table_and_in_json() {
+    // the second design has a self-motion, whose points are numbered too
+    for (design, real_column) in
+        [("designs/rbt-octahedral.toml", "x_mm"), ("designs/rbt-midline.toml", "px_mm")]
+    {
+        let meant = positions(&document(&equipod(&["fk", design, "--json"])));
+        let rows = table(&["fk", design, "--csv", "--all"]);
+        let numbers: Vec<usize> = column(&rows, "pose").iter().map(|n| n.parse().unwrap()).collect();
+        let mut sorted = numbers.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (1..=meant.len()).collect::<Vec<_>>(), "{design}: every pose has one number");
+        for (number, x) in numbers.iter().zip(column(&rows, real_column)) {
+            assert!(x.is_empty() || x.parse() == Ok(meant[number - 1][0]), "{design}: row of pose {number}");
+        }
+        let text = String::from_utf8(equipod(&["fk", design, "--digits", "15"]).stdout).unwrap();
+        let lines = text.lines().skip_while(|line| !line.starts_with("pose ")).skip(1);
+        let lines = lines.map_while(|line| {
+            let mut words = line.split_whitespace();
+            Some((words.next()?.parse::<usize>().ok()?, words.next()?.parse::<f64>().ok()?))
+        });
+        let lines: Vec<(usize, f64)> = lines.collect();
+        assert!(!lines.is_empty(), "{text}");
+        for (number, x) in lines {
+            assert!((x - meant[number - 1][0]).abs() < 1e-9, "{design}: line of pose {number}");
+        }
+    }
+    // the order from home on is another one than the numbers
+    let rows = table(&["fk", "designs/rbt-octahedral.toml", "--csv"]);
+    let (first, nearest) = (column(&rows, "pose")[0], column(&rows, "nearest_home")[0]);
+    assert_eq!(nearest, "true");
+    assert_ne!(first, "1");
 }
 
 #[test]

@@ -19,13 +19,13 @@ use verify::decide_map;
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AlignmentArgs {
-    /// Find all rigid motions of the second design's base and platform frames that make it equivalent to the first
+    /// Find all rigid motions of the second design's frames that make it equivalent
     #[arg(long)]
     align: bool,
-    /// Exchange base and platform of the second design first; its poses become the inverse poses
+    /// Exchange base and platform of the second design first; its poses are inverted
     #[arg(long)]
     exchange: bool,
-    /// Write the second design, in the frames of the first, to this file (.toml or .json)
+    /// Write the second design in the frames of the first (.toml or .json)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }

@@ -22,7 +22,7 @@ Exit codes:
 pub(crate) struct Cli {
     #[command(flatten)]
     pub(crate) global: Global,
-    /// Print the licence notices of the software that is compiled into the program
+    /// Print the licences of all software in the program
     #[arg(long)]
     pub(crate) licences: bool,
     #[command(subcommand)]

@@ -29,7 +29,7 @@ pub(crate) struct Global {
     /// Write no warnings and no progress to standard error
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
-    /// Significant digits of the numbers printed for people; --json and tables always have all of them
+    /// Significant digits of printed numbers; --json and tables have all
     #[arg(long, global = true, value_name = "N", default_value_t = sheet::DIGITS, value_parser = clap::value_parser!(u8).range(1..=17))]
     pub(crate) digits: u8,
 }

@@ -12,8 +12,8 @@ use super::numbers;
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 #[command(next_help_heading = "Convention of poses (default: [frames] of the design)")]
 pub(crate) struct FrameArgs {
-    /// Order of the rotations and of their angles: `fixed-xyz` (R = Rz Ry Rx), `moving-xyz` (R = Rx Ry Rz), any other
-    /// axes, `rpy`, `pi`, `rubin`, or `vector` for a rotation vector
+    /// Order of rotations and angles: `fixed-xyz` (R = Rz Ry Rx), `moving-xyz` (R = Rx Ry Rz), other axes, `rpy`, `pi`,
+    /// `rubin`, or `vector` for a rotation vector
     #[arg(long, value_name = "ORDER")]
     rotation_order: Option<RotationOrder>,
     /// Point of the platform whose position a pose gives, platform frame

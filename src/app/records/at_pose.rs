@@ -21,44 +21,44 @@ pub struct AtPoseAnswer {
     pub length_unit: String,
     /// The unit of forces; torques are in this unit times the unit of length.
     pub force_unit: String,
-    /// The convention in which poses were read, and of `in_frames`.
+    /// Convention in which poses were read, and of `in_frames`.
     pub frames: PoseConventionRecord,
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The reference point on the platform, platform frame of `frames`: wrenches, shifts and stiffness are about it.
+    /// Reference point, platform frame of `frames`: wrenches, shifts and stiffness are about it.
     pub point: [Number; 3],
-    /// The body whose axes all vectors have: `base` or `platform`.
+    /// Body whose axes vectors have: `base` or `platform`.
     pub axes: String,
-    /// The lengths that the legs show; null: the legs are rods on cranks.
+    /// Lengths shown; null: the legs are rods on cranks.
     pub lengths: Option<[f64; 6]>,
-    /// The angles of the cranks, where a design has some and all rods reach.
+    /// Crank angles, where a design has some and all rods reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
-    /// The first rod that does not reach, where one does not; nothing else is then known.
+    /// First rod that does not reach; nothing else is then known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub out_of_reach: Option<OutOfReachRecord>,
-    /// Every requirement is met, and det J has the sign that it has at home.
+    /// Whether every requirement is met, and det J has the sign that it has at home.
     pub allowed: bool,
-    /// Requirements that are violated, the worst first.
+    /// Violated requirements, the worst first.
     pub violated: Vec<LimitRecord>,
     /// The evidence of a singular pose; null: the pose is regular.
     pub singular: Option<SingularEvidence>,
-    /// Smallest over largest singular value of the Jacobian of legs or rods with the characteristic length: 1 at best.
+    /// Inverse condition number of the Jacobian: 1 at best.
     pub inverse_condition: Option<Number>,
-    /// The forces that hold the loads of the design and the wrench of `--wrench`, at rest.
+    /// Forces that hold each load and `--wrench`, at rest.
     pub held: Vec<HeldWrenchRecord>,
-    /// The wrench that the forces of `--forces` hold; null: none were given.
+    /// Wrench that `--forces` hold; null: none were given.
     pub wrench: Option<WrenchRecord>,
-    /// Rows of the matrix that maps leg forces (or crank torques) to the wrench that they hold, force before torque, as
-    /// in a six-axis load cell; null where a rod does not reach or a crank is singular.
+    /// Matrix from leg forces to the wrench they hold, force before torque, as in a six-axis load cell; null where a
+    /// rod does not reach or a crank is singular.
     pub wrench_matrix: Option<[[Number; 6]; 6]>,
     /// Stiffness at the point; null: the design states neither `leg_stiffness` nor, for cranks, `stiffness`.
     pub stiffness: Option<PointStiffnessRecord>,
-    /// The motion of the point for a step of the drives; null at a singular pose.
+    /// Motion of the point by drive steps; null at a singular pose.
     pub resolution: Option<ResolutionRecord>,
-    /// The remaining motion with the leg of `--leg` stuck, or free; null: no leg was named.
+    /// Remaining motion with the leg of `--leg` stuck, or free; null: no leg was named.
     pub stuck: Option<StuckLegRecord>,
     /// The nearest singular pose found; null: it was not asked for, or no way met one.
     pub nearest_singular: Option<NearestSingularPoseRecord>,
@@ -76,24 +76,24 @@ pub struct WrenchRecord {
 /// A wrench on the platform and what holds it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct HeldWrenchRecord {
-    /// The name of the load; null: the wrench of `--wrench`.
+    /// Load; null: the wrench of `--wrench`.
     pub load: Option<String>,
     /// The wrench on the platform.
     pub wrench: WrenchRecord,
-    /// Forces of the legs, positive where they push the platform, or torques of the cranks about their axes; null at a
-    /// singular pose.
+    /// Leg forces, positive where they push the platform, or torques of the cranks about their axes; null at a singular
+    /// pose.
     pub forces: Option<[Number; 6]>,
 }
 
 /// Stiffness at a point of the platform.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PointStiffnessRecord {
-    /// Force and torque for a shift of the point and a small turn: force units, design units and radians.
+    /// Force and torque for a shift of the point and a small rotation: force units, design units and radians.
     #[serde(rename = "K")]
     pub matrix: [[Number; 6]; 6],
-    /// Its inverse: shift and turn for a force and a torque; null at a singular pose.
+    /// Its inverse; null at a singular pose.
     pub compliance: Option<[[Number; 6]; 6]>,
-    /// Least stiffness against a force through the point, force units per design unit; 0 at a singular pose.
+    /// Least stiffness against forces through the point, force units per design unit; 0 at a singular pose.
     pub linear: Number,
     /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
     pub angular: Number,
@@ -102,13 +102,13 @@ pub struct PointStiffnessRecord {
 /// The motion of the point for a step of the drives.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResolutionRecord {
-    /// The step: design units of legs, degrees of cranks.
+    /// Step: design units of legs, degrees of cranks.
     pub step: f64,
     /// The unit of the step.
     pub step_unit: String,
-    /// The motion for a step of each drive alone, in leg order.
+    /// Motion by a step of one drive, in leg order.
     pub drives: Vec<SmallMotionRecord>,
-    /// Greatest change of each coordinate when every drive is off by up to a step: sums of the sizes.
+    /// Greatest change when every drive is off by a step: sums of the sizes.
     pub all: SmallMotionRecord,
 }
 
@@ -126,26 +126,24 @@ pub struct SmallMotionRecord {
 pub struct StuckLegRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// The travel of its drive for each of the six numbers of the pose alone: design units of legs, degrees of cranks,
-    /// per design unit and per `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still
-    /// be changed alone; five independent changes are left.
+    /// Travel of its drive per coordinate of the pose: design units of legs, degrees of cranks, per design unit and per
+    /// `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still be changed alone; five
+    /// independent changes are left.
     pub rates: [Number; 6],
-    /// The motion that is lost, and the only one left when the leg is free and the others hold; null at a singular
-    /// pose.
+    /// Motion that is lost, and the only one left when the leg is free and the others hold; null at a singular pose.
     pub screw: Option<ScrewRecord>,
-    /// Poses of that motion with smaller lengths of the leg, up to its limit, a tenth of its length, or the first
-    /// singular pose; none for cranks.
+    /// Poses with a shorter leg, up to its limit, a tenth of its length, or the first singular pose; none for cranks.
     pub shorter: Vec<LegPathPoseRecord>,
-    /// The same with greater lengths.
+    /// Poses with a longer leg.
     pub longer: Vec<LegPathPoseRecord>,
 }
 
 /// A turn about an axis with a shift along it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ScrewRecord {
-    /// Unit vector of the axis; of the shift where nothing turns.
+    /// Unit vector; of the shift where nothing turns.
     pub direction: [Number; 3],
-    /// The point of the axis nearest to the point asked about, from there, design units.
+    /// Point of the axis nearest to the point asked about, from there, design units.
     pub point: [Number; 3],
     /// Shift along the axis, design units per radian; null: a shift without a turn.
     pub pitch: Option<Number>,
@@ -154,9 +152,9 @@ pub struct ScrewRecord {
 /// A pose with all lengths but one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LegPathPoseRecord {
-    /// The distance of the joints of the leg.
+    /// Joint distance of the leg.
     pub length: f64,
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
 }
 
@@ -165,15 +163,15 @@ pub struct LegPathPoseRecord {
 pub struct NearestSingularPoseRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
     /// `sqrt(|p - p'|^2 + (L angle)^2)`, design units.
     pub distance: f64,
-    /// The `L` of the distance, design units a radian.
+    /// Length `L` of `distance`, design units per radian.
     pub characteristic_length: f64,
     /// Whether no small step on singular poses leads nearer: then it is locally nearest.
     pub stationary: bool,
-    /// A pose with det J = 0 is proved to be within this distance; null: not proved.
+    /// Distance within which a singular pose is proved; null: not proved.
     pub proved_within: Option<f64>,
 }
 

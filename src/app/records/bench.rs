@@ -15,9 +15,9 @@ use ask::bench::{
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum BenchAnswer {
-    /// The answer about one class.
+    /// One class.
     One(Box<BenchOneAnswer>),
-    /// The answer about several classes.
+    /// Several classes.
     Several(BenchSumsAnswer),
     /// The answer with `--noise`.
     Noise(NoiseAnswer),
@@ -29,7 +29,7 @@ pub struct BenchOneAnswer {
     /// The class.
     #[serde(flatten)]
     pub class: BenchClassRecord,
-    /// The method requested with `--method`.
+    /// Requested method.
     #[schemars(extend("enum" = METHODS))]
     pub method: String,
 }
@@ -45,7 +45,7 @@ pub struct BenchSumsAnswer {
     pub sums: BenchCountsRecord,
     /// The classes.
     pub rows: Vec<BenchClassRecord>,
-    /// The method requested with `--method`.
+    /// Requested method.
     #[schemars(extend("enum" = METHODS))]
     pub method: String,
 }
@@ -68,17 +68,17 @@ impl BenchAnswer {
 /// Problems counted and timed.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchCountsRecord {
-    /// The class, or the argument that named several classes.
+    /// Class, or argument for several.
     pub class: String,
     /// Number of problems.
     pub count: u64,
-    /// Number of problems with a correct and complete set of roots.
+    /// Number of problems with all roots correct.
     pub complete: u64,
-    /// Number of problems in which every root has a certificate.
+    /// Number of problems with every root certified.
     pub certified: u64,
-    /// Number of true roots that the solver missed.
+    /// Number of true roots not found.
     pub missed_roots: u64,
-    /// Number of claimed roots that are wrong or listed twice.
+    /// Number of claimed roots that are wrong or repeated.
     pub spurious_roots: u64,
     /// Number of wrong certificates, of roots or of completeness.
     pub false_certificates: u64,
@@ -135,7 +135,7 @@ pub struct BenchClassRecord {
     /// Counts and times.
     #[serde(flatten)]
     pub counts: BenchCountsRecord,
-    /// The median time as a multiple of each reference time.
+    /// Median time over each reference time.
     pub ratio_to_reference: ReferenceTimes,
     /// Index of the first problem, from 0.
     pub first: u64,
@@ -148,38 +148,38 @@ pub struct BenchClassRecord {
     pub decimals: Option<u32>,
     /// Poses of the class, without rounding.
     pub expected_count: usize,
-    /// Number of problems by their number of correct finite roots.
+    /// Problems by number of correct finite roots.
     pub finite_counts: Histogram,
-    /// Number of problems by their number of correct real roots.
+    /// Problems by number of correct real roots.
     pub real_counts: Histogram,
     /// Number of claimed roots.
     pub roots: u64,
-    /// Number of claimed roots with a certificate.
+    /// Number of certified roots.
     pub certified_roots: u64,
-    /// Number of problems with a proof of completeness.
+    /// Number of problems with proved completeness.
     pub proved: u64,
-    /// Problems with a proof that all real poses are listed.
+    /// Problems with all real poses proved to be listed.
     pub proved_bounded: u64,
-    /// Number of problems for which the solver itself warns that roots may be missing.
+    /// Number of problems with a warning of the solver about missing roots.
     pub doubted: u64,
-    /// Number of problems that look complete to the solver but lack roots.
+    /// Number of problems with missing roots and no warning.
     pub silent_failures: u64,
     /// Number of problems solved again from two other starts.
     pub rechecked: u64,
     /// Mean time of a solver call, microseconds.
     pub mean_us: Number,
-    /// Median times of the parts of a solver call, microseconds.
+    /// Median times of parts of a call, microseconds.
     pub split_us: TimeSplit,
     /// Time of the whole run, seconds.
     pub total_s: Number,
-    /// Decimal logarithm of the error of the listed roots (Martyushev, eq. 19).
+    /// Error of the listed roots, decimal logarithm (Martyushev, eq. 19).
     pub epsilon: ErrorStatistics,
-    /// Errors of the candidates before refinement, with the methods `sylvester` and `template`.
+    /// Candidates before refinement, with the methods `sylvester` and `template`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub raw: Option<RawReport>,
-    /// Problems with a wrong answer.
+    /// Wrong answers.
     pub failures: Vec<BenchFailureRecord>,
-    /// Problems without a proof of completeness.
+    /// Problems without proved completeness.
     pub open: Vec<BenchOpenRecord>,
 }
 
@@ -242,25 +242,25 @@ impl JsonSchema for Histogram {
 /// A problem with a wrong answer, written out so that another program can solve it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BenchFailureRecord {
-    /// Index of the problem.
+    /// Problem index.
     pub problem: u64,
     /// Number of missing roots.
     pub missed: usize,
-    /// Number of claims that are no roots.
+    /// Number of claims without root.
     pub spurious: usize,
     /// Number of wrong certificates.
     pub false_certificates: usize,
     /// Number of distinct correct roots.
     pub found: usize,
-    /// The solver's own statement about its answer.
+    /// Statement of the solver.
     pub solver: String,
-    /// Base ends of the legs in leg order, base frame.
+    /// Base ends in leg order, base frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base: Option<[[Number; 3]; 6]>,
-    /// Platform ends of the legs in leg order, platform frame.
+    /// Platform ends in leg order, platform frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub platform: Option<[[Number; 3]; 6]>,
-    /// Squared leg lengths in leg order.
+    /// Squared leg lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub squared_lengths: Option<[Number; 6]>,
 }
@@ -286,9 +286,9 @@ impl BenchFailureRecord {
 /// A problem without a proof that its poses are all.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct BenchOpenRecord {
-    /// Index of the problem.
+    /// Problem index.
     pub problem: u64,
-    /// Statement of the solver about its own answer.
+    /// Statement of the solver.
     pub solver: String,
 }
 
@@ -301,7 +301,7 @@ impl BenchOpenRecord {
 /// Displacements of poses caused by noise in the leg lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseAnswer {
-    /// The class, or the argument that named several classes.
+    /// Class, or argument for several.
     pub class: String,
     /// Number of problems of each class.
     pub count: u64,

@@ -22,11 +22,11 @@ pub struct CalibrateAnswer {
     pub name: String,
     /// The unit of lengths.
     pub units: String,
-    /// The convention in which measured poses were read, and of `in_frames`.
+    /// Convention in which poses were read, and of `in_frames`.
     pub frames: PoseConventionRecord,
     /// The outcome of the calibration.
     pub outcome: CalibrateOutcome,
-    /// The reason of the outcome, one sentence.
+    /// Reason of the outcome, one sentence.
     pub reason: String,
     /// The calibration; null: nothing was measured, and poses to measure were asked for.
     pub calibration: Option<CalibrationRecord>,
@@ -68,18 +68,17 @@ impl From<CalibrationStatus> for CalibrateOutcome {
 pub struct CalibrationRecord {
     /// Number of measured poses.
     pub poses: usize,
-    /// Number of unknown coordinates and offsets.
+    /// Number of unknowns.
     pub unknowns: usize,
     /// The frames of joints, deviations and covariance.
     pub frames: CalibrationFrames,
-    /// The motions from the frames of the measurements to the design frames; null: joints are given in the frames of
-    /// the measurements.
+    /// Motions from measurement frames to design frames; null: joints are given in the frames of the measurements.
     pub motions: Option<CarriedFrames>,
-    /// Standard deviations of the measurements.
+    /// Standard deviations of measurements.
     pub noise: NoiseRecord,
-    /// The loss function of the fit.
+    /// Loss function.
     pub loss: LossRecord,
-    /// The starting point of the fit.
+    /// Start of the fit.
     pub start: Starts,
     /// Whether the fit converged.
     pub converged: bool,
@@ -87,32 +86,29 @@ pub struct CalibrationRecord {
     pub steps: usize,
     /// The calibrated joints: all joints that carry legs.
     pub joints: Vec<CalibratedJointRecord>,
-    /// Leg offsets in leg order: shown length minus distance of the joints, design units.
+    /// Offsets of the legs: shown length minus distance of the joints, design units.
     pub offsets: Vec<CalibratedOffsetRecord>,
     /// Covariance of the unknowns, squared design units; directions that are not identified contribute no variance.
     pub covariance: CovarianceRecord,
-    /// Uncertainty of poses computed with the machine; null: not all unknowns are identified, or the design has no pose
-    /// to evaluate.
+    /// Uncertainty of computed poses; null: not all unknowns are identified, or the design has no pose to evaluate.
     pub computed_poses: Option<ComputedPosesRecord>,
-    /// Observability of the machine's parameters by these measurements.
+    /// Observability of the machine's parameters.
     pub observability: ObservabilityRecord,
-    /// Residuals of the design before calibration.
+    /// Residuals before calibration.
     pub before: ResidualsRecord,
-    /// Residuals of the calibrated machine, without outliers.
+    /// Residuals after calibration, without outliers.
     pub after: ResidualsRecord,
-    /// Leave-one-out residuals to first order, without outliers: each pose against the machine fitted to the other
-    /// poses.
+    /// First-order leave-one-out residuals, without outliers: each pose against the machine fitted to the other poses.
     pub leave_one_out: ResidualsRecord,
-    /// Residuals of the measurements of `--check`; null: there are none.
+    /// Residuals of `--check`; null: there are none.
     pub check: Option<ResidualsRecord>,
-    /// Lines of the measurements that the unknowns depend on: without one of them, the unknowns are not determined.
+    /// Indispensable measurements, by line: without one of them, the unknowns are not determined.
     pub indispensable: Vec<usize>,
-    /// Test of the residuals against the noise.
+    /// Test of residuals against noise.
     pub chi_square: ChiSquare,
-    /// Measurements that contradict the others, the farthest first.
+    /// Contradicting measurements, the farthest first.
     pub outliers: Vec<OutlierRecord>,
-    /// Two legs whose measured lengths are probably exchanged, from 1: swapped, they are five times nearer to the
-    /// design. Null: none.
+    /// Legs with lengths probably exchanged, from 1: swapped, they are five times nearer to the design. Null: none.
     pub exchanged_legs: Option<[usize; 2]>,
 }
 
@@ -129,13 +125,13 @@ pub enum CalibrationFrames {
 /// Standard deviations of measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseRecord {
-    /// The source of the values.
+    /// Source of values.
     pub source: NoiseSource,
     /// Standard deviation of a length, design units.
     pub length: Number,
-    /// Standard deviation of each coordinate of the platform origin, design units.
+    /// Standard deviation of a platform origin coordinate, design units.
     pub position: Number,
-    /// Standard deviation of each component of the rotation vector, degrees.
+    /// Standard deviation of a rotation vector component, degrees.
     pub rotation_deg: Number,
 }
 
@@ -155,7 +151,7 @@ impl NoiseRecord {
 pub struct LossRecord {
     /// The kind of loss.
     pub loss: Loss,
-    /// The unit that is rejected together: a pose or a single leg length.
+    /// Unit that is rejected together: a pose or a single leg length.
     pub of: LossUnit,
 }
 
@@ -168,9 +164,9 @@ pub struct CalibratedJointRecord {
     pub joint: String,
     /// The position, design units, body frame.
     pub position: [Number; 3],
-    /// Standard deviations of the coordinates, design units; null: the joint was held.
+    /// Standard deviations, design units; null: the joint was held.
     pub deviations: Option<[Number; 3]>,
-    /// The displacement from the position in the design, design units.
+    /// Displacement from the design, design units.
     pub moved: [Number; 3],
 }
 
@@ -179,9 +175,9 @@ pub struct CalibratedJointRecord {
 pub struct CalibratedOffsetRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// The shown length minus the distance of the joints, design units.
+    /// Shown length minus joint distance, design units.
     pub offset: Number,
-    /// The standard deviation of the offset, design units; null: the offset was held.
+    /// Standard deviation, design units; null: the offset was held.
     pub deviation: Option<Number>,
 }
 
@@ -200,15 +196,15 @@ pub struct CovarianceRecord {
 pub struct ComputedPosesRecord {
     /// Number of poses evaluated: the poses of the workspace at which the requirements of the design are met.
     pub poses: usize,
-    /// Median over the poses of the root mean square error of the measured platform origin, design units.
+    /// Median RMS error of the measured platform origin, design units.
     pub position_median: Number,
-    /// Greatest root mean square error of the measured platform origin over the poses, design units.
+    /// Greatest RMS error of the measured platform origin, design units.
     pub position_greatest: Number,
-    /// Median over the poses of the root mean square error of the orientation, degrees.
+    /// Median RMS error of the orientation.
     pub rotation_deg_median: Number,
-    /// Greatest root mean square error of the orientation over the poses, degrees.
+    /// Greatest RMS error of the orientation.
     pub rotation_deg_greatest: Number,
-    /// The pose with the greatest error of position.
+    /// Pose with the greatest position error.
     pub pose: PoseQuaternionRecord,
 }
 
@@ -245,7 +241,7 @@ pub struct ObservabilityRecord {
     /// Singular values of the identification matrix, whitened and multiplied by the deviation of a length, largest
     /// first; no unit.
     pub singular_values: Vec<Number>,
-    /// The threshold: smaller singular values count as not identified.
+    /// Singular values below are not identified.
     pub tolerance: Number,
     /// `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
     pub volume_index: Number,
@@ -255,7 +251,7 @@ pub struct ObservabilityRecord {
     pub noise_amplification: Number,
     /// `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
     pub harmonic_index: Number,
-    /// Changes of the machine that are not identified, each normalised to 1 over all unknowns.
+    /// Unidentified changes of the machine, each normalised to 1 over all unknowns.
     pub unobservable: Vec<UnobservableRecord>,
 }
 
@@ -275,7 +271,7 @@ pub struct JointShiftRecord {
     pub body: Body,
     /// The name of the joint.
     pub joint: String,
-    /// The displacement in the body frame of the measured poses; relative, the whole change has norm 1.
+    /// Displacement, body frame of the measurement; relative, the whole change has norm 1.
     pub shift: [Number; 3],
 }
 
@@ -318,11 +314,11 @@ impl UnobservableRecord {
 /// Statistics of residuals, design units.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualsRecord {
-    /// Root mean square of the residuals.
+    /// RMS residual.
     pub rms: Number,
-    /// Root mean square of the residuals of each leg.
+    /// RMS residual by leg.
     pub legs: [Number; 6],
-    /// The residual of greatest size; null: none was counted.
+    /// Greatest residual; null: none was counted.
     pub greatest: Option<GreatestResidualRecord>,
     /// Number of lengths counted.
     pub count: usize,
@@ -331,11 +327,11 @@ pub struct ResidualsRecord {
 /// The residual of greatest size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct GreatestResidualRecord {
-    /// Line of the table of measurements.
+    /// Line of the table.
     pub line: usize,
     /// The leg, from 1.
     pub leg: usize,
-    /// The measured length minus the length of the model, design units.
+    /// Measured length minus model length, design units.
     pub value: Number,
 }
 
@@ -364,15 +360,15 @@ fn line(lines: &[usize], measurement: usize) -> usize {
 /// A measurement that contradicts the others.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OutlierRecord {
-    /// Line of the table of measurements.
+    /// Line of the table.
     pub line: usize,
     /// The leg, from 1; null: the whole pose.
     pub leg: Option<usize>,
-    /// Distance of the measurement from the model, standard deviations.
+    /// Distance from the model, standard deviations.
     pub distance: Number,
     /// The rejection threshold, standard deviations: correct measurements all stay below it with a probability of 99 %.
     pub threshold: Number,
-    /// The weight of the measurement in the fit.
+    /// Weight in the fit.
     pub weight: Number,
 }
 
@@ -391,16 +387,16 @@ impl OutlierRecord {
 /// A pose to measure next.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NextPoseRecord {
-    /// The pose, in the design frames if joints are carried to them, else in the frames of the measurements.
+    /// Pose, in design frames if joints are, else in the frames of the measurements.
     pub pose: PoseQuaternionRecord,
-    /// Roll, pitch and yaw of the pose, degrees.
+    /// Roll, pitch and yaw, degrees.
     pub rpy_deg: [Number; 3],
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The factor by which this measurement shrinks the error ellipsoid: the geometric mean of the deviations along its
+    /// Factor by which this measurement shrinks the error ellipsoid: the geometric mean of the deviations along its
     /// axes.
     pub shrinks: Number,
-    /// The greatest standard deviation of a coordinate or offset after this pose and those before it, design units.
+    /// Greatest standard deviation after all poses up to this one, design units.
     pub greatest_deviation: Number,
 }
 

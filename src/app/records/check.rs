@@ -23,7 +23,7 @@ use synthesis::singularity::{
 pub struct CheckAnswer {
     /// The name of the design.
     pub name: String,
-    /// The verdict in a sentence, with the name.
+    /// Verdict in words, with the name.
     pub headline: String,
     /// The unit of lengths.
     pub units: String,
@@ -36,50 +36,49 @@ pub struct CheckAnswer {
     pub architecturally_singular: Option<bool>,
     /// The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
     pub level: Option<Level>,
-    /// The exact decision for the joints as numbers; null: some joints are known only between bounds.
+    /// Exact decision for the joints as numbers; null: some joints are known only between bounds.
     pub singular_as_written: Option<bool>,
-    /// The evidence that the home pose is singular; null: it is regular, or the design states none.
+    /// Evidence that home is singular; null: it is regular, or the design states none.
     pub singular_home: Option<SingularEvidence>,
-    /// A short code of the reason; null: regular.
+    /// Short code; null: regular.
     pub reason: Option<String>,
-    /// The verdict in one sentence.
+    /// Verdict in words.
     pub explanation: String,
-    /// The proof of the answer for the joints as written.
+    /// Proof for the joints as written.
     pub proof: ProofWord,
-    /// The proof in one sentence.
+    /// Proof in words.
     pub proof_explanation: String,
     /// Rank of the leg vectors.
     pub leg_rank: usize,
-    /// Generic rank of the Jacobian: the rank of the leg lines at almost every pose.
+    /// Generic Jacobian rank: the rank of the leg lines at almost every pose.
     pub jacobian_rank: usize,
-    /// A pose at which the leg lines have this rank.
+    /// Pose with this rank.
     pub witness: WitnessRecord,
-    /// The first linear dependency of the leg vectors; null: there is none.
+    /// First dependency of the leg vectors; null: there is none.
     pub dependency: Option<DependencyRecord>,
-    /// All linear dependencies of the leg vectors.
+    /// All dependencies of the leg vectors.
     pub dependencies: Vec<DependencyRecord>,
-    /// The legs of the first known case, from 1.
+    /// Legs of the first known case, from 1.
     pub dependent_legs: Option<Vec<usize>>,
-    /// The known cases that apply, the most specific first.
+    /// Known cases, the most specific first.
     pub cases: Vec<CaseRecord>,
     /// The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
     pub griffis_duffy: Option<GriffisDuffyRecord>,
     /// The nearest singular design found; null: the design itself is singular.
     pub nearest_singular: Option<NearestSingularRecord>,
-    /// Number of finite poses, real and complex, for generic leg lengths.
+    /// Finite poses, real and complex, for generic leg lengths.
     pub pose_count: PoseCountRecord,
-    /// Points common to the equations of six legs for generic lengths, by kind. Null: the poses are not isolated, or
-    /// not counted.
+    /// Common points of six leg equations for generic lengths, by kind. Null: the poses are not isolated, or not
+    /// counted.
     pub common_points: Option<CommonPoints>,
-    /// An upper bound on the number of isolated finite poses, by a theorem.
+    /// Upper bound on isolated finite poses, by a theorem.
     pub pose_bound: PoseBoundRecord,
-    /// The steps in which the poses can be computed: by quadratic equations alone, or with one part of the platform
-    /// first.
+    /// Steps that compute the poses: by quadratic equations alone, or with one part of the platform first.
     pub solvability: Solvability,
-    /// The best-fitting line through the joints of each body, base first. A body whose joints all lie on one line can
-    /// rotate about it. A body with all joints at one point has no line.
+    /// Best line through the joints by body, base first. A body whose joints all lie on one line can rotate about it. A
+    /// body with all joints at one point has no line.
     pub best_lines: Vec<BestLineRecord>,
-    /// Singular values of the matrix of normalised leg vectors.
+    /// Singular values of the normalised leg vectors.
     pub singular_values: [Number; 6],
     /// Inverse condition number of the Jacobian at random poses.
     pub jacobian_inverse_condition: Conditioning,
@@ -92,11 +91,11 @@ pub struct BestLineRecord {
     pub body: Body,
     /// A point of the line: the centroid of the joints.
     pub point: [Number; 3],
-    /// A unit vector along the line.
+    /// Unit vector along it.
     pub direction: [Number; 3],
-    /// The greatest distance of a joint from the line, design units.
+    /// Greatest distance of a joint from the line, design units.
     pub distance: Number,
-    /// The greatest distance of a joint from the centroid along the line, design units.
+    /// Greatest distance of a joint from the centroid, design units.
     pub reach: Number,
 }
 
@@ -160,7 +159,7 @@ impl From<&CheckReport> for CheckAnswer {
 pub struct PoseBoundRecord {
     /// The bound.
     pub poses: usize,
-    /// The theorem that gives the bound.
+    /// Theorem behind it.
     pub theorem: String,
 }
 
@@ -243,14 +242,13 @@ fn proof_explanation(a: &Architecture) -> String {
 /// The exactness of all joints of a design together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointsRecord {
-    /// The exactness of the least exact joint.
+    /// Exactness of the least exact joint.
     pub exactness: ExactnessWord,
-    /// The integers with square roots in the field of the exact coordinates, beside the cosines of `divisions`; empty
-    /// for fractions.
+    /// Integers with square roots in the coordinate field, beside the cosines of `divisions`; empty for fractions.
     pub radicands: Vec<u64>,
-    /// Numbers `n` with `cos(360 / n)` degrees among the generators of the field: some of 9, 16, 20 and 32.
+    /// Numbers `n` with `cos(360 / n)` degrees in the coordinate field: some of 9, 16, 20 and 32.
     pub divisions: Vec<u32>,
-    /// Joints known only between bounds, with their bodies: `base.A2`.
+    /// Joints between bounds, with their bodies: `base.A2`.
     pub enclosed: Vec<String>,
     /// The exactness in words.
     pub explanation: String,
@@ -307,7 +305,7 @@ pub struct WitnessRecord {
     /// The pose.
     #[serde(flatten)]
     pub pose: PoseRecord,
-    /// The orientation as a quaternion of any norm, scalar part first.
+    /// Orientation, quaternion of any norm, scalar part first.
     pub quaternion: [i64; 4],
 }
 
@@ -320,17 +318,17 @@ impl From<&RationalPose> for WitnessRecord {
 /// A linear dependency of leg vectors: `sum c_i v_i = 0`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DependencyRecord {
-    /// The legs with nonzero coefficients, from 1.
+    /// Legs with nonzero coefficients, from 1.
     pub legs: Vec<usize>,
     /// The numbers `c_i`.
     pub coefficients: [Number; 6],
-    /// The value of `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
+    /// `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
     pub constant: Number,
-    /// Dimension of the span of the base ends.
+    /// Dimension spanned by the base ends.
     pub base_dimension: usize,
-    /// Dimension of the span of the platform ends.
+    /// Dimension spanned by the platform ends.
     pub platform_dimension: usize,
-    /// Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null without lengths.
+    /// Relative difference of `sum c_i s_i` at the design lengths from `constant`; null without lengths.
     pub lengths_defect: Option<Number>,
 }
 
@@ -350,13 +348,13 @@ impl DependencyRecord {
 /// A known kind of singular design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CaseRecord {
-    /// The name of the case.
+    /// Name of the case.
     pub case: String,
-    /// The short code of the reason.
+    /// Short code.
     pub reason: String,
-    /// The legs of the case, from 1.
+    /// Legs, from 1.
     pub legs: Vec<usize>,
-    /// The case in one sentence.
+    /// Case in words.
     pub explanation: String,
 }
 
@@ -374,27 +372,27 @@ impl From<&Finding> for CaseRecord {
 /// Joints on the sides of two triangles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GriffisDuffyRecord {
-    /// The legs in order around the hexagon, from 1.
+    /// Legs around the hexagon, from 1.
     pub order: Vec<usize>,
-    /// The position of each joint on its side, as a fraction from 0 to 1.
+    /// Positions of joints on their sides, as a fraction from 0 to 1.
     pub t: [Number; 6],
     /// Lengths of the sides, design units.
     pub side_lengths: [Number; 6],
     /// `prod (1 - t) - prod t`; zero means singular.
     pub det: Number,
-    /// Whether `det` is exactly zero.
+    /// Whether it is zero exactly.
     pub exactly_singular: bool,
-    /// The greatest distance of a joint from its side, relative to the size.
+    /// Greatest distance of a joint from its side, relative to the size.
     pub deviation: Number,
-    /// The greatest deviation at which the type is recognised.
+    /// Greatest `deviation` for this type.
     pub deviation_limit: Number,
-    /// The coefficients of the dependency of the legs for `det = 0`.
+    /// Dependency of the legs for `det = 0`.
     pub coefficients: [Number; 6],
-    /// The value of `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
+    /// `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
     pub constant: Number,
-    /// Relative difference between `sum c_i s_i` for the lengths of the design and the constant; null without lengths.
+    /// Relative difference of `sum c_i s_i` at the design lengths from `constant`; null without lengths.
     pub lengths_defect: Option<Number>,
-    /// Whether the platform can be assembled with the lengths of the design.
+    /// Assembly with the lengths of the design.
     pub assembly: Option<Assembly>,
 }
 
@@ -421,26 +419,26 @@ impl GriffisDuffyRecord {
 pub struct NearestSingularRecord {
     /// Norm of the change of all joints, design units.
     pub distance: Number,
-    /// Always `upper`: the distance is an upper bound of the least distance.
+    /// Always `upper`: an upper bound of the least distance.
     #[schemars(extend("const" = "upper"))]
     pub bound: String,
     /// A lower bound: no singular design is nearer, design units.
     pub distance_at_least: Number,
     /// The kind of singularity.
     pub kind: String,
-    /// The dependent legs, from 1.
+    /// Dependent legs.
     pub legs: Vec<usize>,
-    /// The coefficients of the dependency of the leg vectors.
+    /// Dependency of the leg vectors.
     pub coefficients: Option<[Number; 6]>,
-    /// The residual of the dependency.
+    /// Residual of the dependency.
     pub residual: Number,
-    /// Whether the two designs differ by no more than rounding of the file.
+    /// Whether the designs differ by rounding only.
     pub within_rounding: bool,
-    /// Half a unit of the last digit given, design units; null: some coordinate differs by more.
+    /// Half a unit of the last digit, design units; null: some coordinate differs by more.
     pub within_digits: Option<Number>,
-    /// The base joints of the singular design by name, base frame.
+    /// Base joints by name, base frame.
     pub base: NamedPoints,
-    /// The platform joints of the singular design by name, platform frame.
+    /// Platform joints by name, platform frame.
     pub platform: NamedPoints,
 }
 

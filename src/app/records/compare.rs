@@ -12,15 +12,15 @@ use files::design::AssessedForces;
 /// The answer of `compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompareAnswer {
-    /// The unit of lengths for all designs.
+    /// Unit of lengths.
     pub length_unit: String,
-    /// The unit of forces for all designs.
+    /// Unit of forces.
     pub force_unit: String,
     /// The manoeuvres about home; forces, speeds and powers are computed along them.
     pub manoeuvres: Vec<String>,
     /// The accuracy for the joint tolerances; null: none was requested.
     pub accuracy: Option<AccuracyRecord>,
-    /// Characteristic length of every conditioning in this answer: the value of the first design, design units.
+    /// Characteristic length: the value of the first design, design units.
     pub characteristic_length: f64,
     /// The designs in the order given.
     pub designs: Vec<FiguresRecord>,
@@ -47,11 +47,11 @@ pub struct FiguresRecord {
     pub path: String,
     /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// The lightest drive that meets the requirements, from the table that the design names; null: it names none.
+    /// Lightest drive that meets the requirements, from the table that the design names; null: it names none.
     pub lightest_drive: Option<LightestDriveRecord>,
-    /// The poses of all figures.
+    /// Poses of all figures.
     pub assessed_poses: AssessedPosesRecord,
-    /// Number of poses evaluated for the figures; the assessment and the conditioning use poses of their own.
+    /// Number of poses evaluated; the assessment and the conditioning use poses of their own.
     pub poses: usize,
     /// Least leg length; null: the legs are rods on cranks.
     pub shortest: Number,
@@ -59,44 +59,42 @@ pub struct FiguresRecord {
     pub longest: Number,
     /// Greatest minus least leg length.
     pub stroke: Number,
-    /// The angles, torques and speeds of the cranks; null: the legs change their lengths.
+    /// Crank angles, torques and speeds; null: the legs change their lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<CrankFiguresRecord>,
-    /// Number of different leg lengths at home, or rod lengths on cranks; a difference counts above a millionth of the
-    /// size.
+    /// Number of different leg lengths, or rod lengths on cranks; a difference counts above a millionth of the size.
     pub different_legs: usize,
-    /// Greatest leg force under the weight of all moving parts and each load, one at a time.
+    /// Greatest leg force under weight and each load, one at a time.
     pub force: Option<Number>,
-    /// Greatest leg speed at the platform speed that the design requires.
+    /// Greatest leg speed at the required platform speed.
     pub speed: Option<Number>,
     /// Greatest leg force along the manoeuvres.
     pub motion_force: Option<Number>,
     /// Greatest leg speed along the manoeuvres.
     pub motion_speed: Option<Number>,
-    /// Greatest power of a drive along the manoeuvres, watts.
+    /// Greatest drive power along the manoeuvres, watts.
     pub motion_power_w: Option<Number>,
-    /// The worst conditioning found by `assess`: the least inverse condition number.
+    /// Worst conditioning of `assess`: the least inverse condition number.
     pub conditioning: Number,
-    /// Least stiffness against a force through the platform origin, force units per design unit.
+    /// Least stiffness against forces through the platform origin, force units per design unit.
     pub stiffness: Option<Number>,
     /// Lowest natural frequency, hertz.
     pub frequency_hz: Option<Number>,
-    /// Least distance of two joint centres of the base, design units.
+    /// Least distance of base joint centres, design units.
     pub base_spacing: Option<Number>,
-    /// Least distance of two joint centres of the platform, design units.
+    /// Least distance of platform joint centres, design units.
     pub platform_spacing: Option<Number>,
-    /// Least clearance between two legs, design units.
+    /// Least leg clearance, design units.
     pub clearance: Option<Number>,
-    /// Greatest distance of a base joint from the centroid of the base joints, design units.
+    /// Greatest distance of base joints from their centroid, design units.
     pub base_radius: Number,
-    /// Greatest distance of a platform joint from the centroid of the platform joints, design units.
+    /// Greatest distance of platform joints from their centroid, design units.
     pub platform_radius: Number,
-    /// The greatest error of every joint in any direction that keeps the accuracy to first order, design units.
+    /// Greatest error of all joints that keeps the accuracy, design units.
     pub joint_tolerance: Option<Number>,
-    /// The reason for a missing tolerance; null: there is one, or none was requested.
+    /// Reason for no tolerance; null: there is one, or none was requested.
     pub no_tolerance: Option<String>,
-    /// Assumptions about masses that the file leaves open, one sentence each. Empty: no figure is a force, a torque or
-    /// a natural frequency.
+    /// Assumptions about masses, one sentence each. Empty: no figure is a force, a torque or a natural frequency.
     pub assumptions: Vec<String>,
 }
 
@@ -109,9 +107,9 @@ pub struct CrankFiguresRecord {
     pub greatest_deg: Option<Number>,
     /// Least transmission angle, degrees: 0 at a singular crank.
     pub transmission_deg: Option<Number>,
-    /// Greatest torque under the payload and the loads, one at a time, force units times design units.
+    /// Greatest torque under payload and loads, one at a time, force units times design units.
     pub torque: Option<Number>,
-    /// Greatest crank speed at the platform speed that the design requires, degrees per second.
+    /// Greatest crank speed at the required platform speed, degrees per second.
     pub speed_deg: Option<Number>,
     /// Greatest torque along the manoeuvres.
     pub motion_torque: Option<Number>,

@@ -27,11 +27,11 @@ pub struct ComponentsAnswer {
     pub count: usize,
     /// Whether the list of families is complete.
     pub complete: bool,
-    /// Reasons for doubting that the list is complete.
+    /// Doubts that the list is complete.
     pub doubts: Vec<String>,
-    /// Pairs of flats spanned by their legs.
+    /// Pairs of flats spanned by legs.
     pub pairs: Vec<FlatPairRecord>,
-    /// Pairs of planes with their curves of replaceable joints.
+    /// Pairs of planes with curves of replaceable joints.
     pub planes: Vec<PlanePairRecord>,
     /// The families.
     pub components: Vec<ComponentRecord>,
@@ -52,11 +52,11 @@ pub struct DecisionRecord {
     pub numerical: usize,
     /// The value in exact arithmetic; null: not computed.
     pub exact: Option<usize>,
-    /// Whether exact arithmetic gives the value used; null: not computed.
+    /// Whether exact arithmetic confirms the value; null: not computed.
     pub agrees: Option<bool>,
-    /// The smallest number that counts as nonzero.
+    /// Smallest number taken as nonzero.
     pub above: Option<Number>,
-    /// The largest number that counts as zero.
+    /// Largest number taken as zero.
     pub below: Option<Number>,
     /// The threshold between these two numbers.
     pub tolerance: Number,
@@ -102,15 +102,15 @@ pub struct FlatPairRecord {
     pub base: String,
     /// The flat of the platform: point, line, plane or space.
     pub platform: String,
-    /// Rank of the leg vectors of these legs.
+    /// Rank of their leg vectors.
     pub rank: usize,
-    /// Dimension of the family expected from counting equations; may be negative.
+    /// Dimension expected by counting equations; may be negative.
     pub expected_dimension: isize,
-    /// Dimension of the family found.
+    /// Dimension found.
     pub dimension: usize,
     /// Whether the flats fit the joints as written, or only within the tolerance.
     pub reading: String,
-    /// Dimensions and ranks of the pair with their evidence.
+    /// Dimensions and ranks with evidence.
     pub decisions: Vec<DecisionRecord>,
 }
 
@@ -135,7 +135,7 @@ pub type Bilinear = Vec<[[Number; 3]; 3]>;
 /// A pair of planes with the curves of points that carry replaceable legs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PlanePairRecord {
-    /// The number of the pair in `pairs`, from 1.
+    /// Number of the pair in `pairs`, from 1.
     pub pair: usize,
     /// The legs in the planes, from 1.
     pub legs: Vec<usize>,
@@ -157,23 +157,23 @@ pub struct PlanePairRecord {
 pub struct PlaneCurveRecord {
     /// The origin of plane coordinates, body frame.
     pub origin: [Number; 3],
-    /// The point `(x, y)` is `origin + x axes[0] + y axes[1]`.
+    /// Point `(x, y)` is `origin + x axes[0] + y axes[1]`.
     pub axes: [[Number; 3]; 2],
     /// The degree of the curve.
     pub degree: usize,
-    /// The coefficients in the order of the monomials.
+    /// Coefficients in monomial order.
     pub coefficients: Vec<Number>,
-    /// Names of the monomials.
+    /// Monomials.
     pub monomials: Vec<String>,
     /// Rank of the equations at a generic point.
     pub generic_rank: usize,
-    /// The components of the curve.
+    /// Components of the curve.
     pub parts: Vec<CurvePart>,
-    /// The singular points of the curve.
+    /// Singular points.
     pub singular_points: Vec<SingularPointRecord>,
-    /// Dimensions and ranks of the curve with their evidence.
+    /// Dimensions and ranks with evidence.
     pub decisions: Vec<DecisionRecord>,
-    /// The curve for the joints as rational numbers, or the reason why there is none.
+    /// Curve for the joints as rational numbers, or the reason why there is none.
     pub exact: ExactCurveOutcome,
 }
 
@@ -226,22 +226,22 @@ pub struct SingularPointRecord {
     pub point: Option<[Number; 3]>,
     /// Homogeneous plane coordinates.
     pub coordinates: [Number; 3],
-    /// The type of the singular point.
+    /// Type.
     #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
     pub kind: String,
-    /// The gradient of the curve's equation at the point.
+    /// Gradient of the equation at the point.
     pub gradient: Number,
-    /// Whether a whole line of the other plane corresponds to it.
+    /// Whether it corresponds to a whole line of the other plane.
     pub line_of_partners: bool,
 }
 
-/// The curve for the joints as rational numbers, or the reason why there is none.
+/// Curve for the joints as rational numbers, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactCurveOutcome {
     /// The curve.
     Curve(ExactCurveRecord),
-    /// There is no exact curve.
+    /// No exact curve.
     None {
         /// The reason.
         reason: String,
@@ -251,19 +251,19 @@ pub enum ExactCurveOutcome {
 /// A plane curve with integer coefficients.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExactCurveRecord {
-    /// The coordinates of the body that serve as plane coordinates.
+    /// Body coordinates used as plane coordinates.
     pub axes: [String; 2],
     /// Rank of the equations at a generic point.
     pub generic_rank: usize,
     /// The degree of the curve.
     pub degree: usize,
-    /// The coefficients, integers as text.
+    /// Integers as text.
     pub coefficients: Vec<String>,
-    /// The components of the curve over the complex numbers.
+    /// Components over the complex numbers.
     pub parts: Vec<ExactPart>,
-    /// Whether the curve has no singular point; null: not decided.
+    /// Whether the curve is smooth; null: not decided.
     pub smooth: Option<bool>,
-    /// A singular point of the curve; null: none is known.
+    /// Singular point; null: none is known.
     pub singular_point: Option<ExactPoint>,
 }
 
@@ -290,33 +290,33 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
 pub struct ComponentRecord {
     /// The number of the family, from 1.
     pub component: usize,
-    /// The type, for example point-line.
+    /// Type such as point-line.
     #[serde(rename = "type")]
     pub type_name: String,
     /// The set that its legs form.
     #[schemars(extend("enum" = ["all_pairs", "over_line", "over_conic", "over_plane", "over_cubic"]))]
     pub kind: String,
-    /// The flat spanned by its base ends.
+    /// Flat of its base ends.
     pub base: String,
-    /// The flat spanned by its platform ends.
+    /// Flat of its platform ends.
     pub platform: String,
     /// The dimension of the family.
     pub dimension: usize,
-    /// Legs of the design in the family, from 1.
+    /// Legs of the design in it, from 1.
     pub legs: Vec<usize>,
     /// Legs of the design, from 1; every leg vector of the family is a combination of theirs.
     pub support: Vec<usize>,
-    /// Whether the family is exact. False: it exists only within the tolerance; null: not decided exactly.
+    /// Whether it is exact. False: it exists only within the tolerance; null: not decided exactly.
     pub exact: Option<bool>,
-    /// Numbers of the larger families that contain it, from 1.
+    /// Larger families that contain it, from 1.
     pub contained_in: Vec<usize>,
     /// Formulas of its legs.
     pub parametrisation: ParametrisationRecord,
-    /// Parameter values without a finite leg.
+    /// Parameter values without finite leg.
     pub at_infinity: Vec<Number>,
-    /// Dimensions and ranks of the family with their evidence.
+    /// Dimensions and ranks with evidence.
     pub decisions: Vec<DecisionRecord>,
-    /// Random legs of the family.
+    /// Random legs.
     pub samples: Vec<SampledLegRecord>,
 }
 
@@ -324,7 +324,7 @@ pub struct ComponentRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum ParametrisationRecord {
-    /// Both ends are rational functions of the parameters.
+    /// Rational functions of the parameters.
     Rational {
         /// Number of parameters.
         parameters: usize,
@@ -339,13 +339,13 @@ pub enum ParametrisationRecord {
         /// Number of parameters: 1.
         #[schemars(extend("const" = 1))]
         parameters: usize,
-        /// The centre of the pencil on the cubic, homogeneous plane coordinates.
+        /// Centre of the pencil on the cubic, homogeneous plane coordinates.
         centre: Vec<Number>,
         /// The coefficients of the cubic.
         cubic: Vec<Number>,
-        /// Origin and axes of the plane of the base, base frame.
+        /// Origin and axes of the base plane, base frame.
         base_frame: Vec<[Number; 3]>,
-        /// Origin and axes of the plane of the platform, platform frame.
+        /// Origin and axes of the platform plane, platform frame.
         platform_frame: Vec<[Number; 3]>,
         /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
         /// `beta` on the platform.
@@ -418,12 +418,12 @@ impl From<&Leg> for LegEndsRecord {
 pub struct SampledLegRecord {
     /// The parameters of the leg.
     pub parameters: Vec<Number>,
-    /// The ends of the leg.
+    /// Ends of the leg.
     #[serde(flatten)]
     pub ends: LegEndsRecord,
-    /// The coefficients of the six squared leg lengths in the squared length of this leg.
+    /// Coefficients of the six squared leg lengths.
     pub coefficients: [Number; 6],
-    /// The residual of the leg vector after subtracting this combination.
+    /// Residual of the leg vector after subtracting this combination.
     pub residual: Number,
 }
 

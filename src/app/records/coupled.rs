@@ -9,11 +9,11 @@ use machine::coupled::{CoupledOutcome, DriveSolutionWord, DriveState};
 /// The drives at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveLengthsRecord {
-    /// The lengths for the controller to command, in leg order, design units.
+    /// Lengths to command, in leg order, design units.
     pub lengths: [f64; 6],
-    /// The part of the difference from the joint distances caused by axes that do not meet, design units.
+    /// Difference from joint distances by axes that do not meet, design units.
     pub of_offsets: [f64; 6],
-    /// The twist of each leg since home, degrees: its platform end against its base end; 0 without a lead.
+    /// Twist since home, degrees: its platform end against its base end; 0 without a lead.
     pub twists_deg: [f64; 6],
 }
 
@@ -30,23 +30,23 @@ impl DriveLengthsRecord {
 /// The iteration for the pose with given drive lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DriveSolutionRecord {
-    /// The status of the solution.
+    /// Status of the solution.
     pub status: DriveSolutionWord,
-    /// The reason if there is no pose; null: there is one.
+    /// Reason for no pose; null: there is one.
     pub reason: Option<String>,
     /// The lengths that the drives show, design units.
     pub lengths: [f64; 6],
-    /// The distances of the joints at the pose found, design units.
+    /// Joint distances at the pose, design units.
     pub distances: [f64; 6],
     /// Number of fixed-point steps.
     pub steps: u32,
-    /// The greatest ratio of two successive changes of the corrections; 0 if there were none above rounding.
+    /// Greatest ratio of successive corrections; 0 if there were none above rounding.
     pub factor: Number,
-    /// Proved bound on the distance from this platform origin to the one with exactly these lengths, design units.
+    /// Proved bound on the position error, design units.
     pub position_bound: Option<Number>,
-    /// Proved bound on the angle to the rotation with exactly these lengths, degrees.
+    /// Proved bound on the angle error, degrees.
     pub angle_bound_deg: Option<Number>,
-    /// The contraction factor of the Newton map around the pose; null: not proved.
+    /// Contraction of the Newton map at the pose; null: not proved.
     pub contraction: Option<Number>,
 }
 

@@ -15,41 +15,40 @@ use verify::VerifyError;
 /// a check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DerivationRecord {
-    /// Whether the numbers are exact: the joints are exact, and each moved joint lies exactly on its line. Otherwise
-    /// the numbers are doubles.
+    /// Whether numbers are exact: the joints are exact, and each moved joint lies exactly on its line. Otherwise the
+    /// numbers are doubles.
     pub exact: bool,
-    /// One row of A for each moved leg, with all offsets at once, from the legs of the octahedral platform.
+    /// Row of A of each moved leg, with all offsets at once, from the legs of the octahedral platform.
     pub moves: Vec<LegSlideRecord>,
     /// The moves one at a time, each from the legs before it; det A is the product of their `rest`. Null: every order
     /// of single moves puts two legs on one another.
     pub sequence: Option<Vec<LegSlideRecord>>,
     /// The factors of det A.
     pub factors: Vec<FactorRecord>,
-    /// Products over all six offsets; det A is their difference. Null: some leg is not moved.
+    /// Products over all offsets; det A is their difference. Null: some leg is not moved.
     pub products: Option<OffsetProductsRecord>,
-    /// Forward kinematics of the octahedral platform and of this one, solved independently, and the leg map from one to
-    /// the other.
+    /// Check by forward kinematics, solved independently, and the leg map from one to the other.
     pub verification: VerifyAnswer,
 }
 
 /// One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LegSlideRecord {
-    /// The moved leg, from 1.
+    /// Moved leg.
     pub leg: usize,
-    /// The legs X F and Y F, from 1.
+    /// Legs X F and Y F, from 1.
     pub between: [usize; 2],
     /// The names of X and Y.
     pub ends: [String; 2],
-    /// The name of the new joint Q of the leg: Q = X + t (Y - X).
+    /// New joint Q: Q = X + t (Y - X).
     pub moved: String,
     /// The name of F, the joint that the leg keeps.
     pub fixed: String,
     /// The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
     pub offset: ExactNumberRecord,
-    /// The number 1 - t.
+    /// 1 - t.
     pub rest: ExactNumberRecord,
-    /// The squared edge d^2 = |XY|^2, design units squared.
+    /// Squared edge d^2 = |XY|^2, design units squared.
     pub square: ExactNumberRecord,
     /// |XQ|^2 and |YQ|^2, design units squared.
     pub squares_to_ends: [ExactNumberRecord; 2],
@@ -60,20 +59,20 @@ pub struct LegSlideRecord {
 /// A factor of det A.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FactorRecord {
-    /// The formula in the offsets, such as 1 - t1.
+    /// Formula in the offsets, such as 1 - t1.
     pub formula: String,
-    /// The equation of its zeros; the platform is architecturally singular there.
+    /// Equation of zeros; the platform is architecturally singular there.
     pub zero: String,
-    /// The value of the factor at the offsets.
+    /// Value at the offsets.
     pub value: ExactNumberRecord,
 }
 
 /// Products over the six offsets of the platform without shared joints.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OffsetProductsRecord {
-    /// The product of the six numbers 1 - t.
+    /// Product of all 1 - t.
     pub rest: ExactNumberRecord,
-    /// The product of the six offsets t.
+    /// Product of all t.
     pub own: ExactNumberRecord,
 }
 
@@ -82,7 +81,7 @@ pub struct OffsetProductsRecord {
 pub struct ExactNumberRecord {
     /// The nearest double.
     pub value: Number,
-    /// The number as an expression, such as 4/5 or 1/2 + sqrt(3)/6; null: known only as a double.
+    /// Number as an exact expression, such as 4/5 or 1/2 + sqrt(3)/6; null: known only as a double.
     pub exact: Option<String>,
 }
 

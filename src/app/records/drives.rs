@@ -13,12 +13,12 @@ pub struct DrivesAnswer {
     pub name: String,
     /// Whether some drive fits: true and false are proved; null: undecided.
     pub met: Option<bool>,
-    /// The name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap ones; null:
-    /// there is none.
+    /// Name of the chosen drive: the cheapest that is proved to fit, the lightest of equally cheap ones; null: there is
+    /// none.
     pub chosen: Option<String>,
-    /// All drives: fitting ones first, then undecided and unfit ones; within each group by price, then mass.
+    /// Drives, fitting ones first, then undecided and unfit ones; within each group by price, then mass.
     pub drives: Vec<DriveRecord>,
-    /// The currency of prices from the table; null: the table names none.
+    /// Currency of prices; null: the table names none.
     pub currency: Option<String>,
     /// The unit of lengths; speeds are in this unit per second.
     pub length_unit: String,
@@ -26,7 +26,7 @@ pub struct DrivesAnswer {
     pub force_unit: String,
     /// The unit of masses.
     pub mass_unit: String,
-    /// Assumed values that neither the file nor the table states, one sentence each.
+    /// Values assumed, one sentence each.
     pub assumptions: Vec<String>,
     /// The design with the chosen drive; null: none fits.
     pub design: Option<DesignRecord>,
@@ -41,13 +41,13 @@ pub struct DriveRecord {
     pub name: String,
     /// Line of the table, from 1.
     pub line: usize,
-    /// Whether the drive fits: true and false are proved; null: undecided.
+    /// Whether it fits: true and false are proved; null: undecided.
     pub fits: Option<bool>,
-    /// Whether the safety margin on every limit is kept too: true and false are proved; null: undecided.
+    /// Whether all safety margins are kept too: true and false are proved; null: undecided.
     pub safety_margin_kept: Option<bool>,
     /// The travel, design units.
     pub stroke: Number,
-    /// Least and greatest length from joint centre to joint centre, design units.
+    /// Least and greatest joint distance, design units.
     pub leg_length: [Number; 2],
     /// Greatest force; null: not in the table.
     pub force: Option<Number>,
@@ -59,11 +59,11 @@ pub struct DriveRecord {
     pub stiffness: Option<Number>,
     /// Price; null: not in the table.
     pub price: Option<Number>,
-    /// The source of the numbers; null: not in the table.
+    /// Source of its numbers; null: not in the table.
     pub source: Option<String>,
-    /// The result of `assess` for the design with the drive.
+    /// Result of `assess`.
     pub assessment: AssessAnswer,
-    /// The results along the requested motions.
+    /// Results along requested motions.
     pub motions: Vec<MotionRunRecord>,
 }
 
@@ -98,13 +98,13 @@ impl DriveRecord {
 pub struct LightestDriveRecord {
     /// The name of the drive; null: no drive is proved to suffice.
     pub name: Option<String>,
-    /// The mass of the drive; null: the table has none, or no drive is proved to suffice.
+    /// Drive mass; null: the table has none, or no drive is proved to suffice.
     pub mass: Option<Number>,
     /// The unit of the mass.
     pub mass_unit: String,
     /// Undecided lighter drives; all undecided drives if none is proved to suffice.
     pub undecided: Vec<String>,
-    /// The result in one sentence.
+    /// Result in words.
     pub message: String,
 }
 

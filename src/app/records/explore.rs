@@ -30,47 +30,47 @@ pub struct FkRunRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExploreAnswer {
-    /// The answer about an octahedral design.
+    /// Octahedral design.
     Octahedral(Box<ExploreOctahedralAnswer>),
-    /// The answer about another design.
+    /// Other design.
     General(Box<ExploreGeneralAnswer>),
 }
 
 /// The answer of `explore` about a design that is not octahedral.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreGeneralAnswer {
-    /// The verdict of the whole run.
+    /// Verdict of the run.
     pub verdict: ExploreVerdict,
-    /// The verdict in one sentence, with the numbers that decided.
+    /// Verdict in words, with the numbers that decided.
     pub explanation: String,
     /// The name of the design.
     pub name: String,
-    /// The files written, in order.
+    /// Files written.
     pub paths: Vec<String>,
-    /// The stages of the run, in order.
+    /// Stages, in order.
     pub stages: Vec<StageRecord>,
     /// The families of replaceable legs.
     pub components: FamiliesFoundRecord,
-    /// The search for an equivalent platform without shared joints; null: no leg can be moved.
+    /// Search for an equivalent without shared joints; null: no leg can be moved.
     pub moves: Option<MovesFoundRecord>,
     /// The nearest octahedral platform; null: none was found.
     pub nearest: Option<NearestErrorRecord>,
-    /// Whether the platform equivalent to the nearest octahedral one meets the design's requirements: true and false
-    /// are proved. Null: undecided, not assessed, or nothing is required.
+    /// Whether the nearest equivalent platform meets the requirements: true and false are proved. Null: undecided, not
+    /// assessed, or nothing is required.
     pub nearest_meets_requirements: Option<bool>,
-    /// The comparison of the design with its equivalent, or of the nearest octahedral platform with its equivalent.
-    /// Null: neither exists.
+    /// Comparison with the equivalent platform, or of the nearest octahedral platform with its equivalent. Null:
+    /// neither exists.
     pub verify: Option<ComparedRecord>,
-    /// The poses of the design.
+    /// Poses of the design.
     pub fk: PoseTotalsRecord,
 }
 
 /// The result of one stage of `explore`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StageRecord {
-    /// The name of the stage.
+    /// Stage.
     pub stage: StageWord,
-    /// The result in one sentence.
+    /// Result in words.
     pub explanation: String,
 }
 
@@ -88,7 +88,7 @@ pub enum StageWord {
     Assess,
     /// The comparison of two designs.
     Verify,
-    /// The poses of the design.
+    /// Poses of the design.
     Fk,
 }
 
@@ -121,62 +121,62 @@ pub struct FamiliesFoundRecord {
 pub struct MovesFoundRecord {
     /// The outcome of the search.
     pub outcome: SearchWord,
-    /// Legs of the written platform that differ from the design's legs, from 1; null: no platform is written.
+    /// Legs that differ from the design, from 1; null: no platform is written.
     pub moved_legs: Option<Vec<usize>>,
-    /// det A of the leg map to the written platform; null: no platform is written.
+    /// det A to the written platform; null: no platform is written.
     pub det: Option<Number>,
 }
 
 /// The answer of `explore` about an octahedral design.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ExploreOctahedralAnswer {
-    /// The verdict of the whole run.
+    /// Verdict of the run.
     pub verdict: ExploreVerdict,
-    /// The verdict in one sentence, with the numbers that decided.
+    /// Verdict in words, with the numbers that decided.
     pub explanation: String,
     /// The name of the design.
     pub name: String,
-    /// The files written, in order.
+    /// Files written.
     pub paths: Vec<String>,
     /// The equivalence class.
     pub family: FamilySizeRecord,
-    /// The result of `assess` for the platform found; null: there is none, or the design has no requirements.
+    /// Result of `assess`; null: there is none, or the design has no requirements.
     pub assessment: Option<AssessAnswer>,
     /// The platform found; null: none.
     pub optimize: Option<OptimizedRecord>,
-    /// Number of conic programs solved by the library clarabel in the platform search; searches with other drives, for
-    /// freedoms and for holes are not counted.
+    /// Number of conic programs solved by clarabel; searches with other drives, for freedoms and for holes are not
+    /// counted.
     pub conic_programs: u64,
     /// The cost of separate joints: figures of the design and of the platform to build; null: there is none.
     pub price: Option<PriceRecord>,
-    /// The result for the default safety margin of 5 % on every limit; null: the design states its own.
+    /// Result for the default safety margin of 5 %; null: the design states its own.
     pub safety_margin: Option<DefaultSafetyMarginRecord>,
-    /// The comparison of the design with the optimised platform; null: there is none.
+    /// Comparison with the optimised platform; null: there is none.
     pub verify: Option<ComparedRecord>,
-    /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The
-    /// assessment applies to this platform.
+    /// Platform on holes; null: the design states no holes, or no platform was found. The assessment applies to this
+    /// platform.
     pub holes: Option<OnHolesRecord>,
     /// The searches with other freedoms, symmetry and drives.
     #[serde(flatten)]
     pub beside: SearchesBesideRecord,
-    /// The poses of the design.
+    /// Poses of the design.
     pub fk: PoseTotalsRecord,
 }
 
 /// Figures of a design and of the platform with separate joints made from it, in this order.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PriceRecord {
-    /// Worst conditioning over the poses of the workspace; both use the characteristic length of the design.
+    /// Worst conditioning over the workspace; both use the characteristic length of the design.
     pub conditioning: [Number; 2],
-    /// Least distance of the ends of two legs on the base, design units; 0 for a shared joint.
+    /// Least distance of base ends, design units; 0 for a shared joint.
     pub base_spacing: [Number; 2],
-    /// Least distance of the ends of two legs on the platform, design units; 0 for a shared joint.
+    /// Least distance of platform ends, design units; 0 for a shared joint.
     pub platform_spacing: [Number; 2],
-    /// Greatest distance of a base joint from the centre of the base joints, design units.
+    /// Greatest distance of base joints from their centre, design units.
     pub base_radius: [Number; 2],
-    /// Greatest distance of a platform joint from the centre of the platform joints, design units.
+    /// Greatest distance of platform joints from their centre, design units.
     pub platform_radius: [Number; 2],
-    /// The comparison in one sentence.
+    /// Comparison in words.
     pub message: String,
 }
 
@@ -211,11 +211,11 @@ impl PriceRecord {
 /// The result for a default safety margin that the design does not state itself.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DefaultSafetyMarginRecord {
-    /// The safety margin on every limit, percent.
+    /// Safety margin of every limit, percent.
     pub percent: f64,
     /// Whether the platform found keeps it. False: no platform with it was found, and the search continued without it.
     pub kept: bool,
-    /// The result in one sentence.
+    /// Result in words.
     pub message: String,
 }
 
@@ -241,15 +241,15 @@ impl DefaultSafetyMarginRecord {
 pub struct OnHolesRecord {
     /// The rounding chosen; null: there is none.
     pub variant: Option<RoundingWay>,
-    /// Whether rotations by 120 degrees map both triangles with their joints to themselves.
+    /// Whether rotations by 120 degrees keep both bodies.
     pub three_fold: bool,
-    /// The largest displacement of a joint to its hole, design units.
+    /// Largest displacement to a hole, design units.
     pub largest_displacement: Option<Number>,
-    /// Variables optimised again after rounding.
+    /// Variables optimised again.
     pub refitted: Vec<String>,
     /// Number of passes of search and rounding.
     pub passes: usize,
-    /// The reason why there is no rounding; null: there is one.
+    /// Reason for no rounding; null: there is one.
     pub error: Option<NoRoundingError>,
 }
 
@@ -304,7 +304,7 @@ pub struct OptimizedRecord {
     pub status: OptimizeStatus,
     /// The evidence of optimality; null: none.
     pub optimality: Option<OptimalityWord>,
-    /// Value of the first objective.
+    /// First objective.
     pub objective: Option<Number>,
     /// The chosen variables, without axes.
     pub variables: Vec<ChosenVariable>,
@@ -314,7 +314,7 @@ pub struct OptimizedRecord {
     pub shifts: Option<[Number; 6]>,
     /// det A of the leg map; null: the variables leave the equivalence class of the design.
     pub det: Option<Number>,
-    /// The active bounds of the platform; null: none.
+    /// Active bounds; null: none.
     pub active_bounds: Option<ActiveBoundsRecord>,
 }
 

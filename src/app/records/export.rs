@@ -13,16 +13,15 @@ pub struct ExportAnswer {
     pub name: String,
     /// The output folder.
     pub output: String,
-    /// The result of `assess` for the design; null: it has no requirements.
+    /// Result of `assess`; null: it has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// The length of one unit of the design.
+    /// Length of one design unit.
     pub design_unit: LengthUnit,
-    /// The formats, each written or refused.
+    /// Formats.
     pub formats: Vec<FormatRecord>,
-    /// The dimensions chosen for the model.
+    /// Dimensions chosen.
     pub sizes: Vec<SizeChoice>,
-    /// Assumptions of the simulator's model about masses and units that the file leaves open; empty: no model was
-    /// written.
+    /// Assumptions of the simulator model about masses and units; empty: no model was written.
     pub assumptions: Vec<String>,
 }
 
@@ -51,10 +50,10 @@ impl ExportAnswer {
 /// The files of a format.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FormatRecord {
-    /// The name of the format.
+    /// Format.
     #[schemars(extend("enum" = ExportFormat::ALL.map(ExportFormat::name)))]
     pub format: String,
-    /// The purpose of the format.
+    /// Purpose.
     pub purpose: String,
     /// The files written.
     pub files: Vec<String>,
@@ -69,12 +68,12 @@ pub struct FormatRecord {
 pub enum FormatOutcome {
     /// The format was written.
     Written {
-        /// The parts of the design that the format omits.
+        /// Parts of the design omitted.
         leaves_out: String,
     },
     /// The format was refused.
     Refused {
-        /// The reason: a part of the design that the format cannot hold.
+        /// Part that the format cannot hold.
         refused: String,
     },
 }

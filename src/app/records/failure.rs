@@ -10,7 +10,7 @@ pub struct WarningRecord {
     pub code: String,
     /// The design file.
     pub path: String,
-    /// The line concerned, from 1.
+    /// Line, from 1.
     pub line: usize,
     /// The problem.
     pub message: String,
@@ -30,7 +30,7 @@ pub struct ErrorAnswer {
 pub struct FailureRecord {
     /// A stable short code, `fk::not_applicable` for example.
     pub code: String,
-    /// The message in one sentence.
+    /// Message in words.
     pub message: String,
     /// The remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -38,7 +38,7 @@ pub struct FailureRecord {
     /// The design file concerned.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// The faults of the design file; empty for other failures.
+    /// Faults; empty for other failures.
     pub violations: Vec<ViolationRecord>,
 }
 

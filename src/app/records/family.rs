@@ -20,18 +20,18 @@ pub struct FamilyAnswer {
     pub name: String,
     /// Legs along the hexagon, from 1.
     pub cyclic_order: Vec<usize>,
-    /// The edge of each side of the hexagon, design units.
+    /// Edges of the hexagon, design units.
     pub edge_lengths: Vec<Number>,
     /// Numbers of patterns and topologies.
     pub counts: FamilyCounts,
-    /// All patterns, or the requested one.
+    /// Patterns, or the requested one.
     pub patterns: Vec<PatternRecord>,
-    /// The topologies: the ways in which legs share joints.
+    /// Ways to share joints.
     pub topologies: Vec<FamilyTopologyRecord>,
-    /// The platform of the pattern at the offsets given, with `--offsets`.
+    /// Platform at the offsets given, with `--offsets`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<InstanceRecord>,
-    /// The derivation of its leg map from coplanar joints, with `--explain`.
+    /// Derivation of the leg map from coplanar joints, with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub derivation: Option<DerivationRecord>,
 }
@@ -57,31 +57,31 @@ impl FamilyAnswer {
 /// A pattern: the kept legs, and the moved legs with their edges.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternRecord {
-    /// The name of the pattern: V and the vertices kept, S and the sides of the moved ones.
+    /// Name of the pattern: V and the vertices kept, S and the sides of the moved ones.
     pub id: String,
-    /// The class of the pattern up to symmetry, from 1.
+    /// Class up to symmetry, from 1.
     pub class: usize,
-    /// The class of the pattern up to all symmetries, from 1.
+    /// Class up to all symmetries, from 1.
     pub class_exchange: usize,
-    /// The topology of the pattern, from 1.
+    /// Topology of the pattern, from 1.
     pub topology: usize,
-    /// Whether offsets introduced one at a time lead to it.
+    /// Whether offsets one at a time lead to it.
     pub sequential: bool,
-    /// The legs, in the order of the design.
+    /// Legs of the design in order.
     pub legs: Vec<PatternLegRecord>,
-    /// Names of the offsets.
+    /// Offset names.
     pub offsets: Vec<String>,
-    /// Joints that hold more than one leg.
+    /// Joints of several legs.
     pub shared_joints: Vec<SharedJointRecord>,
-    /// Joints on one line.
+    /// Collinear joints.
     pub alignments: Vec<Vec<String>>,
-    /// Formulas of the entries of A, with legs in the order of the design.
+    /// Formulas of A, with legs in the order of the design.
     #[serde(rename = "A")]
     pub matrix: [[String; 6]; 6],
-    /// The formula of det A.
+    /// Formula of det A.
     #[serde(rename = "det")]
     pub determinant: String,
-    /// The equations of the factors of det A = 0.
+    /// Equations of the zeros of det A.
     #[serde(rename = "det_zero")]
     pub zeros: Vec<String>,
 }
@@ -89,9 +89,9 @@ pub struct PatternRecord {
 /// One leg of a pattern.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternLegRecord {
-    /// The base joint of the leg.
+    /// Base joint.
     pub base: String,
-    /// The platform joint of the leg.
+    /// Platform joint.
     pub platform: String,
     /// The place of the leg on the hexagon.
     #[serde(flatten)]
@@ -108,9 +108,9 @@ pub enum PatternPlace {
     Inner {
         /// The side, from 1.
         side: usize,
-        /// The name of its offset.
+        /// Name of its offset.
         offset: String,
-        /// The legs at the ends of the side, from 1.
+        /// Legs at the ends of the side, from 1.
         between: [usize; 2],
     },
 }
@@ -170,17 +170,17 @@ impl PatternRecord {
 /// A way in which the legs of equivalent platforms share joints.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyTopologyRecord {
-    /// The number of the topology, from 1.
+    /// Topology number, from 1.
     pub topology: usize,
     /// Joints of the base.
     pub base_joints: usize,
     /// Joints of the platform.
     pub platform_joints: usize,
-    /// Joints that hold more than one leg.
+    /// Joints of several legs.
     pub shared_joints: usize,
-    /// Whether offsets introduced one at a time lead to it.
+    /// Whether offsets one at a time lead to it.
     pub sequential: bool,
-    /// The name of a pattern with this topology.
+    /// Pattern with this topology.
     pub example: String,
     /// Topologies one offset further, from 1.
     pub next: Vec<usize>,
@@ -205,7 +205,7 @@ impl From<(usize, &synthesis::FamilyTopology)> for FamilyTopologyRecord {
 pub struct InstanceRecord {
     /// The pattern.
     pub pattern: String,
-    /// The offsets as fractions of the edges.
+    /// Offsets as fractions of the edges.
     pub offsets: Vec<Number>,
     /// Rows of A: s' = A s + c of squared leg lengths.
     #[serde(rename = "A")]

@@ -32,9 +32,9 @@ use platform::manipulator::{Manipulator, height_above_base};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FkAnswer {
-    /// The answers for a CSV file of lengths, one for each row.
+    /// Table of lengths, with an answer for each row.
     Rows(Box<FkRowsAnswer>),
-    /// The answer for one set of lengths.
+    /// One set of lengths.
     One(Box<FkOneAnswer>),
 }
 
@@ -56,21 +56,21 @@ impl FkAnswer {
 pub struct FkRowsAnswer {
     /// The convention of `in_frames`.
     pub frames: PoseConventionRecord,
-    /// The rows in the order of the file.
+    /// Rows of the file.
     pub rows: Vec<FkRowRecord>,
 }
 
 /// One row of a file of lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FkRowRecord {
-    /// The line of the CSV file, from 1.
+    /// Line of the table, from 1.
     pub line: usize,
     /// The time of the row, if the file has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// The six lengths, design units; for given crank angles, the rod lengths.
     pub lengths: [f64; 6],
-    /// The crank angles in degrees, if given.
+    /// Crank angles, if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
     /// The poses, or the reason why there are none.
@@ -84,14 +84,14 @@ pub struct FkRowRecord {
 pub enum FkRowOutcome {
     /// The row was solved.
     Solved(Box<FkOneAnswer>),
-    /// The row could not be solved.
+    /// Failed row.
     Failed(RowFailure),
 }
 
 /// The reason why a row has no poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowFailure {
-    /// The failure, as the command reports it for this row alone.
+    /// Failure of this row.
     pub error: FailureRecord,
 }
 
@@ -104,14 +104,14 @@ pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
-    /// The crank angles in degrees, if given. The legs are then the rods from the crank tips, rounded to doubles, and
-    /// certificates hold for these tips.
+    /// Crank angles, if given. The legs are then the rods from the crank tips, rounded to doubles, and certificates
+    /// hold for these tips.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angles_deg: Option<[f64; 6]>,
-    /// Whether all given angles are within their limits, ends included; null: no angles, or no limits.
+    /// Whether all angles are within their limits, ends included; null: no angles, or no limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub within_limits: Option<bool>,
-    /// Legs with cranks beyond their limits at these angles, from 1.
+    /// Legs with cranks beyond their limits, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and platform
@@ -119,17 +119,16 @@ pub struct FkOneAnswer {
     /// further poses, which are far away.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetric_finite: Option<usize>,
-    /// The tracking of the pose, with `--near`.
+    /// Tracking, with `--near`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
-    /// The iteration for joints that are not ideal. The given lengths are then drive lengths, and no root gets a
-    /// certificate.
+    /// Iteration for non-ideal joints. The given lengths are then drive lengths, and no root gets a certificate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drives: Option<DriveSolutionRecord>,
     /// The closure polynomial, with `--method trilateration` or `--between`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
-    /// The polynomial in the Cayley parameter c3 of all poses, with `--polynomial`.
+    /// Polynomial in the Cayley parameter c3, with `--polynomial`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub polynomial: Option<RotationPolynomialRecord>,
 }
@@ -185,14 +184,14 @@ impl FkOneAnswer {
 pub struct SolvedRecord {
     /// The method that found them.
     pub method: Method,
-    /// The level of completeness of the list.
+    /// Completeness of the list.
     pub completeness: CompletenessWord,
-    /// The evidence for completeness in one sentence.
+    /// Evidence for completeness.
     pub completeness_reason: String,
-    /// The numbers of the proof that the list holds all poses up to a distance; null: another proof, or none.
+    /// Proof that all poses up to a distance are listed; null: another proof, or none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound: Option<BoundedProof>,
-    /// Whether every path is accounted for; false: roots may be missing.
+    /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,
     /// Number of `solutions`.
     pub finite_count: usize,
@@ -200,28 +199,27 @@ pub struct SolvedRecord {
     pub finite_count_with_multiplicity: u32,
     /// Number of real poses.
     pub real_count: usize,
-    /// Number of poses that may be real or not.
+    /// Number of poses that may be real.
     pub undecided_count: usize,
-    /// Number of finite poses beyond the certified ones, counted with multiplicity; null: not counted.
+    /// Number of finite poses without certificate, counted with multiplicity; null: not counted.
     pub missing_count: Option<usize>,
     /// The number of poses by theorem, or counted without finding them; null: not known.
     pub pose_count: Option<PoseCountRecord>,
-    /// The poses, real ones first.
+    /// The poses, real ones first; the text and `--csv` number them from 1 in this order.
     pub solutions: Vec<SolutionRecord>,
     /// Whether the poses are isolated.
     #[serde(flatten)]
     pub solution_set: SolutionSetRecord,
-    /// The paths of the homotopy.
+    /// Homotopy paths.
     pub paths: Vec<PathReport>,
-    /// Rejected candidates that are no roots.
+    /// Rejected candidates.
     pub rejected: Vec<Rejected>,
-    /// Path ends without a certificate: there may be one pose, several or none near each. They are not among the
-    /// solutions.
+    /// Uncertified path ends: there may be one pose, several or none near each. They are not among the solutions.
     pub unproved: Vec<SolutionRecord>,
-    /// The computations of the linear algebra libraries for `--method template`.
+    /// Library computations of `--method template`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub library_calls: Vec<LibraryCalls>,
-    /// The meaning of null for each number that is not finite.
+    /// Meaning of null for non-finite numbers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -313,6 +311,12 @@ impl SolvedRecord {
         self
     }
 
+    /// All poses with their numbers, counted from 1: the solutions, then the points of a self-motion. The text, the
+    /// table of `--csv` and the order in JSON agree on them.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &SolutionRecord)> {
+        (1..).zip(self.solutions.iter().chain(self.solution_set.witness_points()))
+    }
+
     fn is_finite(&self) -> bool {
         self.solutions.iter().chain(&self.unproved).all(SolutionRecord::is_finite)
             && self.paths.iter().all(|p| p.isotropy.is_finite())
@@ -326,18 +330,18 @@ impl SolvedRecord {
 pub enum SolutionSetRecord {
     /// The poses are isolated, as far as known.
     Isolated {},
-    /// Proved: there is no finite pose, real or complex.
+    /// Proved: no finite pose, real or complex.
     Empty {},
-    /// Poses form curves or surfaces: self-motions.
+    /// Curves or surfaces: self-motions.
     PositiveDimensional {
         /// The dimension, counted modulo random primes; null: not counted.
         dimension: Option<usize>,
         /// The dimension found numerically, a lower bound.
         dimension_at_least: usize,
-        /// Whether a relation between the legs proves the dimension for the lengths as written. False: the lengths
-        /// satisfy it only within rounding, and have finitely many poses.
+        /// Whether the dimension is proved for the lengths as written. False: the lengths satisfy it only within
+        /// rounding, and have finitely many poses.
         dimension_established: bool,
-        /// The degree of the set; null: not established.
+        /// Degree of the set; null: not established.
         degree: Option<usize>,
         /// Points of a general section, and real points found by a search.
         witness_points: Vec<SolutionRecord>,
@@ -410,7 +414,7 @@ impl From<&ComplexPoseRecord> for ComplexPose {
 /// A real pose as real numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RealPoseRecord {
-    /// Position of the platform origin, base frame, design units.
+    /// Platform origin, base frame, design units.
     pub position: [f64; 3],
     /// Rows of the rotation matrix.
     pub rotation: [[f64; 3]; 3],
@@ -418,20 +422,20 @@ pub struct RealPoseRecord {
     pub rpy_deg: [f64; 3],
     /// Unit quaternion, scalar part first.
     pub quat_wxyz: [f64; 4],
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The side of the base on which the platform is; null: its centre is in the plane of the base, here or at home.
+    /// Side of the base; null: its centre is in the plane of the base, here or at home.
     pub mode: Option<SideWord>,
-    /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position divided by
-    /// the size of the design.
+    /// Largest difference of a rotation entry from home, or of a coordinate of the position divided by the size of the
+    /// design.
     pub distance_from_home: f64,
-    /// Whether this is the real pose nearest to home.
+    /// Whether it is the real pose nearest to home.
     pub nearest_home: bool,
-    /// Whether the pose meets every requirement and det J has the sign that it has at home, with `--limits`.
+    /// Whether all requirements are met and det J has the sign of home, with `--limits`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub allowed: Option<bool>,
-    /// Whether each crank is on the side (elbow) that the design names; null: no cranks. A crank changes its side only
-    /// through a singular pose, with crank, rod and axis in one plane.
+    /// Whether each crank is on the named side; null: no cranks. A crank changes its side only through a singular pose,
+    /// with crank, rod and axis in one plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elbow_kept: Option<[bool; 6]>,
 }
@@ -454,18 +458,18 @@ pub struct SolutionRecord {
     pub pose: ComplexPoseRecord,
     /// Whether the pose is real; null: undecided.
     pub real: Option<bool>,
-    /// The pose in real numbers; null: it is not real.
+    /// Real pose; null: it is not real.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub real_pose: Option<RealPoseRecord>,
-    /// Whether there is a certificate.
+    /// Whether it has a certificate.
     pub certified: bool,
     /// The proof; null: there is none.
     pub certificate: Option<CertificateRecord>,
     /// Number of paths, or roots of a polynomial, that end here.
     pub multiplicity: u32,
-    /// Largest error of the leg equations divided by the squared size.
+    /// Largest leg equation error over squared size.
     pub residual: Number,
-    /// An estimate of the condition number.
+    /// Estimated condition number.
     pub condition: Number,
     /// The dual quaternion (e, g): scalar part of e first, g = p e in design units, `max |e_k| = 1`.
     pub dual_quaternion: Option<ComplexRecord<[Number; 8]>>,

@@ -18,13 +18,13 @@ use platform::manipulator::{inverse_condition, jacobian};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum IkAnswer {
-    /// The answer for several poses, or for a table.
+    /// Several poses or a table.
     Rows(IkRowsAnswer),
-    /// The answer for one pose.
+    /// One pose.
     One(Box<IkRecord>),
-    /// The answer for several poses of a design with rods on cranks.
+    /// Several poses with cranks.
     CrankRows(RotaryIkRowsAnswer),
-    /// The answer for one pose of a design with rods on cranks.
+    /// One pose with cranks.
     Cranks(Box<RotaryIkRecord>),
 }
 
@@ -46,7 +46,7 @@ impl IkAnswer {
 /// The lengths at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IkRowsAnswer {
-    /// The convention in which the poses were read, and of `in_frames`.
+    /// Convention in which poses were read, and of `in_frames`.
     pub frames: PoseConventionRecord,
     /// The poses in the order given.
     pub rows: Vec<IkRecord>,
@@ -60,15 +60,15 @@ pub struct IkRecord {
     /// The time of the row, if the table has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// The convention in which the pose was read, and of `in_frames`; of several poses that of the whole answer.
+    /// Convention in which poses were read, and of `in_frames`; of several poses that of the whole answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<PoseConventionRecord>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The lengths that the legs show, in leg order, design units: joint distances plus the offsets of a calibration.
-    /// For joints that are not ideal, the joint distances alone.
+    /// Lengths shown, in leg order, design units: joint distances plus the offsets of a calibration. For joints that
+    /// are not ideal, the joint distances alone.
     pub lengths: [f64; 6],
     /// The drive lengths, for joints that are not ideal. In this case `within_limits`, `outside`, `J` and the angles
     /// refer to drives and real axes, and there are no margins.
@@ -76,26 +76,26 @@ pub struct IkRecord {
     pub drives: Option<DriveLengthsRecord>,
     /// Whether all lengths are within `leg_length`, ends included; null: the design limits none.
     pub within_limits: Option<bool>,
-    /// Legs that are too short or too long, from 1.
+    /// Legs outside `leg_length`, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
-    /// The joint angles at the ends of the legs.
+    /// Joint angles.
     pub joints: JointAnglesRecord,
-    /// The Jacobian, rows `[u, (R b) x u]` in leg order, base frame. It gives leg speeds from the velocity of the
-    /// platform origin and the angular velocity in radians. Null: a leg of length zero.
+    /// Jacobian, rows `[u, (R b) x u]`, base frame. It gives leg speeds from the velocity of the platform origin and
+    /// the angular velocity in radians. Null: a leg of length zero.
     #[serde(rename = "J")]
     pub jacobian: [[Number; 6]; 6],
     /// Inverse condition number of the Jacobian, moments divided by the characteristic length of the design: 1 at best,
     /// 0 at a singular pose.
     pub inverse_condition: Number,
-    /// The force and torque of bent flexures on the platform, if the design has flexures.
+    /// Wrench of bent flexures on the platform, if the design has flexures.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flexures: Option<FlexureRecord>,
-    /// Uncertainty of the pose that the calibrated machine computes here from its lengths. Present for ideal joints and
-    /// a design with standard deviations of a calibration.
+    /// Uncertainty of the pose computed from the lengths. Present for ideal joints and a design with standard
+    /// deviations of a calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
-    /// The least margin of each kind of requirement at this pose.
+    /// Least margin by kind of requirement.
     pub margins: Vec<PoseMarginRecord>,
 }
 
@@ -107,11 +107,10 @@ pub struct JointAnglesRecord {
     pub base_cone_angle_deg: [Number; 6],
     /// Joint angles (cone angles) at the platform: between each leg and its joint axis, degrees.
     pub platform_cone_angle_deg: [Number; 6],
-    /// Both angles of each universal joint at the base, degrees: `u = Rx(first) Ry(second) n` in the joint frame, with
-    /// z along its axis n and x across it.
+    /// Universal joint angles at the base, degrees: `u = Rx(first) Ry(second) n` in the joint frame, with z along its
+    /// axis n and x across it.
     pub base_universal_deg: [[Number; 2]; 6],
-    /// Both angles of each universal joint at the platform, degrees, in its frame, for the direction from base to
-    /// platform.
+    /// Universal joint angles at the platform, degrees, in its frame, for the direction from base to platform.
     pub platform_universal_deg: [[Number; 2]; 6],
 }
 
@@ -120,7 +119,7 @@ pub struct JointAnglesRecord {
 pub struct FlexureRecord {
     /// The force, force units.
     pub force: [Number; 3],
-    /// The torque, force units times design units.
+    /// Torque, force units times design units.
     pub torque: [Number; 3],
 }
 
@@ -131,11 +130,11 @@ pub struct PoseMarginRecord {
     pub name: TermKind,
     /// The least margin at this pose, negative for a violation; null: minus infinity.
     pub margin: Number,
-    /// The unit of the margin.
+    /// Unit.
     pub unit: String,
     /// The parts with the least margin: legs, joints, keep-out or load.
     pub between: Vec<String>,
-    /// The legs concerned, from 1.
+    /// Legs, from 1.
     pub legs: Vec<usize>,
 }
 

@@ -12,27 +12,26 @@ use platform::geom::{Pose, RotationOrder};
 /// The answer of `limits`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LimitsAnswer {
-    /// The convention in which poses were read, of `in_frames` and of `axes`.
+    /// Convention in which poses were read, of `in_frames` and of `axes`.
     pub frames: PoseConventionRecord,
     /// The pose of `--at`.
     pub pose: PoseQuaternionRecord,
-    /// The same in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
     /// Whether every requirement is met at the pose, and det J has the sign that it has at home.
     pub allowed: bool,
-    /// The requirements violated at the pose, the worst first.
+    /// Violated requirements, the worst first.
     pub violated: Vec<LimitRecord>,
-    /// The free travel of each pose coordinate while the others stay fixed (x, y, z, roll, pitch, yaw); empty: the pose
-    /// is not allowed.
+    /// Free travel of each pose coordinate alone (x, y, z, roll, pitch, yaw); empty: the pose is not allowed.
     pub axes: Vec<FreeRangeRecord>,
-    /// The straight path to the pose of `--to`; null: none was requested, or it begins at a pose that is not allowed.
+    /// Straight path to `--to`; null: none was requested, or it begins at a pose that is not allowed.
     pub straight_path: Option<StraightPathRecord>,
-    /// The allowed pose nearest to the pose of `--to`, or nearest to the pose of `--at` if that is not allowed. Null:
-    /// every requested pose is allowed, or no allowed pose was found.
+    /// Allowed pose nearest to `--to`, or nearest to the pose of `--at` if that is not allowed. Null: every requested
+    /// pose is allowed, or no allowed pose was found.
     pub nearest_allowed: Option<NearestAllowedRecord>,
-    /// The size of the workspace around home; null: `--workspace` was not given, or home is not allowed.
+    /// Size of the workspace around home; null: `--workspace` was not given, or home is not allowed.
     pub workspace: Option<WorkspaceSizeRecord>,
-    /// The surface that was written; null: none was asked for, or the pose of `--at` is not allowed.
+    /// Surface written; null: none was asked for, or the pose of `--at` is not allowed.
     pub surface: Option<String>,
     /// The unit of lengths.
     pub length_unit: String,
@@ -41,31 +40,30 @@ pub struct LimitsAnswer {
 /// The size of the workspace around home.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorkspaceSizeRecord {
-    /// Volume of the positions reached by straight paths from home at its orientation, design units cubed; an estimate
-    /// from the paths that were followed.
+    /// Volume that straight paths from home reach, design units cubed; an estimate from the paths that were followed.
     pub volume: f64,
-    /// The relative difference between the volume estimates from every second path and from the others.
+    /// Relative difference of the volume by every second path.
     pub volume_uncertainty: f64,
     /// Number of paths followed.
     pub rays: usize,
-    /// The limits that end the paths, the most frequent first.
+    /// Limits ending the paths, the most frequent first.
     pub ends: Vec<RayEndRecord>,
-    /// Radius of the largest free ball of positions around home, at the orientation of home, design units.
+    /// Largest free ball of positions around home, at the orientation of home, design units.
     pub ball_radius: FreeSizeRecord,
-    /// Half widths of the largest box of positions proved free around home, at its orientation, along the axes of the
-    /// base frame, design units.
+    /// Half widths of the largest box proved free around home, at its orientation, along the axes of the base frame,
+    /// design units.
     pub box_proved: [f64; 3],
-    /// Half widths of the largest such box in which no violation was found, design units.
+    /// Half widths of the largest box without violation found, design units.
     pub box_searched: [f64; 3],
-    /// The requirement violated in a slightly larger box; null: none was found.
+    /// Requirement violated just beyond the box; null: none was found.
     pub box_binds: Option<LimitRecord>,
-    /// Rotations about each axis of the base frame through the platform origin, at home.
+    /// Rotations about axes of the base frame at the platform origin, at home.
     pub turns: Vec<FreeTurnRecord>,
-    /// Largest free angle of rotation about every axis in the xy plane of the base, at the position of home, degrees.
+    /// Largest free tilt in every direction, at the position of home, degrees.
     pub tilt_deg: FreeSizeRecord,
-    /// Largest free angle of rotation about every axis, at the position of home, degrees.
+    /// Largest free rotation about every axis, at the position of home, degrees.
     pub turn_deg: FreeSizeRecord,
-    /// The workspace that the design requires; null: none.
+    /// Required workspace; null: none.
     pub required: Option<RequiredSizeRecord>,
 }
 
@@ -74,36 +72,35 @@ pub struct WorkspaceSizeRecord {
 pub struct RayEndRecord {
     /// The kind of requirement; null: a singular pose, or no limit within ten sizes of the design.
     pub name: Option<TermKind>,
-    /// The limit in a word.
+    /// Limit in a word.
     pub end: String,
-    /// The share of the paths that it ends, a share of solid angle.
+    /// Share of the paths it ends, a share of solid angle.
     pub share: f64,
 }
 
 /// The largest free size of a region around home.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeSizeRecord {
-    /// The largest size for which every pose is proved to be regular and to meet all requirements on poses; 0: nothing
-    /// is proved.
+    /// Largest size with all poses proved regular and allowed; 0: nothing is proved.
     pub proved: f64,
-    /// The largest size for which no violation was found.
+    /// Largest size without violation found.
     pub searched: f64,
-    /// The requirement violated in a slightly larger region; null: none was found.
+    /// Requirement violated just beyond; null: none was found.
     pub binds: Option<LimitRecord>,
 }
 
 /// The free rotation of the platform about an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreeTurnRecord {
-    /// The axis of the base frame: `x`, `y` or `z`.
+    /// Base frame axis: `x`, `y` or `z`.
     pub axis: String,
-    /// The free angle in the negative sense, degrees, given as a positive number.
+    /// Free angle, negative sense, degrees, given as a positive number.
     pub back_deg: f64,
-    /// The requirement that ends it; null: none within half a turn.
+    /// Requirement that ends it; null: none within half a turn.
     pub back_binds: Option<LimitRecord>,
-    /// The free angle in the positive sense, degrees.
+    /// Free angle, positive sense, degrees.
     pub forth_deg: f64,
-    /// The requirement that ends it; null: none within half a turn.
+    /// Requirement that ends it; null: none within half a turn.
     pub forth_binds: Option<LimitRecord>,
 }
 
@@ -112,9 +109,9 @@ pub struct FreeTurnRecord {
 pub struct RequiredSizeRecord {
     /// Volume of its translations, design units cubed.
     pub volume: f64,
-    /// The volume of its translations divided by the volume that straight paths reach at the orientation of home.
+    /// Its volume over the volume that straight paths reach.
     pub share: Number,
-    /// The factor by which its translations and rotations together can grow; 1 or more: the whole region is free.
+    /// Factor by which it can grow; 1 or more: the whole region is free.
     pub factor: FreeSizeRecord,
 }
 
@@ -182,11 +179,11 @@ pub struct LimitRecord {
     pub name: Option<TermKind>,
     /// The margin, negative for a violation; for a singular pose det J divided by its value at home.
     pub margin: Number,
-    /// The unit of the margin; null: a pure ratio.
+    /// Unit; null: a pure ratio.
     pub unit: Option<String>,
-    /// The parts that the requirement is about: legs, joints, keep-out or load.
+    /// Parts concerned: legs, joints, keep-out or load.
     pub between: Vec<String>,
-    /// The legs concerned, from 1.
+    /// Legs, from 1.
     pub legs: Vec<usize>,
 }
 
@@ -197,37 +194,37 @@ pub struct FreeRangeRecord {
     pub axis: String,
     /// `deg` or `rad`, or the unit of length.
     pub unit: String,
-    /// The value at the pose.
+    /// Value at the pose.
     pub value: f64,
-    /// The travel towards smaller values.
+    /// Travel towards smaller values.
     pub back: TravelRecord,
-    /// The travel towards greater values.
+    /// Travel towards greater values.
     pub forth: TravelRecord,
 }
 
 /// A free travel and its end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TravelRecord {
-    /// The length of the travel, not negative.
+    /// Length of the travel, not negative.
     pub free: f64,
     /// The value at the end.
     pub value: f64,
-    /// The requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
+    /// Requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
     pub binds: Option<LimitRecord>,
 }
 
 /// The straight path to another pose: the platform origin moves on a line while the platform rotates about one axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StraightPathRecord {
-    /// The end of the path.
+    /// Path end.
     pub to: PoseQuaternionRecord,
-    /// The free share of the path from its beginning; 1: the whole path.
+    /// Free share of the path; 1: the whole path.
     pub free: f64,
-    /// The pose at the end of the free share.
+    /// Pose at its end.
     pub pose: PoseQuaternionRecord,
-    /// The same in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The requirement violated beyond this pose; null: none.
+    /// Requirement violated beyond this pose; null: none.
     pub binds: Option<LimitRecord>,
 }
 
@@ -240,18 +237,18 @@ pub struct NearestAllowedRecord {
     pub position: [f64; 3],
     /// Roll, pitch and yaw, degrees.
     pub rpy_deg: [f64; 3],
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
     /// Distance from the requested pose, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
     pub distance: f64,
-    /// The `L` of the distance, design units per radian.
+    /// Length `L` of `distance`, design units per radian.
     pub characteristic_length: f64,
-    /// The active requirements that keep the pose from being nearer.
+    /// Active requirements.
     pub binds: Vec<LimitRecord>,
     /// Whether no small step leads nearer, as far as margins are smooth: the pose is then locally nearest. False: the
     /// search ended early.
     pub stationary: bool,
-    /// Whether the straight path from home to the pose violates nothing.
+    /// Whether the straight path from home is allowed.
     pub straight_from_home: bool,
 }
 

@@ -11,24 +11,24 @@ use fk::{Method, Reality};
 /// The answer of `plot locus`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusAnswer {
-    /// The leg with variable length, from 1.
+    /// Variable leg, from 1.
     pub leg: usize,
-    /// Base joint and platform joint of the virtual leg.
+    /// Joints of the virtual leg.
     pub between: [String; 2],
     /// The values at each length.
     pub rows: Vec<LocusRowRecord>,
-    /// The approximate lengths at which two real values meet.
+    /// Interpolated lengths at which two real values meet.
     pub meetings: Vec<LocusMeeting>,
 }
 
 /// The values at one length.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LocusRowRecord {
-    /// The number of the step, from 0.
+    /// Step number, from 0.
     pub step: usize,
-    /// The length of the variable leg, design units.
+    /// Length of the variable leg, design units.
     pub length: Number,
-    /// The structure of the set of poses; `failed`: it could not be computed.
+    /// Structure of the set of poses; `failed`: it could not be computed.
     pub status: LocusWord,
     /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,

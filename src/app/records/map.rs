@@ -15,9 +15,9 @@ pub struct MapAnswer {
     /// The map.
     #[serde(flatten)]
     pub map: MapRecord,
-    /// The correspondence of the legs of both designs.
+    /// Correspondence of the legs.
     pub correspondence: CorrespondenceRecord,
-    /// Leg lengths taken from one design to the other, with `--lengths`.
+    /// Lengths carried from FROM to TO, with `--lengths`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lengths: Option<MappedLengthsRecord>,
     /// The changes of frames of the second design.
@@ -28,11 +28,11 @@ pub struct MapAnswer {
 /// Lengths of the legs of both designs at the same poses, as the legs show them, design units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MappedLengthsRecord {
-    /// The given lengths of FROM.
+    /// Given lengths.
     pub from: [Number; 6],
     /// The lengths of TO; null: there are none.
     pub to: Option<[Number; 6]>,
-    /// The reason why there are none: no regular map, or a squared length that is not positive.
+    /// Reason for none: no regular map, or a squared length that is not positive.
     pub reason: Option<String>,
 }
 
@@ -43,9 +43,9 @@ pub struct MapRecord {
     pub relation: Option<Relation>,
     /// The level of the proof; within rounding: nothing is proved.
     pub level: Level,
-    /// Whether the relation holds up to rounding of the joints; true for an exact relation too.
+    /// Whether the relation holds up to rounding; true for an exact relation too.
     pub holds_within_rounding: bool,
-    /// The relation in one sentence, with the numbers that decided.
+    /// Relation in words, with the numbers that decided.
     pub explanation: String,
     /// Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
     #[serde(rename = "A")]
@@ -56,25 +56,25 @@ pub struct MapRecord {
     /// The determinant of A.
     #[serde(rename = "det")]
     pub determinant: Number,
-    /// The determinant as an exact number, such as 64/243. Null: the identity of leg vectors is not proved in exact
-    /// arithmetic, or the number is too long to read.
+    /// Exact determinant, such as 64/243. Null: the identity of leg vectors is not proved in exact arithmetic, or the
+    /// number is too long to read.
     pub det_exact: Option<String>,
-    /// Rows of A as exact numbers; null if `det_exact` is null.
+    /// Rows of A, exact; null if `det_exact` is null.
     #[serde(rename = "A_exact")]
     pub matrix_exact: Option<[[String; 6]; 6]>,
-    /// The constant terms as exact numbers, design units squared; null if `det_exact` is null.
+    /// Constant terms, exact, design units squared; null if `det_exact` is null.
     #[serde(rename = "c_exact")]
     pub constants_exact: Option<[String; 6]>,
-    /// The zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t. Its row of
-    /// A has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs
-    /// stay fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
+    /// Zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t. Its row of A
+    /// has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs stay
+    /// fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
     pub singular_offsets: Option<[Option<String>; 6]>,
-    /// det A as a polynomial with exact coefficients in the offsets t1 to t6 of all such legs, the other legs fixed. TO
-    /// is singular exactly at its zeros. Null: no leg is of this kind, or `det_exact` is null.
+    /// det A as an exact polynomial in the offsets t1 to t6, the other legs fixed. TO is singular exactly at its zeros.
+    /// Null: no leg is of this kind, or `det_exact` is null.
     pub det_of_offsets: Option<String>,
-    /// The largest of the residuals.
+    /// Largest residual.
     pub residual: Number,
-    /// Relative distance of each leg of TO from the span of the legs of FROM.
+    /// Relative distance of each leg of TO from the span of FROM.
     pub residuals: [Number; 6],
     /// Rank of the leg vectors of FROM.
     pub leg_rank: usize,
@@ -82,18 +82,18 @@ pub struct MapRecord {
     pub singular_values: [Number; 6],
     /// Smallest over largest singular value of A.
     pub inverse_condition: Number,
-    /// The thresholds of the decision.
+    /// Decision thresholds.
     pub tolerances: MapTolerancesRecord,
 }
 
 /// The thresholds of the decision about a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapTolerancesRecord {
-    /// The greatest `residual` of a map that holds.
+    /// Greatest `residual` of a valid map.
     pub residual: f64,
-    /// The threshold of the singular values, relative to the largest.
+    /// Singular value threshold, relative to the largest.
     pub rank: f64,
-    /// The least `inverse_condition` of a regular map.
+    /// Least `inverse_condition` of a regular map.
     pub inverse_condition: f64,
 }
 
@@ -136,11 +136,11 @@ impl From<&LegMapOutcome> for MapRecord {
 /// The leg of FROM that corresponds to each leg of TO.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CorrespondenceRecord {
-    /// The leg of FROM for each leg of TO, from 1; null: none.
+    /// Leg of FROM for each leg of TO, from 1; null: none.
     pub legs: [Option<usize>; 6],
-    /// The distance of the two legs divided by the size of the design.
+    /// Distances of the two legs over the size.
     pub distances: [Number; 6],
-    /// Whether every leg of FROM is one leg of TO.
+    /// Whether every leg of FROM is one of TO.
     pub permutation: bool,
     /// Whether all distances are zero.
     pub exact: bool,
@@ -160,10 +160,10 @@ impl From<&LegCorrespondence> for CorrespondenceRecord {
 /// The effect of `--exchange`, `--align` and `--output` on the second design.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FramesRecord {
-    /// Whether base and platform of the second design were exchanged first.
+    /// Whether base and platform of the second design were exchanged.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exchanged: bool,
-    /// The rigid motions that make the second design equivalent to the first, with `--align`.
+    /// Rigid motions that make the second design equivalent, with `--align`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub alignment: Option<AlignmentRecord>,
     /// The file written.
@@ -174,14 +174,14 @@ pub struct FramesRecord {
 /// The rigid motions that make one design equivalent to another.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AlignmentRecord {
-    /// The result in one sentence, with the numbers that decided.
+    /// Result in words, with the numbers that decided.
     pub explanation: String,
     /// The result of the search for motions.
     #[serde(flatten)]
     pub outcome: AlignmentOutcome,
-    /// The result with base and platform of the second design exchanged.
+    /// With base and platform of the second design exchanged.
     pub exchanged: OtherAlignmentRecord,
-    /// The result with the mirror image of the second design.
+    /// With the mirror image of the second design.
     pub mirrored: OtherAlignmentRecord,
 }
 
@@ -189,27 +189,27 @@ pub struct AlignmentRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum AlignmentOutcome {
-    /// There are such motions.
+    /// Motions exist.
     Found {
-        /// The motions, the smallest first.
+        /// Smallest first.
         motions: Vec<MotionRecord>,
-        /// Whether the list of motions is complete.
+        /// Whether `motions` is complete.
         all: bool,
-        /// Dimension of the families that contain the motions.
+        /// Dimension of the families of motions.
         freedom: usize,
     },
-    /// There is no such motion.
+    /// No motion.
     None {
-        /// The quantity in which the designs differ, which proves it.
+        /// Difference of the designs, which proves it.
         difference: Difference,
-        /// The motion that comes nearest.
+        /// Nearest motion.
         nearest: Option<NearestMotion>,
     },
     /// The search is undecided.
     Undecided {
         /// The reason.
         reason: AlignmentUndecided,
-        /// The motion that comes nearest.
+        /// Nearest motion.
         nearest: Option<NearestMotion>,
     },
 }
@@ -252,11 +252,11 @@ pub struct MotionRecord {
     pub base: PoseRecord,
     /// The motion of its platform.
     pub platform: PoseRecord,
-    /// The residual of the leg map to the moved design.
+    /// Residual of the leg map.
     pub residual: Number,
-    /// The determinant of this map.
+    /// Determinant of this map.
     pub det: Number,
-    /// The relation of the moved design to the first; null: undecided.
+    /// Relation to the first design; null: undecided.
     pub relation: Option<Relation>,
 }
 
@@ -275,7 +275,7 @@ impl From<&Motion> for MotionRecord {
 /// The result for the exchanged or mirrored second design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct OtherAlignmentRecord {
-    /// Whether such motions exist.
+    /// Whether motions exist.
     pub status: AlignmentWord,
     /// Number of motions.
     pub motions: usize,

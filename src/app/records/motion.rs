@@ -14,8 +14,8 @@ use synthesis::singularity::SingularEvidence;
 pub struct MotionAnswer {
     /// The name of the design.
     pub name: String,
-    /// The convention in which poses of options were read, and of the table of instants; a table of poses may say more
-    /// in the names of its columns.
+    /// Convention in which poses were read, and of the table of instants; a table of poses may say more in the names of
+    /// its columns.
     pub frames: PoseConventionRecord,
     /// Whether every requirement is met at the sampled instants, and every pose of the motions is regular.
     pub met: bool,
@@ -23,13 +23,13 @@ pub struct MotionAnswer {
     pub length_unit: String,
     /// The unit of forces.
     pub force_unit: String,
-    /// Assumed values that the file does not state, one sentence each.
+    /// Values assumed, one sentence each.
     pub assumptions: Vec<String>,
     /// The motions: the trajectory first, then sines and accelerations.
     pub motions: Vec<MotionRunRecord>,
-    /// The stiffness of the platform at the pose of `--about`; null: not requested.
+    /// Stiffness at the pose of `--about`; null: not requested.
     pub stiffness: Option<StiffnessRecord>,
-    /// The table of instants written; null: none.
+    /// Table written; null: none.
     pub csv: Option<String>,
 }
 
@@ -38,11 +38,11 @@ pub struct MotionAnswer {
 pub struct StiffnessRecord {
     /// The pose.
     pub pose: PoseQuaternionRecord,
-    /// The stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units and radians.
-    /// It maps a shift and a small rotation to force and torque.
+    /// Stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units and radians. It
+    /// maps a shift and a small rotation to force and torque.
     #[serde(rename = "K")]
     pub matrix: [[Number; 6]; 6],
-    /// Least stiffness against a force through the platform origin, force units per design unit; 0 at a singular pose.
+    /// Least stiffness against forces through the platform origin, force units per design unit; 0 at a singular pose.
     pub linear: Number,
     /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
     pub angular: Number,
@@ -85,30 +85,30 @@ impl StiffnessRecord {
 /// The legs along one motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRunRecord {
-    /// The trajectory file or the manoeuvre, as requested.
+    /// Trajectory or manoeuvre, as requested.
     pub motion: String,
     /// Number of sampled instants.
     pub instants: usize,
-    /// Time from the first to the last instant, seconds.
+    /// Duration of the motion, seconds.
     pub duration_s: f64,
-    /// Whether this motion meets every requirement at the sampled instants, and every pose is regular.
+    /// Whether every requirement is met at the sampled instants, and every pose is regular.
     pub met: bool,
     /// The legs in order; empty: a leg has no length at some instant, or the legs are rods on cranks.
     pub legs: Vec<LegMotionRecord>,
     /// The cranks in leg order, for legs that are rods on cranks; empty: a rod does not reach at some instant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cranks: Option<Vec<CrankMotionRecord>>,
-    /// The least margin of each kind of requirement, with the forces and speeds of this motion.
+    /// Least margin by kind of requirement, with the forces and speeds of this motion.
     pub requirements: Vec<TimedMarginRecord>,
-    /// Whether every pose of the motion is regular.
+    /// Whether all its poses are regular.
     pub regularity: MotionRegularity,
-    /// The time of the first singular pose, seconds; null: none was found.
+    /// Time of the first singular pose, seconds; null: none was found.
     pub singular_at_s: Option<f64>,
     /// The first singular pose; null: none was found.
     pub singular_pose: Option<PoseQuaternionRecord>,
-    /// The evidence that it is singular.
+    /// Evidence that it is singular.
     pub singular_evidence: Option<SingularEvidence>,
-    /// The time at which a rod first does not reach from its crank to the platform, seconds.
+    /// First time at which a rod does not reach, seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unreached_at_s: Option<f64>,
 }
@@ -163,7 +163,7 @@ fn each<T>(found: &MotionReport, record: fn(usize, &LegExtremes) -> T) -> Vec<T>
 /// A least margin with its time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TimedMarginRecord {
-    /// The time of the least margin, seconds.
+    /// Time of the least margin, seconds.
     pub time_s: f64,
     /// The margin.
     pub margin: MarginRecord,
@@ -184,18 +184,17 @@ pub struct LegMotionRecord {
     pub shortest: Extreme,
     /// The greatest length, design units.
     pub longest: Extreme,
-    /// The speed of greatest size, design units per second; positive: the leg becomes longer.
+    /// Greatest speed, design units per second; positive: the leg becomes longer.
     pub speed: Extreme,
-    /// The acceleration of greatest size, design units per second squared.
+    /// Greatest acceleration, design units per second squared.
     pub acceleration: Extreme,
-    /// The greatest push of the drive, force units; 0: it only pulls. Null: no masses are known, or forces are not
-    /// determined.
+    /// Greatest push, force units; 0: it only pulls. Null: no masses are known, or forces are not determined.
     pub push: Option<Extreme>,
-    /// The greatest pull of the drive, a negative force; 0: it only pushes.
+    /// Greatest pull, a negative force; 0: it only pushes.
     pub pull: Option<Extreme>,
-    /// Root mean square of the force over time, force units.
+    /// RMS force over time, force units.
     pub rms_force: Option<Number>,
-    /// The power of greatest size, watts; negative: the drive brakes.
+    /// Greatest power, watts; negative: the drive brakes.
     pub power_w: Option<Extreme>,
 }
 
@@ -218,22 +217,22 @@ impl LegMotionRecord {
 /// A crank along a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CrankMotionRecord {
-    /// The leg of the crank, from 1.
+    /// Leg, from 1.
     pub leg: usize,
     /// The least angle, degrees.
     pub least_deg: Extreme,
     /// The greatest angle, degrees.
     pub greatest_deg: Extreme,
-    /// The speed of greatest size, degrees per second.
+    /// Greatest speed, degrees per second.
     pub speed_deg: Extreme,
-    /// The acceleration of greatest size, degrees per second squared.
+    /// Greatest acceleration, degrees per second squared.
     pub acceleration_deg: Extreme,
-    /// The torque of greatest size about the axis, force units times design units. Null: no masses are known, or
-    /// torques are not determined. Cranks and rods count as massless.
+    /// Greatest torque about the axis, force units times design units. Null: no masses are known, or torques are not
+    /// determined. Cranks and rods count as massless.
     pub torque: Option<Extreme>,
-    /// Root mean square of the torque over time, force units times design units.
+    /// RMS torque over time, force units times design units.
     pub rms_torque: Option<Number>,
-    /// The power of greatest size, watts; negative: the drive brakes.
+    /// Greatest power, watts; negative: the drive brakes.
     pub power_w: Option<Extreme>,
 }
 

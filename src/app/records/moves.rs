@@ -19,7 +19,7 @@ use synthesis::relocate::{MovedLeg, SingularParameters};
 pub enum MoveAnswer {
     /// The answer with `--search`.
     Search(Box<MoveSearchAnswer>),
-    /// The answer about the requested moves.
+    /// Requested moves.
     Moves(Box<MovesAnswer>),
 }
 
@@ -30,7 +30,7 @@ pub struct MovesAnswer {
     pub name: String,
     /// The relation after the last move; null: undecided, exit 3.
     pub outcome: Option<Relation>,
-    /// Whether the moves are made one after another or all at once.
+    /// Moves one by one or together.
     pub mode: MoveMode,
     /// The steps in order; each holds the moves made at once.
     pub steps: Vec<MoveStepRecord>,
@@ -41,7 +41,7 @@ pub struct MovesAnswer {
     /// The leg map from the design to the last platform.
     #[serde(flatten)]
     pub map: MapRecord,
-    /// Largest difference of A and c between this map and the composition of the steps.
+    /// Largest difference of A and c from the composed steps.
     pub composition_difference: Number,
     /// The new design; null: two legs coincide.
     pub design: Option<DesignRecord>,
@@ -82,9 +82,9 @@ pub enum MoveMode {
 /// A step: moves made at once.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MoveStepRecord {
-    /// The relation of the new platform to the one before; null: undecided.
+    /// Relation to the platform before; null: undecided.
     pub outcome: Option<Relation>,
-    /// det A of the leg map of the step.
+    /// det A of the step.
     pub det: Number,
     /// The moves.
     pub moves: Vec<LegMoveRecord>,
@@ -126,32 +126,32 @@ pub struct LegMoveRecord {
     pub leg: usize,
     /// The number of the family, from 1.
     pub component: usize,
-    /// The type of the family.
+    /// Family type.
     #[serde(rename = "type")]
     pub type_name: String,
-    /// The joints that span the family.
+    /// Joints spanning the family.
     pub along: Option<String>,
-    /// The parameters of the new leg in the family.
+    /// Parameters in the family.
     pub parameters: Vec<Number>,
-    /// The parameters as written on the command line, such as 1/5.
+    /// Parameters as written, such as 1/5.
     pub parameters_written: Vec<String>,
     /// The leg before.
     pub from: LegEndsRecord,
     /// The leg after.
     pub to: LegEndsRecord,
-    /// The row of A of this leg.
+    /// Row of A of this leg.
     pub coefficients: [Number; 6],
-    /// The coefficient of the replaced leg in this row.
+    /// Coefficient of the replaced leg.
     pub coefficient: Number,
-    /// The residual of the leg vector after subtracting this combination.
+    /// Residual of the leg vector after subtracting this combination.
     pub residual: Number,
     /// Whether the new coordinates are exact.
     pub exact: bool,
-    /// Values of the first parameter for which det A = 0.
+    /// First parameters with det A = 0.
     pub singular_parameters: SingularParametersRecord,
 }
 
-/// Values of the first parameter for which det A = 0.
+/// First parameters with det A = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SingularParametersRecord {
@@ -180,24 +180,24 @@ pub struct MoveSearchAnswer {
     pub mode: String,
     /// The outcome of the search.
     pub outcome: SearchWord,
-    /// The reason why such a platform is impossible; null: there is none.
+    /// Reason for impossibility; null: there is none.
     #[schemars(extend("enum" = ["no_leg_at_hole", "partners_at_infinity", "not_by_those_legs", "shared_joints", "holes_together", null]))]
     pub reason: Option<String>,
-    /// The outcome in one sentence.
+    /// Outcome in words.
     pub explanation: String,
     /// Number of patterns of six independent legs.
     pub patterns: usize,
     /// Number of patterns searched.
     pub patterns_searched: usize,
-    /// The fewest shared joints of an equivalent platform; null: not known.
+    /// Fewest shared joints of an equivalent platform; null: not known.
     pub least_shared_joints: Option<usize>,
     /// Whether all replaceable legs are known.
     pub complete: bool,
     /// The requested properties.
     pub targets: TargetsRecord,
-    /// The requested holes for ends of legs.
+    /// Requested holes.
     pub holes: Vec<HoleRecord>,
-    /// The platforms found, best first.
+    /// Platforms, best first.
     pub designs: Vec<CandidateRecord>,
     /// The files written.
     pub paths: Vec<String>,
@@ -208,15 +208,15 @@ pub struct MoveSearchAnswer {
 pub struct TargetsRecord {
     /// Whether the fewest shared joints are requested, at best none.
     pub no_shared_joints: bool,
-    /// Least distance of two joints, design units.
+    /// Least joint distance, design units.
     pub spacing: Number,
-    /// Least clearance between two legs, design units; null: not requested.
+    /// Least leg clearance, design units; null: not requested.
     pub clearance: Option<Number>,
     /// Least inverse condition number.
     pub conditioning: Number,
     /// Greatest distance of a joint from the others, design units.
     pub reach: Number,
-    /// Number of poses at which the legs are checked.
+    /// Number of poses checked.
     pub poses: usize,
     /// The characteristic length, by which rotations are weighed, design units.
     pub characteristic_length: Number,
@@ -239,21 +239,21 @@ impl From<&Targets> for TargetsRecord {
 /// A hole requested for an end of a leg.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct HoleRecord {
-    /// The body with the hole.
+    /// Body of the hole.
     pub body: Body,
     /// The position, body frame, design units.
     pub point: [Number; 3],
-    /// The set of equivalent legs that end in the hole.
+    /// Equivalent legs that end in the hole.
     pub answer: HoleWord,
-    /// The legs requested for the hole, from 1; empty: any leg.
+    /// Legs requested, from 1; empty: any leg.
     pub legs: Vec<usize>,
-    /// Dimension of the flat of possible opposite ends.
+    /// Dimension of possible opposite ends.
     pub dimension: Option<usize>,
-    /// Rank defect of the equations in exact arithmetic; 0: no leg ends there.
+    /// Rank defect in exact arithmetic; 0: no leg ends there.
     pub exact_rank_defect: Option<usize>,
-    /// The singular value that decided.
+    /// Deciding singular value.
     pub singular_value: Number,
-    /// The threshold of the singular value.
+    /// Threshold of the singular value.
     pub tolerance: Number,
 }
 
@@ -280,17 +280,17 @@ impl From<&search::CheckedHole> for HoleRecord {
 /// An equivalent platform.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CandidateRecord {
-    /// Whether it has every requested property and is proved to meet the requirements of the design.
+    /// Whether all properties hold and all requirements are proved.
     pub fulfilled: bool,
-    /// Whether it has every requested property.
+    /// Whether all requested properties hold.
     pub targets_met: bool,
     /// The result of `assess`; null: the design has no requirements, or the legs make no platform.
     pub assessment: Option<AssessAnswer>,
-    /// The least margin of a requested property.
+    /// Least margin of a property.
     pub worst: Number,
     /// Number of shared joints.
     pub shared_joints: usize,
-    /// The margins of the requested properties.
+    /// Margins of requested properties.
     pub margins: Vec<TargetMargin>,
     /// The origin of each leg.
     pub moves: Vec<PlacementRecord>,
@@ -306,15 +306,15 @@ pub struct CandidateRecord {
 pub struct PlacementRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// The leg, family or hole that it comes from.
+    /// Origin: leg, family or hole.
     pub from: String,
-    /// The parameters of the leg in the family.
+    /// Parameters in the family.
     pub parameters: Vec<Number>,
-    /// The ends of the leg.
+    /// Ends of the leg.
     pub to: LegEndsRecord,
     /// The coefficient of the replaced leg.
     pub coefficient: Number,
-    /// The residual of the leg vector after subtracting this combination.
+    /// Residual of the leg vector after subtracting this combination.
     pub residual: Number,
 }
 

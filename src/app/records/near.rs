@@ -12,17 +12,17 @@ use platform::geom::Pose;
 pub struct NearRecord {
     /// The outcome of the tracking.
     pub outcome: NearWord,
-    /// The reason for losing the pose; null: it was not lost.
+    /// Reason for losing it; null: it was not lost.
     pub reason: Option<String>,
-    /// The pose at the beginning.
+    /// Start pose.
     pub start: PoseRecord,
-    /// The pose at the end.
+    /// End pose.
     pub reached: PoseRecord,
-    /// The fraction of the straight line of squared lengths that was covered; 1: all.
+    /// Share of the straight line of squared lengths; 1: all.
     pub fraction: f64,
-    /// Largest error of the leg equations divided by the squared size.
+    /// Largest leg equation error over squared size.
     pub residual: Number,
-    /// Inverse condition number of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singular pose.
+    /// Inverse condition number at the pose reached, as in `assess`: 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
     /// Number of segments of the line.
     pub segments: u32,
@@ -30,12 +30,11 @@ pub struct NearRecord {
     pub newton_steps: u32,
     /// The largest Kantorovich number; below 1, no segment holds a singular pose.
     pub kantorovich: Number,
-    /// Displacement of the platform centroid since the start, design units.
+    /// Displacement of the platform centroid since start, design units.
     pub distance: Number,
-    /// Angle of rotation since the start, degrees.
+    /// Rotation since start, degrees.
     pub angle_deg: Number,
-    /// Uncertainty of the pose reached. Present for ideal joints and a design with standard deviations of a
-    /// calibration.
+    /// Uncertainty of that pose. Present for ideal joints and a design with standard deviations of a calibration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<PoseUncertaintyRecord>,
 }

@@ -14,11 +14,11 @@ use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 pub struct NearestAnswer {
     /// The name of the design.
     pub name: String,
-    /// The result in one sentence, with the numbers that decided.
+    /// Result in words, with the numbers that decided.
     pub explanation: String,
-    /// The greatest distance of a joint from its side along the extension, in lengths of the side.
+    /// Greatest distance of a joint beyond its side, in lengths of the side.
     pub extension: f64,
-    /// Least `|det A|` allowed.
+    /// Least `|det A|`.
     pub min_abs_det: f64,
     /// The nearest octahedral platform; null: no order of the legs around the hexagon gives a regular platform within
     /// these limits.
@@ -30,31 +30,30 @@ pub struct NearestAnswer {
 /// The nearest octahedral platform with the error of replacing the design by it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NearestRecord {
-    /// The leg on side k of the hexagon, from 1.
+    /// Leg on side k of the hexagon, from 1.
     pub order: [usize; 6],
-    /// The offset `t_k` of the leg on side k; 0 or 1 at a corner.
+    /// Offset `t_k` on side k; 0 or 1 at a corner.
     pub offsets: [Number; 6],
     /// The largest errors.
     #[serde(flatten)]
     pub error: NearestErrorRecord,
-    /// Displacements of the base end and the platform end of each leg, design units.
+    /// Displacements of both ends by leg, design units.
     pub displacements: [[Number; 2]; 6],
-    /// Root mean square of the displacements, the objective of the fit, design units.
+    /// RMS of the displacements, the objective of the fit, design units.
     pub rms_displacement: Number,
-    /// The leg with the largest difference of leg lengths, from 1.
+    /// Leg with the largest length difference, from 1.
     pub deviating_leg: usize,
-    /// The pose with this difference.
+    /// Pose of that difference.
     pub deviating_pose: PoseQuaternionRecord,
     /// Number of poses sampled.
     pub poses: usize,
-    /// The source of the workspace.
+    /// Source of the workspace.
     pub workspace_from: SourceWord,
-    /// Whether both fits have converged to a local minimum.
+    /// Whether both fits converged to a local minimum.
     pub converged: bool,
-    /// Number of nearer fits set aside because they give no regular platform.
+    /// Number of nearer fits without regular platform.
     pub set_aside: usize,
-    /// The platform near the design and equivalent to the octahedral platform; its legs are near the legs of the
-    /// design.
+    /// Equivalent platform near the design; its legs are near the legs of the design.
     pub beside: DesignRecord,
     /// The octahedral platform.
     pub octahedral: DesignRecord,
@@ -63,13 +62,13 @@ pub struct NearestRecord {
 /// The errors of the nearest octahedral platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct NearestErrorRecord {
-    /// The largest displacement of a leg end, design units.
+    /// Largest displacement of a leg end, design units.
     pub largest_displacement: Number,
-    /// The largest displacement divided by the size of the design.
+    /// Largest displacement over the size.
     pub relative_displacement: Number,
-    /// The largest difference of leg lengths over the poses of the workspace, design units.
+    /// Largest leg length difference over the workspace, design units.
     pub largest_length_deviation: Number,
-    /// det A of the leg map from the octahedral platform to the equivalent one near the design.
+    /// det A from octahedral to equivalent platform.
     pub det: Number,
 }
 

@@ -11,7 +11,7 @@ use synthesis::singularity::SingularEvidence;
 pub struct NewAnswer {
     /// The name of the design.
     pub name: String,
-    /// The label of the length unit.
+    /// Unit of lengths.
     pub units: String,
     /// The design file, or its path if it was written.
     #[serde(flatten)]
@@ -22,8 +22,8 @@ pub struct NewAnswer {
     pub lengths: [f64; 6],
     /// Whether every pose is singular, decided exactly for the joints as written.
     pub architecturally_singular: bool,
-    /// The evidence that the home pose is singular; null: it is regular.
+    /// Evidence that home is singular; null: it is regular.
     pub singular_home: Option<SingularEvidence>,
-    /// Guesses about the meaning of the table, one sentence each.
+    /// Guesses about the table, one sentence each.
     pub guesses: Vec<String>,
 }

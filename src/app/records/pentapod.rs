@@ -21,15 +21,15 @@ pub struct PentapodAnswer {
     pub rounded_joints: bool,
     /// The line that the legs hold; the platform can still rotate about it. Null: no body has all its joints on a line.
     pub line: Option<HeldLineRecord>,
-    /// Whether the legs are dependent at every pose; null: not decided.
+    /// Whether the legs are always dependent; null: not decided.
     pub architecturally_singular: Option<bool>,
-    /// Sixth legs that make the platform solvable in steps.
+    /// Sixth legs that allow solving in steps.
     pub sixth_legs: Vec<DecouplingLeg>,
     /// The lengths given, design units; null: none.
     pub lengths: Option<[f64; 5]>,
-    /// All poses of the line for these lengths; null: no lengths were given, or there is no answer.
+    /// Poses of the line for these lengths; null: no lengths were given, or there is no answer.
     pub poses: Option<LinePosesRecord>,
-    /// The reason why there are no poses for the given lengths; null: there are poses.
+    /// Reason for no poses; null: there are poses.
     pub no_poses: Option<String>,
 }
 
@@ -38,15 +38,15 @@ pub struct PentapodAnswer {
 pub struct HeldLineRecord {
     /// The body.
     pub body: Body,
-    /// The positions of the leg joints along the line, measured from the joint of leg 1 in units of `length`.
+    /// Leg joints along the line, measured from the joint of leg 1 in units of `length`.
     pub marks: [Number; 5],
-    /// Distance from the joint of leg 1 to the farthest joint, design units.
+    /// Distance from leg 1 to the farthest joint, design units.
     pub length: Number,
-    /// The type of equation that gives the line; null: the legs are dependent.
+    /// Equation that gives the line; null: the legs are dependent.
     pub class: Option<LineClass>,
     /// Number of poses of the line, real and complex, for generic lengths; null: not counted.
     pub generic_poses: Option<usize>,
-    /// The poses of the line that are singular.
+    /// Singular poses of the line.
     pub singular_poses: LineLocusRecord,
 }
 
@@ -72,7 +72,7 @@ pub struct LineLocusRecord {
 pub struct LineTermRecord {
     /// Exponents of `p_x, p_y, p_z, v_x, v_y, v_z`.
     pub exponents: [u8; 6],
-    /// The coefficient, an integer as decimal text.
+    /// Integer as text.
     pub coefficient: String,
 }
 
@@ -83,26 +83,26 @@ pub struct LinePosesRecord {
     pub counted: usize,
     /// Number of real poses.
     pub real: usize,
-    /// The coefficients of the polynomial for the poses, as decimal text, the constant first.
+    /// Polynomial of the poses, as decimal text, the constant first.
     pub coefficients: Vec<String>,
-    /// The poses, the real ones first.
+    /// Real ones first.
     pub poses: Vec<LinePoseRecord>,
 }
 
 /// A pose of a line in the frame of the other body.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinePoseRecord {
-    /// The joint of leg 1, frame of the other body, design units.
+    /// Joint of leg 1, frame of the other body, design units.
     pub position: ComplexRecord<[Number; 3]>,
-    /// The unit vector from the joint of leg 1 to the farthest joint, frame of the other body.
+    /// Unit vector from leg 1 to the farthest joint, frame of the other body.
     pub direction: ComplexRecord<[Number; 3]>,
     /// Whether the pose is real, decided exactly.
     pub real: bool,
     /// The multiplicity of the pose.
     pub multiplicity: usize,
-    /// Greatest error of a coordinate of the position, design units.
+    /// Greatest error of a position coordinate, design units.
     pub position_error: Number,
-    /// Greatest error of a coordinate of the direction.
+    /// Greatest error of a direction coordinate.
     pub direction_error: Number,
 }
 

@@ -25,9 +25,9 @@ pub enum CoefficientsWord {
 /// A polynomial in one unknown or in several: its degrees, its coefficients and its real roots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PolynomialRecord {
-    /// The unknowns by their names.
+    /// Names of unknowns.
     pub unknowns: Vec<String>,
-    /// The degree before spurious factors are removed.
+    /// Degree with spurious factors.
     pub degree_before: usize,
     /// The degree; null for the zero polynomial.
     pub degree: Option<usize>,
@@ -37,11 +37,11 @@ pub struct PolynomialRecord {
     pub distinct_roots: Option<usize>,
     /// The representation of the coefficients.
     pub coefficients_known: CoefficientsWord,
-    /// The exponents of the unknowns in each term.
+    /// Exponents of the unknowns by term.
     pub exponents: Vec<Vec<usize>>,
-    /// The exact coefficient of each term, integers as decimal text; for one unknown the constant comes first.
+    /// Exact coefficients, integers as decimal text; for one unknown the constant comes first.
     pub coefficients: Vec<String>,
-    /// Bounds [low, high] of the coefficients; null: they are exact.
+    /// Coefficient bounds [low, high]; null: they are exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient_bounds: Option<Vec<[Number; 2]>>,
     /// Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients that are not
@@ -49,18 +49,18 @@ pub struct PolynomialRecord {
     pub real_roots_by_sturm: Option<usize>,
     /// Real roots as [low, high], rounded outwards.
     pub real_roots: Vec<[Number; 2]>,
-    /// The multiplicity of each real root.
+    /// Their multiplicities.
     pub real_root_multiplicities: Vec<usize>,
 }
 
 /// A spurious factor: it comes from the derivation of the polynomial and has no meaning for the poses.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RemovedFactorRecord {
-    /// The factor in the unknowns, or in words.
+    /// Factor in the unknowns, or in words.
     pub factor: String,
     /// The degree of the factor.
     pub degree: usize,
-    /// The number of times it was removed.
+    /// Number of removals.
     pub times: usize,
 }
 
@@ -185,7 +185,7 @@ pub enum RotationPolynomialRecord {
     /// The polynomial exists. Its unknown c3 is z / w of the quaternion (w, x, y, z) of the platform's rotation, one
     /// root for each pose.
     Polynomial(Box<PolynomialRecord>),
-    /// There is no polynomial.
+    /// No polynomial.
     None {
         /// The reason.
         error: String,
@@ -201,7 +201,7 @@ impl From<Result<PosePolynomial, NoPosePolynomial>> for RotationPolynomialRecord
     }
 }
 
-/// The family of poses on which det J is a polynomial.
+/// Poses on which det J is a polynomial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseFamilyWord {
@@ -218,19 +218,19 @@ pub enum PoseFamilyWord {
 pub struct SingularLocusAnswer {
     /// The name of the design.
     pub name: String,
-    /// The unit of its lengths.
+    /// Unit of lengths.
     pub units: String,
-    /// The family of poses on which det J is a polynomial.
+    /// Poses on which det J is a polynomial.
     pub family: PoseFamilyWord,
-    /// The position of the given pose, as exact expressions, base frame.
+    /// Position of the given pose, as exact expressions, base frame.
     pub position: [String; 3],
-    /// A quaternion of the given orientation, scalar part first, of any norm, as exact expressions.
+    /// Quaternion of the orientation, scalar part first, of any norm, as exact expressions.
     pub quaternion: [String; 4],
     /// The direction of the line, or the axis of the rotations, base frame; null: a family of positions.
     pub direction: Option<[String; 3]>,
     /// The squared length of the axis; u is the tangent of half the angle divided by this length. Null: no axis.
     pub axis_squared: Option<Number>,
-    /// det J up to a constant factor; the zero polynomial means that every pose is singular.
+    /// det J up to a constant; the zero polynomial means that every pose is singular.
     pub polynomial: PolynomialRecord,
 }
 

@@ -34,7 +34,7 @@ pub struct PresetAnswer {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PresetFile {
-    /// The file is part of the answer.
+    /// File in the answer.
     Given {
         /// The design file.
         text: String,
@@ -49,17 +49,17 @@ pub enum PresetFile {
 /// A design of real hardware.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetRecord {
-    /// The name of the preset.
+    /// Preset.
     pub preset: String,
-    /// The purpose of the preset.
+    /// Purpose.
     pub class: PresetClass,
     /// The name of the design.
     pub name: String,
-    /// The label of the length unit.
+    /// Unit of lengths.
     pub units: String,
-    /// The source of its numbers.
+    /// Source of its numbers.
     pub source: Option<String>,
-    /// The description in the design file.
+    /// Description in the design file.
     pub description: Option<String>,
 }
 

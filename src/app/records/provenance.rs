@@ -11,9 +11,9 @@ use ask::Design;
 /// machine.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ProvenanceRecord {
-    /// The version of the program.
+    /// Program version.
     pub version: String,
-    /// The seed of the computation; null: it takes none.
+    /// Seed; null: it takes none.
     pub seed: Option<u64>,
     /// The designs in the order given.
     pub designs: Vec<DesignSourceRecord>,
@@ -26,10 +26,9 @@ pub struct ProvenanceRecord {
 pub struct DesignSourceRecord {
     /// The name of the design.
     pub name: String,
-    /// The file as named by the caller; null: the design was made in memory, and its text is the text it would be saved
-    /// as.
+    /// File as named; null: the design was made in memory, and its text is the text it would be saved as.
     pub path: Option<String>,
-    /// SHA-256 of the bytes of that file or text, hexadecimal.
+    /// SHA-256 of file or text, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: String,
 }
@@ -37,7 +36,7 @@ pub struct DesignSourceRecord {
 /// A file other than a design.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FileSourceRecord {
-    /// The file, as it was named.
+    /// File as named.
     pub path: String,
     /// SHA-256 of its bytes, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]

@@ -16,7 +16,7 @@ use synthesis::rearrangement::{
 pub struct RearrangementRecord {
     /// The identifier of the topology, T01 to T34.
     pub id: String,
-    /// The name of the topology: numbers of base and platform joints.
+    /// Name of the topology: numbers of base and platform joints.
     pub name: String,
     /// The arrangement of the base joints: in space or in a plane.
     #[schemars(extend("enum" = ["space", "plane"]))]
@@ -24,37 +24,37 @@ pub struct RearrangementRecord {
     /// The arrangement of the platform joints: in space or in a plane.
     #[schemars(extend("enum" = ["space", "plane"]))]
     pub platform: String,
-    /// The argument that finds all families of replaceable legs.
+    /// Argument for all families of replaceable legs.
     pub argument: ArgumentWord,
     /// The families of replaceable legs.
     pub families: Vec<FamilyRecord>,
     /// The names of the families.
     pub family_names: String,
-    /// Dimensions of the summands of the span of the legs.
+    /// Dimensions of the span's summands.
     pub summands: Vec<usize>,
-    /// Number of joints that hold more than one leg.
+    /// Number of joints of several legs.
     pub shared_joints: usize,
-    /// Number of shared joints of the equivalent design with the fewest.
+    /// Number of shared joints of the equivalent with the fewest.
     pub fewest_shared_joints: usize,
     /// Number of leg ends in shared joints, minus one for each joint.
     pub merged_ends: usize,
-    /// The same number for the equivalent design with the fewest.
+    /// Merged ends of the equivalent with the fewest.
     pub fewest_merged_ends: usize,
-    /// The reasons why fewer are impossible.
+    /// Reasons against fewer.
     pub obstructions: Vec<Obstruction>,
-    /// Whether the design is equivalent to an octahedral one.
+    /// Whether it is equivalent to an octahedral design.
     pub octahedral: bool,
-    /// The reason why it is not; null: it is.
+    /// Reason why it is not; null: it is.
     pub octahedral_reason: Option<String>,
     /// An equivalent octahedral design; null: there is none.
     pub octahedral_design: Option<ExactDesignRecord>,
-    /// The design for which the line was computed.
+    /// Design for which the line was computed.
     pub member: ExactDesignRecord,
-    /// The equivalent design with the fewest shared joints.
+    /// Equivalent with the fewest shared joints.
     pub fewest: ExactDesignRecord,
 }
 
-/// The argument that finds all families of replaceable legs.
+/// Argument for all families of replaceable legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArgumentWord {
@@ -106,25 +106,25 @@ impl From<&Rearrangement> for RearrangementRecord {
 /// A family of replaceable legs.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FamilyRecord {
-    /// The kind of the family.
+    /// Kind.
     pub kind: PieceKind,
-    /// Dimension of the flat of the base.
+    /// Dimension of the base flat.
     pub base_dimension: usize,
-    /// Dimension of the flat of the platform.
+    /// Dimension of the platform flat.
     pub platform_dimension: usize,
     /// Dimension of the family.
     pub dimension: usize,
     /// Rank of its leg vectors.
     pub rank: usize,
-    /// Whether all its legs have a joint in common.
+    /// Whether all its legs share a joint.
     pub common_joint: bool,
-    /// Points that span the flat of the base, homogeneous coordinates, fractions as text.
+    /// Points that span the base flat, homogeneous coordinates, fractions as text.
     pub base: Vec<[String; 4]>,
-    /// Points that span the flat of the platform, homogeneous coordinates, fractions as text.
+    /// Points that span the platform flat, homogeneous coordinates, fractions as text.
     pub platform: Vec<[String; 4]>,
-    /// The parts of the family.
+    /// Parts of the family.
     pub parts: Vec<usize>,
-    /// The greatest number of legs it can hold.
+    /// Greatest number of legs.
     pub weight: usize,
 }
 
@@ -153,7 +153,7 @@ pub struct ExactDesignRecord {
     pub base: BTreeMap<String, [String; 3]>,
     /// Platform joints: [x, y, z], fractions as text.
     pub platform: BTreeMap<String, [String; 3]>,
-    /// Base joint and platform joint of each leg.
+    /// Base joint and platform joint by leg.
     pub legs: Vec<[String; 2]>,
 }
 

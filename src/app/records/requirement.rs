@@ -15,10 +15,9 @@ use synthesis::singularity::{Regularity, RegularityWord};
 pub struct MarginRecord {
     /// The kind of requirement.
     pub name: TermKind,
-    /// The least margin over the sampled poses, negative for a violation.
+    /// Least margin over sampled poses, negative for a violation.
     pub margin: Number,
-    /// The safety margin that the design requires for this limit, in the unit of the margin; 0: none. Its name in
-    /// JSON is older than the word.
+    /// Required safety margin, in the unit of the margin; 0: none. Its name in JSON is older than the word.
     #[serde(rename = "reserve")]
     pub safety_margin: Number,
     /// The margin minus the safety margin.
@@ -33,13 +32,13 @@ pub struct MarginRecord {
     pub at_limit: bool,
     /// The status of the requirement.
     pub status: MarginVerdict,
-    /// The proved lower bound of the margin over the whole workspace; null: nothing is proved.
+    /// Proved lower bound over the workspace; null: nothing is proved.
     pub proved_margin: Number,
-    /// The unit of the margins.
+    /// Unit.
     pub unit: String,
     /// The parts with the least margin: legs, joints, keep-out or load.
     pub between: Vec<String>,
-    /// The legs concerned, from 1; for a requirement on joints, the legs of the joint.
+    /// Legs, from 1; for a requirement on joints, the legs of the joint.
     pub legs: Vec<usize>,
     /// The pose with the least margin; null: the margin is the same at every pose.
     pub pose: Option<PoseQuaternionRecord>,
@@ -104,42 +103,42 @@ impl MarginRecord {
 /// The answer of `assess`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AssessAnswer {
-    /// The name of the assessed design.
+    /// Assessed design.
     pub name: String,
-    /// The unit of lengths, as in `pose`.
+    /// Unit of lengths.
     #[serde(default)]
     pub length_unit: String,
-    /// The role of the design in this answer.
+    /// Role of the design here.
     pub role: DesignRoleWord,
-    /// The verdict for all poses that `assessed_poses` names. True: every margin and det J are proved. False: one pose
-    /// proves a violation or a change of sign of det J. Null: neither is proved.
+    /// Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a violation or a
+    /// change of sign of det J. Null: neither is proved.
     pub met: Option<bool>,
-    /// The verdict in one sentence.
+    /// Verdict in words.
     pub explanation: String,
     /// The poses assessed.
     pub assessed_poses: AssessedPosesRecord,
-    /// The verdict for the safety margins. True: every margin is proved to keep its safety margin. False: the given
-    /// pose proves the opposite. Null: neither is proved.
+    /// Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given pose proves
+    /// the opposite. Null: neither is proved.
     pub safety_margin_kept: Option<bool>,
     /// The least margin of each kind.
     pub requirements: Vec<MarginRecord>,
-    /// The requirement with the least margin as a share of its limit; null: no requirement has a limit to compare with.
+    /// Least margin relative to its limit; null: no requirement has a limit to compare with.
     pub tightest: Option<TightestRecord>,
-    /// Whether the workspace holds singular poses.
+    /// Whether the workspace is free of singular poses.
     pub regular: RegularityRecord,
-    /// The result on singular poses in one sentence.
+    /// Result on singular poses.
     pub regular_explanation: String,
-    /// The worst conditioning of the Jacobian over the sampled poses: a value found, without limit and proof.
+    /// Worst conditioning over the sampled poses: a value found, without limit and proof.
     pub conditioning: LeastConditioningRecord,
     /// Number of poses sampled.
     pub poses: usize,
-    /// Number of cells over which margins were bounded.
+    /// Number of workspace cells of the proof.
     pub cells: usize,
-    /// The lightest drive that meets the requirements, from the table that the design names. Null: the design names
-    /// none, or the answer has another subject.
+    /// Lightest drive that meets the requirements, from the table that the design names. Null: the design names none,
+    /// or the answer has another subject.
     pub lightest_drive: Option<LightestDriveRecord>,
-    /// Assumptions about masses that the file leaves open, one sentence each. Absent: no force, torque or natural
-    /// frequency is assessed, or the enclosing answer has the list.
+    /// Assumptions about masses, one sentence each. Absent: no force, torque or natural frequency is assessed, or the
+    /// enclosing answer has the list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
 }
@@ -202,8 +201,7 @@ impl AssessAnswer {
 pub struct TightestRecord {
     /// The kind of requirement.
     pub name: TermKind,
-    /// The least margin divided by its limit, such as the travel of the legs or the greatest force; negative for a
-    /// violation.
+    /// Margin over its limit, such as the travel of the legs or the greatest force; negative for a violation.
     pub share: Number,
 }
 
@@ -262,13 +260,13 @@ impl DesignRoleWord {
 pub struct AssessedPosesRecord {
     /// Whether the design states a workspace; otherwise only home is assessed.
     pub stated: bool,
-    /// Whether every pose of a region around home is assessed.
+    /// Whether a whole region around home is assessed.
     pub region: bool,
     /// Number of single poses; the motions between them are not assessed.
     pub listed: usize,
     /// Number of poses of a trajectory; the straight motions between them are assessed too.
     pub trajectory: usize,
-    /// The wording of the verdict if the requirements are met at these poses.
+    /// Wording of the verdict if met.
     pub met_in_words: String,
 }
 
@@ -301,11 +299,11 @@ pub struct LeastConditioningRecord {
 pub struct RegularityRecord {
     /// Whether every pose is regular; null: undecided.
     pub met: Option<bool>,
-    /// The result in a word.
+    /// Result.
     pub status: RegularityWord,
-    /// The pose at which det J has the opposite sign to home, or is undecided.
+    /// Pose with det J opposite to home, or is undecided.
     pub pose: Option<PoseQuaternionRecord>,
-    /// Number of cells of the workspace examined.
+    /// Number of cells examined.
     pub cells: usize,
 }
 

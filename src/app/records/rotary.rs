@@ -13,7 +13,7 @@ use platform::manipulator::{inverse_condition, jacobian};
 /// The angles of cranks at several poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RotaryIkRowsAnswer {
-    /// The convention in which the poses were read, and of `in_frames`.
+    /// Convention in which poses were read, and of `in_frames`.
     pub frames: PoseConventionRecord,
     /// The poses in the order given.
     pub rows: Vec<RotaryIkRecord>,
@@ -27,37 +27,36 @@ pub struct RotaryIkRecord {
     /// The time of the row, if the table has a column of times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// The convention in which the pose was read, and of `in_frames`; of several poses that of the whole answer.
+    /// Convention in which poses were read, and of `in_frames`; of several poses that of the whole answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<PoseConventionRecord>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The pose in the convention of `frames`.
+    /// Pose in the convention of `frames`.
     pub in_frames: PoseInFrames,
-    /// The six crank angles in leg order, degrees, each on the side (elbow) that the design keeps; null: a rod does not
-    /// reach.
+    /// Crank angles, degrees, each on the side (elbow) that the design keeps; null: a rod does not reach.
     pub angles_deg: Option<[f64; 6]>,
-    /// The first rod that does not reach; null: all rods reach.
+    /// First rod that does not reach; null: all rods reach.
     pub out_of_reach: Option<OutOfReachRecord>,
     /// Whether all angles are within their limits, ends included; null: a rod does not reach, or the design limits no
     /// angle.
     pub within_limits: Option<bool>,
-    /// The legs with cranks beyond their limits, from 1.
+    /// Legs with cranks beyond their limits, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
     /// The cranks in leg order; empty: a rod does not reach.
     pub cranks: Vec<CrankRecord>,
-    /// The Jacobian, rows in leg order, base frame. It gives crank speeds in radians per second from the velocity of
-    /// the platform origin and the angular velocity in radians. Null: a crank is singular, or a rod does not reach.
+    /// Jacobian, rows in leg order, base frame. It gives crank speeds in radians per second from the velocity of the
+    /// platform origin and the angular velocity in radians. Null: a crank is singular, or a rod does not reach.
     #[serde(rename = "J")]
     pub jacobian: Option<[[Number; 6]; 6]>,
-    /// Inverse condition number of the Jacobian of the rods on the tips: 1 at best, 0 at a singular pose. Moments are
-    /// divided by the characteristic length of the design. Null: a rod does not reach.
+    /// Inverse condition number of the rods' Jacobian: 1 at best, 0 at a singular pose. Moments are divided by the
+    /// characteristic length of the design. Null: a rod does not reach.
     pub inverse_condition: Option<Number>,
-    /// The crank torques that hold each load at rest, if the design has loads.
+    /// Crank torques for each load at rest, if the design has loads.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torques: Vec<CrankTorquesRecord>,
-    /// The least margin of each kind of requirement at this pose.
+    /// Least margin by kind of requirement.
     pub margins: Vec<PoseMarginRecord>,
 }
 
@@ -66,27 +65,27 @@ pub struct RotaryIkRecord {
 pub struct OutOfReachRecord {
     /// The leg, from 1.
     pub leg: usize,
-    /// The missing length of the rod, design units; negative: the rod is too long.
+    /// Missing length, design units; negative: the rod is too long.
     pub too_short_by: f64,
 }
 
 /// The state of a crank at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CrankRecord {
-    /// The side (elbow) that the design keeps.
+    /// Side of the design.
     pub elbow: Elbow,
     /// The crank angle on this side, degrees.
     pub angle_deg: f64,
-    /// The crank angle on the other side, degrees.
+    /// Crank angle on the other side, degrees.
     pub other_angle_deg: f64,
-    /// The margin to the limits of the angle, degrees, negative beyond them; null: no limits.
+    /// Margin to the angle limits, degrees, negative beyond them; null: no limits.
     pub limit_margin_deg: Option<f64>,
-    /// The transmission `u . (n x t)` from the crank to its rod, from -1 to 1. The unit vectors are u along the rod, n
-    /// along the axis and t along the crank. At 0 the crank is singular: crank, rod and axis are in one plane.
+    /// Transmission `u . (n x t)` to the rod, from -1 to 1. The unit vectors are u along the rod, n along the axis and
+    /// t along the crank. At 0 the crank is singular: crank, rod and axis are in one plane.
     pub transmission: f64,
-    /// The angle to the singular position of the crank, degrees: half the difference of its two angles.
+    /// Angle to the singular crank position, degrees: half the difference of its two angles.
     pub to_singular_deg: f64,
-    /// The tip of the crank, base frame.
+    /// Crank tip, base frame.
     pub tip: [f64; 3],
 }
 
@@ -95,7 +94,7 @@ pub struct CrankRecord {
 pub struct CrankTorquesRecord {
     /// The load.
     pub load: String,
-    /// Torques of the cranks about their axes, force units times design units; null: a singular pose.
+    /// Torques about the crank axes, force units times design units; null: a singular pose.
     pub torques: Option<[f64; 6]>,
 }
 

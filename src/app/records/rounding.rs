@@ -19,19 +19,19 @@ use verify::{VerdictWord, Verification, VerifyError};
 pub struct RoundAnswer {
     /// The name of the design.
     pub name: String,
-    /// The unit of its lengths.
+    /// Unit of lengths.
     pub units: String,
     /// The grids asked for.
     pub grids: GridsRecord,
-    /// Whether origins and angles of the grids are optimised too.
+    /// Whether grid origins and angles are optimised.
     pub free_grid: bool,
-    /// The figures of the given design.
+    /// Figures of the given design.
     pub given: Evaluation,
-    /// The best rounding that is exactly equivalent to an octahedral platform.
+    /// Best rounding equivalent to an octahedral platform.
     pub exact: ExactRoundingOutcome,
-    /// The rounding of every joint to a hole near its given position.
+    /// Every joint on a hole near its position.
     pub nearest: NearestRoundingOutcome,
-    /// The result of `assess` for the rounded design; null: there is none, or the design has no requirements.
+    /// Result of `assess`; null: there is none, or the design has no requirements.
     pub assessment: Option<AssessAnswer>,
     /// The rounding chosen; null: none meets the requirements.
     pub chosen: Option<RoundingWay>,
@@ -56,13 +56,13 @@ pub struct GridsRecord {
 /// A grid of holes in the plane of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridRecord {
-    /// The pattern of the holes.
+    /// Hole pattern.
     pub pattern: HolePattern,
     /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
     pub pitch: Option<Number>,
     /// The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other patterns.
     pub circles: Vec<HoleCircle>,
-    /// A hole, or the centre of the circles, body frame, design units.
+    /// Hole, or centre of the circles, body frame, design units.
     pub origin: [Number; 2],
     /// The angle of the grid, degrees.
     pub angle_deg: Number,
@@ -107,7 +107,7 @@ impl From<&[Option<Grid>; 2]> for GridsRecord {
 pub enum ExactRoundingOutcome {
     /// A rounding was found.
     Found(Box<ExactRoundingRecord>),
-    /// There is no rounding.
+    /// No rounding.
     None(NoRoundingRecord),
 }
 
@@ -117,7 +117,7 @@ pub enum ExactRoundingOutcome {
 pub enum NearestRoundingOutcome {
     /// A rounding was found.
     Found(Box<NearestRoundingRecord>),
-    /// There is no rounding.
+    /// No rounding.
     None(NoRoundingRecord),
 }
 
@@ -133,7 +133,7 @@ pub struct NoRoundingRecord {
 pub struct NoRoundingError {
     /// A short code.
     pub code: NoRoundingWord,
-    /// The message in one sentence.
+    /// Message in words.
     pub message: String,
 }
 
@@ -176,30 +176,30 @@ impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
 pub struct ExactRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
-    /// Whether exact arithmetic proves equivalence with its own octahedral platform.
+    /// Whether equivalence with its own octahedral platform is proved.
     pub proved: bool,
-    /// The verdict of leg map and forward kinematics.
+    /// Verdict of leg map and forward kinematics.
     pub verdict: RoundingVerdict,
-    /// Whether rotations by 120 degrees map both triangles with their joints to themselves.
+    /// Whether rotations by 120 degrees keep both bodies.
     pub three_fold: bool,
-    /// The offsets in order around the hexagon: [m, g] for t = m / g.
+    /// Offsets around the hexagon: [m, g] for t = m / g.
     pub fractions: Option<[[i64; 2]; 6]>,
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
-    /// The figures of the rounded design.
+    /// Figures of the rounded design.
     pub evaluation: Evaluation,
-    /// Statistics of the search.
+    /// Search statistics.
     pub search: RoundingSearchRecord,
 }
 
 /// Statistics of the search for an exact rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundingSearchRecord {
-    /// Numbers of triangles of base and platform that were combined.
+    /// Triangles of base and platform combined.
     pub triangles: [usize; 2],
-    /// The distances up to which all triangles of base and platform were combined, design units.
+    /// Distances to which all triangles were combined, design units.
     pub complete_to: [Number; 2],
-    /// Number of improvements by replacing one triangle.
+    /// Number of improvements by one triangle.
     pub replacements: usize,
 }
 
@@ -208,19 +208,19 @@ pub struct RoundingSearchRecord {
 pub struct NearestRoundingRecord {
     /// The grids used.
     pub grids: GridsRecord,
-    /// The verdict of leg map and forward kinematics against the given design.
+    /// Verdict of leg map and forward kinematics.
     pub verdict: RoundingVerdict,
-    /// The residual of the leg map; null: it could not be computed.
+    /// Leg map residual; null: it could not be computed.
     pub map_residual: Option<Number>,
     /// The joints.
     pub joints: Vec<RoundedJointRecord>,
-    /// The figures of the rounded design.
+    /// Figures of the rounded design.
     pub evaluation: Evaluation,
-    /// The error of the pose when the formula of the given design is used.
+    /// Pose error when computing with the given design.
     pub pose_error: RoundingErrorRecord,
-    /// Number of joints that are not on the nearest hole.
+    /// Number of joints on another than the nearest hole.
     pub not_nearest: usize,
-    /// Whether rotations by 120 degrees map the joints of both bodies to themselves.
+    /// Whether rotations by 120 degrees keep both bodies.
     pub three_fold: bool,
 }
 
@@ -229,9 +229,9 @@ pub struct NearestRoundingRecord {
 pub struct RoundingErrorRecord {
     /// The error to first order.
     pub first_order: PoseErrorRecord,
-    /// The error to first order with every joint on the nearest hole.
+    /// First-order error with all joints on nearest holes.
     pub first_order_nearest_points: PoseErrorRecord,
-    /// The error solved at random poses.
+    /// Errors solved at random poses.
     pub solved: ErrorSpread,
     /// Number of random poses.
     pub solved_poses: usize,
@@ -244,14 +244,13 @@ pub struct RoundedJointRecord {
     pub body: Body,
     /// The name of the joint.
     pub joint: String,
-    /// The hole: its counts along the axes of the grid, or its circle and its number on the circle. Null: the joint
-    /// stays in place.
+    /// Hole by its counts along the axes, or its circle and its number on the circle. Null: the joint stays in place.
     pub cell: Option<[i64; 2]>,
     /// The displacement, body frame, design units.
     pub moved: [Number; 3],
     /// The size of the displacement, design units.
     pub distance: Number,
-    /// Distance from the line of its side, design units; null for corners.
+    /// Distance from its side, design units; null for corners.
     pub off_line: Option<Number>,
 }
 

@@ -15,13 +15,13 @@ use synthesis::singularity::{
 pub struct SelfmotionAnswer {
     /// The name of the design.
     pub name: String,
-    /// The unit of its lengths.
+    /// Unit of lengths.
     pub units: String,
-    /// Dimension of the set of poses with these lengths, at the given pose if there is one; null: undecided.
+    /// Dimension of the set of poses, at the given pose if there is one; null: undecided.
     pub dimension: Option<usize>,
     /// The evidence for the dimension.
     pub evidence: MotionEvidenceWord,
-    /// Number of first-order freedoms at the pose: six minus the rank of the leg lines; null with `--lengths`.
+    /// Number of first-order freedoms: six minus the rank of the leg lines; null with `--lengths`.
     pub tangent_dimension: Option<usize>,
     /// The ball around the pose that holds no pose of these lengths but near its centre; null: no such ball is proved.
     pub isolated: Option<IsolatedRecord>,
@@ -31,21 +31,21 @@ pub struct SelfmotionAnswer {
     pub lengths: [Number; 6],
     /// Singular values of the leg equations, largest first.
     pub singular_values: [Number; 8],
-    /// Number of start poses beside the given one.
+    /// Number of further start poses.
     pub further_starts: usize,
-    /// Real poses on surfaces and sets of higher dimension, with `--lengths`; these sets are not traced.
+    /// Real poses on sets of higher dimension, with `--lengths`; these sets are not traced.
     pub real_poses: Vec<PoseQuaternionRecord>,
     /// The completeness of the curves: they are traced numerically, without a proof that the list is complete.
     pub completeness: CompletenessWord,
     /// Whether every real component is accounted for, numerically; null: no search for other components was made.
     pub components_accounted: Option<bool>,
-    /// Degrees of the irreducible components over the complex numbers; null: not computed.
+    /// Degrees of the complex irreducible components; null: not computed.
     pub complex_components: Option<Vec<CurveDegree>>,
-    /// Critical points of a distance on the curves, at least one on each real component; null: not computed.
+    /// Critical points of a distance, at least one on each real component; null: not computed.
     pub critical_points: Option<CriticalPointsRecord>,
-    /// The largest error of a leg length divided by the size.
+    /// Largest error of a leg length over the size.
     pub worst_length_error: Number,
-    /// Poses at which curves cross.
+    /// Crossings of curves.
     pub crossings: Vec<PoseQuaternionRecord>,
     /// The curves.
     pub curves: Vec<MotionCurveRecord>,
@@ -86,7 +86,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
 /// times tangent of half the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
-    /// The radius of the ball: every pose with these lengths inside it lies within the distance `within`.
+    /// Radius of the ball: every pose with these lengths inside it lies within the distance `within`.
     pub radius: Number,
     /// The distance left by rounding; 0 for a first-order proof.
     pub within: Number,
@@ -141,16 +141,16 @@ impl From<&CriticalPoses> for CriticalPointsRecord {
 /// A curve of poses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionCurveRecord {
-    /// The end of the curve: closed, joined, unfinished or stuck.
+    /// End of the curve: closed, joined, unfinished or stuck.
     #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
     pub end: String,
     /// The crossings with other curves.
     pub crossings: Vec<CurveCrossing>,
     /// The degree of the curve; null: not computed.
     pub degree: Option<CurveDegree>,
-    /// The origin of its first pose.
+    /// Origin of its first pose.
     pub found_by: Option<MotionOrigin>,
-    /// The poses of the curve.
+    /// Poses of the curve.
     pub points: Vec<MotionPoint>,
 }
 

@@ -12,10 +12,10 @@ use synthesis::singularity::{PathPiece, Sign, SignsAlong, Way};
 pub struct SingularitiesAnswer {
     /// The name of the design.
     pub name: String,
-    /// The unit of its lengths.
+    /// Unit of lengths.
     pub units: String,
-    /// Whether the examined region is free of singular poses: the workspace of the design, or the region of `--box`
-    /// about the pose; null: no region is given.
+    /// Whether the region is free of singular poses: the workspace of the design, or the region of `--box` about the
+    /// pose; null: no region is given.
     pub regular: Option<RegularityRecord>,
     /// The given pose.
     pub pose: PoseFiguresRecord,
@@ -25,13 +25,13 @@ pub struct SingularitiesAnswer {
     pub assembly_modes: Vec<PoseFiguresRecord>,
     /// Whether every path is accounted for; false: poses may be missing.
     pub assembly_modes_accounted: bool,
-    /// A box of regular poses around the pose.
+    /// Box of regular poses.
     #[serde(rename = "box")]
     pub regular_box: RegularBoxRecord,
     /// det J along a path, with `--path`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<SignPathRecord>,
-    /// det J between all assembly modes, with `--between`.
+    /// det J between all modes, with `--between`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between: Option<SignPairsRecord>,
 }
@@ -46,7 +46,7 @@ pub struct PoseFiguresRecord {
     pub determinant: Number,
     /// Inverse condition number of the Jacobian: 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
-    /// The two conditions for four planes through one point, for octahedral designs.
+    /// Conditions for four planes through a point, for octahedral designs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub four_planes: Option<[Number; 2]>,
 }
@@ -58,15 +58,15 @@ pub struct RegularBoxRecord {
     pub translation: [f64; 3],
     /// Half widths of the rotation vector at scale 1, base frame, degrees.
     pub rotation_deg: [f64; 3],
-    /// The shape of the region.
+    /// Shape.
     pub region: Region,
-    /// Proved: no pose up to this scale is singular.
+    /// Scale proved free of singular poses.
     pub proved_scale: Number,
-    /// A pose in the smallest box known to hold a singular one; null: no such box is known.
+    /// Pose in the smallest box that holds a singular one; null: no such box is known.
     pub singular_within: Option<ScaledPoseRecord>,
-    /// The greatest scale searched for a change of sign.
+    /// Greatest scale searched for a sign change.
     pub searched_scale: Number,
-    /// Number of cells in the proof.
+    /// Number of cells of the proof.
     pub cells: usize,
 }
 
@@ -118,11 +118,11 @@ impl From<&SignsAlong> for SignOutcome {
 /// det J along a path of straight parts.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPathRecord {
-    /// Number of the first assembly mode, from 1; 0: the given pose.
+    /// First assembly mode, from 1; 0: the given pose.
     pub from: usize,
-    /// Number of the last assembly mode, from 1.
+    /// Last assembly mode, from 1.
     pub to: usize,
-    /// The poses that the path joins.
+    /// Poses on the path.
     pub poses: Vec<PoseQuaternionRecord>,
     /// Whether det J keeps its sign: true and false are proved; null: neither.
     pub keeps_sign: Option<bool>,
@@ -133,15 +133,15 @@ pub struct SignPathRecord {
 /// det J along a straight part of a path, with parameter u from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPartRecord {
-    /// The sign of det J along the part.
+    /// Sign of det J along the part.
     pub outcome: SignOutcome,
-    /// Number of proved changes of sign.
+    /// Number of proved sign changes.
     pub changes: usize,
-    /// Number of pieces without a proved sign or change.
+    /// Number of pieces without proof.
     pub doubtful: usize,
     /// The pieces with their signs.
     pub pieces: Vec<SignPieceRecord>,
-    /// Sampled values [u, det J].
+    /// Samples [u, det J].
     pub values: Vec<[Number; 2]>,
 }
 
@@ -162,13 +162,13 @@ impl SignPartRecord {
 /// A piece of a straight path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct SignPieceRecord {
-    /// The parameter u at the beginning.
+    /// First parameter u.
     pub from: Number,
-    /// The parameter u at the end.
+    /// Last parameter u.
     pub to: Number,
-    /// The sign of det J on the piece.
+    /// Sign of det J.
     pub sign: SignRecord,
-    /// Whether the piece holds a singular pose: det J has proved, opposite signs before and after it.
+    /// Whether it holds a singular pose: det J has proved, opposite signs before and after it.
     pub singular: bool,
 }
 
@@ -181,11 +181,11 @@ impl SignPieceRecord {
 /// The assembly modes joined by paths without singular pose.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SignPairsRecord {
-    /// The sign of det J at each assembly mode.
+    /// Sign of det J by assembly mode.
     pub signs: Vec<SignRecord>,
     /// All pairs of assembly modes.
     pub pairs: Vec<SignPairRecord>,
-    /// Groups of assembly modes joined by such paths, numbers from 1.
+    /// Modes joined by such paths, numbers from 1.
     pub groups: Vec<Vec<usize>>,
     /// The paths found.
     pub paths: Vec<JoiningPathRecord>,
@@ -194,22 +194,22 @@ pub struct SignPairsRecord {
 /// The straight path between two assembly modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SignPairRecord {
-    /// The numbers of the two modes, from 1.
+    /// Numbers of the two modes, from 1.
     pub modes: [usize; 2],
-    /// The sign of det J along the straight path.
+    /// Sign of det J along the straight path.
     pub straight: SignOutcome,
-    /// Number of proved changes of sign on the straight path.
+    /// Number of proved sign changes on the straight path.
     pub changes: usize,
-    /// Whether some path without singular pose joins the two modes; null: none was found.
+    /// Whether some regular path joins them; null: none was found.
     pub joined: Option<bool>,
 }
 
 /// A path without singular pose between two assembly modes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JoiningPathRecord {
-    /// The numbers of the two modes, from 1.
+    /// Numbers of the two modes, from 1.
     pub modes: [usize; 2],
-    /// The poses of the path, joined by straight segments.
+    /// Poses of the path, joined by straight segments.
     pub poses: Vec<PoseQuaternionRecord>,
 }
 

@@ -22,7 +22,7 @@ pub struct SweepFolderRecord {
     pub schema_version: u32,
     /// The name of the plan.
     pub name: String,
-    /// The version of the program.
+    /// Program version.
     pub version: String,
     /// The seed.
     pub seed: u64,
@@ -50,7 +50,7 @@ pub struct SweepFolderRecord {
 pub struct SweepManifestRecord {
     /// The version of the file format.
     pub schema_version: u32,
-    /// The number of the shard, from 0.
+    /// Shard number, from 0.
     pub shard: u64,
     /// Number of shards of the sweep.
     pub shards: u64,
@@ -62,17 +62,17 @@ pub struct SweepManifestRecord {
     pub rows: u64,
     /// Number of rows with an error.
     pub failed: u64,
-    /// SHA-256 over plan and base design, hexadecimal.
+    /// SHA-256 of plan and base design, hexadecimal.
     pub plan_sha256: String,
     /// The seed.
     pub seed: u64,
-    /// The version of the program.
+    /// Program version.
     pub version: String,
     /// The file of the part.
     pub part: String,
-    /// The size of the file, bytes.
+    /// File size, bytes.
     pub bytes: u64,
-    /// SHA-256 of the file, hexadecimal.
+    /// SHA-256, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: String,
     /// Computation time, seconds; the part does not depend on it.
@@ -85,7 +85,7 @@ pub struct SweepManifestRecord {
 /// A part that disagrees with its manifest.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DamagedPartRecord {
-    /// The number of the shard, from 0.
+    /// Shard number, from 0.
     pub shard: u64,
     /// The disagreement.
     pub reason: String,
@@ -97,7 +97,7 @@ pub struct DamagedPartRecord {
 pub enum SweepRunAnswer {
     /// The answer with --estimate; nothing was written.
     Estimate(SweepEstimateAnswer),
-    /// The answer about the sweep, or about a shard of it.
+    /// The sweep, or a shard of it.
     Run(SweepStatusAnswer),
 }
 
@@ -110,7 +110,7 @@ pub struct SweepEstimateAnswer {
     pub candidates: u64,
     /// Number of shards, unless another number is requested.
     pub shards: u64,
-    /// Number of candidates computed for the estimate.
+    /// Number of sampled candidates.
     pub sampled: usize,
     /// Number of sampled rows that the plan keeps.
     pub kept: usize,
@@ -120,7 +120,7 @@ pub struct SweepEstimateAnswer {
     pub seconds_each: Number,
     /// Number of threads requested.
     pub threads: usize,
-    /// Estimated time of the whole sweep on these threads, seconds.
+    /// Estimated time on these threads, seconds.
     pub seconds: Number,
     /// The columns of the table.
     pub columns: Vec<SweepColumnRecord>,
@@ -131,12 +131,12 @@ pub struct SweepEstimateAnswer {
 pub struct SweepColumnRecord {
     /// The name of the column.
     pub name: String,
-    /// The type of its cells.
+    /// Cell type.
     #[schemars(extend("enum" = ["number", "integer", "truth", "text"]))]
     pub kind: String,
     /// The unit; null: a pure number, or none.
     pub unit: Option<String>,
-    /// The meaning of the column.
+    /// Meaning.
     pub meaning: String,
 }
 
@@ -147,29 +147,29 @@ pub struct SweepStatusAnswer {
     pub name: String,
     /// The folder.
     pub folder: String,
-    /// SHA-256 over plan and base design, hexadecimal.
+    /// SHA-256 of plan and base design, hexadecimal.
     pub plan_sha256: String,
     /// The seed.
     pub seed: u64,
-    /// Number of candidates of the whole sweep.
+    /// Number of candidates in all.
     pub candidates: u64,
-    /// Number of shards of the whole sweep.
+    /// Number of shards in all.
     pub shards: u64,
-    /// Finished shards: the part is present and has the digest of its manifest.
+    /// Finished shards with the right digest.
     pub done: Vec<u64>,
     /// All other shards.
     pub missing: Vec<u64>,
-    /// The missing shards as ranges for the option --array of Slurm: `2-5,9`.
+    /// Missing shards as ranges for Slurm's --array: `2-5,9`.
     pub missing_ranges: String,
-    /// Shards with a part that disagrees with its manifest.
+    /// Shards that disagree with their manifest.
     pub damaged: Vec<DamagedPartRecord>,
-    /// Shards computed by this run; finished shards are left as they are.
+    /// Shards of this run; finished shards are left as they are.
     pub computed: Vec<u64>,
-    /// Number of rows in the finished parts.
+    /// Number of rows in finished parts.
     pub rows: u64,
-    /// Number of these rows with an error.
+    /// Rows with an error.
     pub failed: u64,
-    /// Files left incomplete by an earlier run.
+    /// Incomplete files of an earlier run.
     pub unfinished: Vec<String>,
 }
 
@@ -182,9 +182,9 @@ pub struct SweepMergeAnswer {
     pub parts: u64,
     /// Number of rows.
     pub rows: u64,
-    /// The size of the file, bytes.
+    /// File size, bytes.
     pub bytes: u64,
-    /// SHA-256 of the file, hexadecimal.
+    /// SHA-256, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: String,
 }
@@ -192,13 +192,13 @@ pub struct SweepMergeAnswer {
 /// The answer of `sweep verify`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepVerifyAnswer {
-    /// Whether all parts are present with their digests, and every recomputed candidate has the same row.
+    /// Whether all parts have their digests, and every recomputed candidate has the same row.
     pub same: bool,
-    /// The finished and the missing shards.
+    /// Finished and missing shards.
     pub status: SweepStatusAnswer,
-    /// Candidates that were recomputed.
+    /// Recomputed candidates.
     pub sampled: Vec<u64>,
-    /// Recomputed candidates with a different row.
+    /// Candidates with a different row.
     pub different: Vec<u64>,
 }
 
@@ -207,7 +207,7 @@ pub struct SweepVerifyAnswer {
 pub struct SweepDesignAnswer {
     /// The number of the candidate.
     pub candidate: u64,
-    /// The design file of the candidate.
+    /// Design file of the candidate.
     #[serde(flatten)]
     pub file: SweepDesignFile,
 }
@@ -215,13 +215,13 @@ pub struct SweepDesignAnswer {
 /// The answer of `sweep best`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweepBestAnswer {
-    /// The column by which candidates are ranked.
+    /// Column of the ranking.
     pub column: String,
     /// Number of rows kept and ranked.
     pub rows: u64,
     /// The best candidates, the best first.
     pub candidates: Vec<SweepBestRecord>,
-    /// The page that compares them; `null`: there are none.
+    /// Page with comparison; `null`: there are none.
     pub page: Option<String>,
 }
 
@@ -230,9 +230,9 @@ pub struct SweepBestAnswer {
 pub struct SweepBestRecord {
     /// The number of the candidate.
     pub candidate: u64,
-    /// The value in the column.
+    /// Value in the column.
     pub value: Number,
-    /// The design file of the candidate.
+    /// Design file of the candidate.
     pub output: String,
 }
 
@@ -259,9 +259,9 @@ pub enum SweepDesignFile {
         /// The file written.
         output: String,
     },
-    /// The text is part of the answer.
+    /// File in the answer.
     Given {
-        /// The design file or the script.
+        /// File contents.
         text: String,
     },
 }

@@ -16,32 +16,31 @@ use platform::manipulator::Body;
 /// The answer of `build tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TolerancesAnswer {
-    /// The result of `assess` for the design; null: it has no requirements.
+    /// Result of `assess`; null: it has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// The greatest error of the pose allowed.
+    /// Allowed pose error.
     pub bound: PoseErrorRecord,
     /// The tool point, platform frame.
     pub tool: [Number; 3],
     /// The unit of lengths.
     pub units: String,
-    /// The error allowed at all joints at once, in any direction, to first order.
+    /// Error allowed at all joints together, in any direction, to first order.
     pub all_joints_radius: LimitedAllowance,
-    /// The error allowed in all coordinates at once, to first order.
+    /// Error allowed in all coordinates together, to first order.
     pub all_coordinates: LimitedAllowance,
-    /// The joints, the most critical first.
+    /// Joints, most critical first.
     pub joints: Vec<JointBudgetRecord>,
-    /// Errors of the pose for the worst joint errors, solved exactly.
+    /// Pose errors of the worst joint errors, solved exactly.
     pub worst_errors: WorstErrorsRecord,
-    /// The exact check of the first-order radius.
+    /// Exact check of the first-order radius.
     pub solved: SolvedBudgetRecord,
-    /// Statistics of random errors in the budget.
+    /// Random errors in the budget.
     pub trials: TrialsRecord,
-    /// Statistics of random errors of joints and leg offsets with the covariance of the calibration; null: not
-    /// requested.
+    /// Random errors with the calibration covariance; null: not requested.
     pub calibrated: Option<TrialsRecord>,
-    /// Uncertainty of computed poses due to the errors of the calibration, to first order; null: not requested.
+    /// Uncertainty of computed poses by calibration errors, to first order; null: not requested.
     pub calibrated_poses: Option<CalibratedPosesRecord>,
-    /// The greatest errors from all causes together (joints, leg lengths, temperature); null: not requested.
+    /// Greatest errors from all causes (joints, leg lengths, temperature); null: not requested.
     pub map: Option<ErrorMapRecord>,
     /// The poses evaluated.
     pub poses: BudgetPosesRecord,
@@ -51,13 +50,13 @@ pub struct TolerancesAnswer {
 /// them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CalibratedPosesRecord {
-    /// Whether the design file has correlations.
+    /// Source of correlations.
     pub correlations: CorrelationsWord,
     /// Number of poses evaluated.
     pub poses: usize,
-    /// Root mean square error of the tool point, design units.
+    /// RMS error of the tool point, design units.
     pub position: DeviationRecord,
-    /// Root mean square error of the orientation, degrees.
+    /// RMS error of the orientation, degrees.
     pub rotation_deg: DeviationRecord,
 }
 
@@ -68,12 +67,11 @@ pub struct DeviationRecord {
     pub median: Number,
     /// The greatest value.
     pub greatest: Number,
-    /// The value at the same pose if the errors of coordinates and offsets were independent.
+    /// Value with independent errors at the same pose.
     pub independent: Number,
     /// The pose with the greatest value.
     pub pose: PoseQuaternionRecord,
-    /// Covariance at this pose of the shift of the tool point (design units) and the rotation vector (degrees), base
-    /// frame.
+    /// Covariance of tool point (design units) and rotation vector (degrees) there, base frame.
     pub covariance: [[Number; 6]; 6],
 }
 
@@ -123,17 +121,17 @@ pub struct JointBudgetRecord {
     pub body: Body,
     /// The name of the joint.
     pub joint: String,
-    /// The error allowed in any direction.
+    /// Error allowed in any direction.
     pub alone: LimitedAllowance,
     /// The worst direction of the error, body frame.
     pub direction: [Number; 3],
-    /// Error of the tool point per unit of joint error in the worst direction.
+    /// Tool point error per joint error in that direction.
     pub position_per_unit: Number,
-    /// Error of the orientation per unit of joint error in the worst direction, degrees per design unit.
+    /// Orientation error per joint error in that direction, degrees per design unit.
     pub rotation_deg_per_unit: Number,
-    /// The errors allowed along each axis of the body, design units; null: no influence.
+    /// Errors allowed along the axes of the body, design units; null: no influence.
     pub along_axes: [Option<Number>; 3],
-    /// Half widths of the box of largest volume for all joints together, design units; null: no influence.
+    /// Half widths of the box of largest volume for all joints, design units; null: no influence.
     pub largest_product: [Option<Number>; 3],
 }
 
@@ -162,43 +160,43 @@ pub(super) fn joint_name(design: &Design, joint: Joint) -> &str {
 /// Errors of the pose for the worst errors of all joints, solved exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorstErrorsRecord {
-    /// Errors of the pose for joint errors of this radius; null: the pose was lost.
+    /// Pose errors at this radius; null: the pose was lost.
     pub in_budget: Option<PoseErrorRecord>,
-    /// Errors of the pose for joint errors of 1.5 times the radius; null: the pose was lost.
+    /// Pose errors at 1.5 times the radius; null: the pose was lost.
     pub times_1_5: Option<PoseErrorRecord>,
-    /// The pose at which the errors were solved.
+    /// Pose at which the errors were solved.
     pub pose: PoseQuaternionRecord,
 }
 
-/// The exact check of the first-order radius.
+/// Exact check of the first-order radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedBudgetRecord {
-    /// Whether the solved pose stays within the bound for every sampled error in the budget.
+    /// Whether all solved errors stay within the bound.
     pub within_bound: bool,
-    /// The largest share of the bound that was reached; null: a pose was lost.
+    /// Largest share of the bound reached; null: a pose was lost.
     pub largest_share: Option<Number>,
-    /// A radius for which the worst joint errors keep the bound, solved exactly at their pose.
+    /// Joint error that keeps the bound, solved exactly at their pose.
     pub radius: Option<Number>,
 }
 
-/// Statistics of random errors in the budget.
+/// Random errors in the budget.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TrialsRecord {
     /// Number of random samples.
     pub count: usize,
-    /// Number of poses that were lost.
+    /// Number of lost poses.
     pub lost: usize,
     /// Number of poses within the bound.
     pub within_bound: usize,
     /// Number of poses beyond the bound.
     pub beyond_bound: usize,
-    /// Errors of the pose computed by the nominal formula.
+    /// Pose errors of the nominal formula.
     pub formula: ErrorSpread,
-    /// Differences between these errors and their first-order values.
+    /// Differences from their first-order values.
     pub first_order_discrepancy: ErrorSpread,
-    /// Errors after one Newton step with the actual joints.
+    /// Errors after one Newton step with actual joints.
     pub after_one_step: ErrorSpread,
-    /// Errors after two Newton steps with the actual joints.
+    /// Errors after two Newton steps.
     pub after_two_steps: ErrorSpread,
 }
 
@@ -222,7 +220,7 @@ impl From<&Trials> for TrialsRecord {
 pub struct BudgetPosesRecord {
     /// Number of poses.
     pub count: usize,
-    /// The source of the workspace.
+    /// Source of the workspace.
     pub workspace: WorkspaceWord,
 }
 
@@ -239,11 +237,11 @@ pub enum WorkspaceWord {
 /// The greatest errors of the pose by all causes together, to first order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorMapRecord {
-    /// The greatest error of each joint, in any direction, design units.
+    /// Greatest joint error, in any direction, design units.
     pub joint_error: Number,
-    /// The greatest error of each leg length, design units.
+    /// Greatest error of a leg length, design units.
     pub length_error: Number,
-    /// Relative expansion of each part: base, platform and legs, with either sign.
+    /// Relative expansion by part: base, platform and legs, with either sign.
     pub growth: [Number; 3],
     /// Number of poses evaluated: the corners and a sample of the region, and the listed poses.
     pub poses: usize,
@@ -251,20 +249,20 @@ pub struct ErrorMapRecord {
     pub position: GreatestErrorRecord,
     /// Error of the orientation, degrees.
     pub rotation_deg: GreatestErrorRecord,
-    /// The table of all poses written; null: none.
+    /// Table written; null: none.
     pub path: Option<String>,
 }
 
 /// The greatest error over the poses of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GreatestErrorRecord {
-    /// The greatest error by all causes together.
+    /// Greatest error by all causes.
     pub greatest: Number,
-    /// The part due to joints, at the same pose.
+    /// Part by joints, at the same pose.
     pub joints: Number,
-    /// The part due to leg lengths, at the same pose.
+    /// Part by lengths, at the same pose.
     pub lengths: Number,
-    /// The part due to expansion, at the same pose.
+    /// Part by expansion, at the same pose.
     pub growth: Number,
     /// The pose with the greatest error.
     pub pose: PoseQuaternionRecord,

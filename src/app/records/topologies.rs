@@ -10,20 +10,20 @@ use platform::topology::{JointIndex, NamedTopology, Sequence};
 /// The answer of `equivalents topologies`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TopologiesAnswer {
-    /// Number of topologies that can hold a platform.
+    /// Topologies that can hold a platform.
     #[schemars(extend("const" = 34))]
     pub count: usize,
     /// The topology of the given design, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub design: Option<RecognisedRecord>,
-    /// Numbers of topologies by their virtual legs; absent: a design is given.
+    /// Numbers of topologies by virtual legs; absent: a design is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_virtual_legs: Option<VirtualLegsRecord>,
-    /// Number of random members solved for each topology.
+    /// Number of random members solved by topology.
     pub members: u64,
     /// The topologies.
     pub topologies: Vec<TopologyRecord>,
-    /// The fewest shared joints of each topology by equivalent rearrangement, with `--rearrangements`.
+    /// Fewest shared joints by equivalent rearrangement, with `--rearrangements`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rearrangements: Option<Vec<RearrangementRecord>>,
 }
@@ -35,9 +35,9 @@ pub struct RecognisedRecord {
     pub name: String,
     /// The identifier of the topology, T01 to T34.
     pub id: String,
-    /// The name of the topology: numbers of base and platform joints.
+    /// Name of the topology: numbers of base and platform joints.
     pub topology: String,
-    /// Whether base and platform of the design are exchanged.
+    /// Whether base and platform are exchanged.
     pub exchanged: bool,
 }
 
@@ -88,21 +88,21 @@ pub struct TopologyRecord {
     /// The identifier of the topology, T01 to T34.
     #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]
     pub id: String,
-    /// The name of the topology: numbers of base and platform joints.
+    /// Name of the topology: numbers of base and platform joints.
     pub name: String,
     /// Number of joints of the base.
     pub base_joints: usize,
     /// Number of joints of the platform.
     pub platform_joints: usize,
-    /// Number of joints that hold more than one leg.
+    /// Number of joints of several legs.
     pub shared_joints: usize,
-    /// Base joint and platform joint of each leg.
+    /// Base joint and platform joint by leg.
     pub legs: Vec<[String; 2]>,
     /// Number of virtual legs for trilateration.
     pub virtual_legs: usize,
     /// The joints of the virtual legs.
     pub virtual_leg_joints: Vec<[String; 2]>,
-    /// Whether the position of some joint is found before the others.
+    /// Whether some joint is placed before the others.
     pub decoupled: bool,
     /// The joints of the first triangle.
     pub start: [String; 3],
@@ -112,9 +112,9 @@ pub struct TopologyRecord {
     pub finite_roots: u32,
     /// Whether this number is proved.
     pub finite_roots_proved: bool,
-    /// Degree of the closure polynomial; null with two or more virtual legs.
+    /// Closure polynomial degree; null with two or more virtual legs.
     pub closure_degree: Option<usize>,
-    /// Degree of the closure polynomial before singular factors are removed.
+    /// Closure degree with singular factors.
     pub closure_degree_before: Option<usize>,
     /// Number of distinct roots of the closure polynomial.
     pub closure_distinct_roots: Option<usize>,

@@ -32,13 +32,13 @@ impl CorrelationsWord {
 /// the calibration; the noise of the lengths adds to it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoseUncertaintyRecord {
-    /// Whether the design file has correlations.
+    /// Source of correlations.
     pub correlations: CorrelationsWord,
-    /// Root mean square error of the platform origin, design units.
+    /// RMS error of the platform origin, design units.
     pub position: Number,
-    /// Root mean square error of the orientation, degrees.
+    /// RMS error of the orientation, degrees.
     pub rotation_deg: Number,
-    /// Covariance of the shift of the platform origin (design units) and the rotation vector (degrees), base frame.
+    /// Covariance of platform origin (design units) and rotation vector (degrees), base frame.
     pub covariance: [[Number; 6]; 6],
 }
 

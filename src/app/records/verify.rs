@@ -15,18 +15,16 @@ use verify::{Counterexample, Sample, Verdict, VerdictWord, Verification};
 pub struct VerifyAnswer {
     /// The verdict.
     pub verdict: VerdictWord,
-    /// The verdict in one sentence, with the numbers that decided.
+    /// Verdict in words, with the numbers that decided.
     pub explanation: String,
-    /// Whether exact arithmetic on the leg vectors proves the verdict; `level` of the map names the joints it holds
-    /// for.
+    /// Whether exact arithmetic proves the verdict; `level` of the map names the joints it holds for.
     pub proved: bool,
     /// The algebraic evidence; if no motion was found, the map between the designs as given.
     pub map: MapRecord,
-    /// Bounds on the difference between the squared length of each leg of B and A s + c, design units squared. They
-    /// hold at all poses of `sampling`, for any tolerance of the map. Null: the map is exact by proof, or singular, or
-    /// no motion was found.
+    /// Bounds on the squared lengths of B minus A s + c, design units squared. They hold at all poses of `sampling`,
+    /// for any tolerance of the map. Null: the map is exact by proof, or singular, or no motion was found.
     pub deviation_bounds: Option<[Number; 6]>,
-    /// The largest distance of matched poses over all samples; null: none were compared.
+    /// Largest distance of matched poses; null: none were compared.
     pub worst_distance: Option<Number>,
     /// Unmatched poses set aside, because rounding of the joints decides whether they exist. Absent: no motion was
     /// found.
@@ -34,7 +32,7 @@ pub struct VerifyAnswer {
     pub beyond_precision: Option<BeyondPrecisionRecord>,
     /// The numerical evidence.
     pub samples: Vec<SampleRecord>,
-    /// A pose that distinguishes the designs; null: none was found.
+    /// Pose distinguishing the designs; null: none was found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<CounterexampleRecord>,
     /// The box of random poses; absent: no motion was found.
@@ -117,9 +115,9 @@ pub struct SampleRecord {
     pub beyond_precision_a: usize,
     /// Number of poses of B set aside.
     pub beyond_precision_b: usize,
-    /// The largest distance within a pair.
+    /// Largest distance in a pair.
     pub worst_distance: Number,
-    /// Whether this sample supports equivalence.
+    /// Whether it supports equivalence.
     pub agrees: bool,
 }
 
@@ -146,9 +144,9 @@ impl From<&Sample> for SampleRecord {
 pub struct SolvedSampleRecord {
     /// The method.
     pub method: Method,
-    /// The level of completeness of the list.
+    /// Completeness of the list.
     pub completeness: CompletenessWord,
-    /// The evidence for completeness in one sentence.
+    /// Evidence for completeness.
     pub completeness_reason: String,
     /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,
@@ -184,13 +182,13 @@ pub struct CounterexampleRecord {
     pub solves: String,
     /// The pose.
     pub pose: ComplexRecord<PoseRecord>,
-    /// Whether a certificate proves that the pose is a solution for this design.
+    /// Whether a certificate proves the pose for this design.
     pub certified: bool,
-    /// The leg of the other design with the greatest error of length, from 1.
+    /// Leg of the other design with the greatest length error, from 1.
     pub leg: usize,
     /// The error of its squared length, relative to the squared size.
     pub miss: Number,
-    /// The rounding error expected in this number.
+    /// Rounding error expected in it.
     pub rounding: Number,
 }
 
@@ -222,11 +220,11 @@ fn parts(pose: &ComplexPose) -> ComplexRecord<PoseRecord> {
 pub struct SamplingRecord {
     /// Number of poses.
     pub count: usize,
-    /// The centre of the box, base frame, design units.
+    /// Centre of the box, base frame, design units.
     pub home_position: [f64; 3],
-    /// Half widths of the box of positions, design units.
+    /// Half widths of positions, design units.
     pub translation_half_widths: [f64; 3],
-    /// Half widths of the box of rotation vectors, radians.
+    /// Half widths of rotation vectors, radians.
     pub rotation_half_widths_rad: [f64; 3],
 }
 

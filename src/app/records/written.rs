@@ -48,12 +48,12 @@ pub struct PlotAnswer {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PictureRecord {
-    /// The picture was written to a file.
+    /// Picture in a file.
     Written {
         /// The file written.
         output: String,
     },
-    /// The picture is part of the answer.
+    /// Picture in the answer.
     Given {
         /// The picture as SVG.
         svg: String,
@@ -100,7 +100,7 @@ pub struct ReportAnswer {
     pub output: String,
     /// Number of files shown.
     pub files: usize,
-    /// The result of `assess` for the design on the page; null: there is none, or it has no requirements.
+    /// Result of `assess`; null: there is none, or it has no requirements.
     pub assessment: Option<AssessAnswer>,
 }
 
@@ -120,10 +120,10 @@ pub struct ViewAnswer {
     pub name: String,
     /// The page.
     pub output: String,
-    /// The size of the page, bytes.
+    /// Page size, bytes.
     pub bytes: usize,
     /// Whether the page contains the WebAssembly core.
     pub live: bool,
-    /// The result of `assess` for the platform that the page shows first; null: it has no requirements.
+    /// Result of `assess`; null: it has no requirements.
     pub assessment: Option<AssessAnswer>,
 }

@@ -84,13 +84,13 @@ pub(super) struct LegSizes {
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "SizeRecord", transform = num::nullable)]
 pub struct SizeChoice {
-    /// The part and its dimension.
+    /// Part and dimension.
     pub what: String,
     /// Its value in `unit`.
     pub value: f64,
     /// Design units, or kilograms.
     pub unit: &'static str,
-    /// The origin of the value: option, table or rule.
+    /// Origin: option, table or rule.
     pub from: &'static str,
 }
 

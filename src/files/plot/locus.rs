@@ -258,7 +258,7 @@ pub struct LocusValue {
 #[schemars(rename = "LocusMeetingRecord", transform = num::nullable)]
 pub struct LocusMeeting {
     // they leave the real axis or arrive on it: a double root in between
-    /// Index of the row before the meeting, from 0.
+    /// Row before the meeting, from 0.
     #[serde(rename = "after_step")]
     pub after: usize,
     /// Interpolated length, design units.

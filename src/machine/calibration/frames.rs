@@ -17,7 +17,7 @@ const ON_A_LINE: f64 = 1e-6;
 pub struct FrameMotion {
     /// The motion.
     pub motion: Pose,
-    /// Root mean square of the distances that remain, design units.
+    /// RMS of the remaining distances, design units.
     pub rms: f64,
 }
 

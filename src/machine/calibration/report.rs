@@ -83,15 +83,15 @@ pub enum StartName {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StartRecord", transform = num::nullable))]
 pub struct Starts {
-    /// The start whose result was taken.
+    /// Start taken.
     pub taken: StartName,
-    /// Whether both starts led to the same machine; null: only one was tried.
+    /// Whether both starts agree; null: only one was tried.
     pub agree: Option<bool>,
-    /// Misfit from the nominal joints: sum of the losses, or estimated deviation of a length; smaller is better; null:
-    /// not tried.
+    /// Misfit from nominal joints: sum of the losses, or estimated deviation of a length; smaller is better; null: not
+    /// tried.
     pub nominal: Option<f64>,
-    /// The same measure from the linear equations for squared lengths, which need no design; null: not tried, or not
-    /// determined by the poses.
+    /// Misfit from the linear equations for squared lengths, which need no design; null: not tried, or not determined
+    /// by the poses.
     pub closed_form: Option<f64>,
 }
 
@@ -212,14 +212,13 @@ impl ResidualSpread {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ChiSquareRecord", transform = num::nullable))]
 pub struct ChiSquare {
-    /// Sum of the squares of whitened residuals.
+    /// Sum of squared whitened residuals.
     // outliers are left out if the loss allows for gross errors
     pub value: f64,
     /// Number of residuals minus number of identified unknowns.
     #[cfg_attr(feature = "serde", serde(rename = "degrees_of_freedom"))]
     pub freedoms: usize,
-    /// The probability of a larger value if model and noise are right; null: the noise is estimated from the same
-    /// residuals.
+    /// Probability of a larger value by noise; null: the noise is estimated from the same residuals.
     pub probability: Option<f64>,
 }
 

@@ -13,7 +13,7 @@ pub struct Extreme {
     /// The signed value.
     #[cfg_attr(feature = "serde", schemars(with = "num::Number"))]
     pub value: f64,
-    /// Time of the value, seconds.
+    /// Time, seconds.
     #[cfg_attr(feature = "serde", serde(rename = "time_s"))]
     pub time: f64,
 }

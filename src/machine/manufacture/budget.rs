@@ -23,17 +23,17 @@ const NO_INFLUENCE: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "JointLimitRecord", transform = num::nullable))]
 pub struct LimitedAllowance {
-    /// Allowed error that keeps the bound to first order, design units.
+    /// Allowed error to first order, design units.
     // no error of this size reaches the bound at the sampled poses
     pub value: f64,
-    /// Error size that reaches the bound to first order.
+    /// Error that reaches the bound to first order.
     // some error of this size reaches it at `pose`; it exceeds `value` by a millionth at most, except for worst cases
     // with nearly equal directions
     pub reached: f64,
-    /// The bound that is reached.
+    /// Bound reached.
     #[cfg_attr(feature = "serde", serde(rename = "limited_by"))]
     pub kind: ErrorKind,
-    /// The pose at which it is reached.
+    /// Pose at which it is reached.
     #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub pose: Pose,
 }

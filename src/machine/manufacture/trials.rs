@@ -51,11 +51,11 @@ fn in_ball(rng: &mut Rng) -> Vector3<f64> {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "QuantilesRecord", transform = num::nullable))]
 pub struct Quantiles {
-    /// Half of the values are at most this.
+    /// Half of the values are below.
     pub median: f64,
-    /// 90 % of the values are at most this.
+    /// 90 % of the values are below.
     pub p90: f64,
-    /// 99 % of the values are at most this.
+    /// 99 % of the values are below.
     pub p99: f64,
     /// The greatest value.
     pub max: f64,

@@ -18,73 +18,72 @@ num::answer_words! {
     /// The kinds of requirements.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     pub enum TermKind as code | label {
-        /// Leg length minus the least one.
+        /// Leg length minus minimum.
         MinLegLength = "min_leg_length" | "leg length, minimum",
-        /// Greatest leg length minus the leg length.
+        /// Maximum minus leg length.
         MaxLegLength = "max_leg_length" | "leg length, maximum",
-        /// Limit minus the joint angle between leg and axis at the base.
+        /// Limit minus joint angle at the base.
         BaseConeAngle = "base_cone_angle" | "joint angle at base, maximum",
-        /// Limit minus the joint angle between leg and axis at the platform.
+        /// Limit minus joint angle at the platform.
         PlatformConeAngle = "platform_cone_angle" | "joint angle at platform, maximum",
-        /// Limit minus the angle about the first axis of a universal joint at the base.
+        /// Limit minus first universal joint angle at the base.
         BaseFirstAngle = "base_first_angle" | "first joint angle at base, maximum",
-        /// Limit minus the angle about its second axis.
+        /// Limit minus second angle.
         BaseSecondAngle = "base_second_angle" | "second joint angle at base, maximum",
-        /// Limit minus the angle about the first axis of a universal joint at the platform.
+        /// Limit minus first universal joint angle at the platform.
         PlatformFirstAngle = "platform_first_angle" | "first joint angle at platform, maximum",
-        /// Limit minus the angle about its second axis.
+        /// Limit minus second angle.
         PlatformSecondAngle = "platform_second_angle" | "second joint angle at platform, maximum",
-        /// Gap between two legs minus the required clearance.
+        /// Gap of two legs minus clearance.
         LegClearance = "leg_clearance" | "clearance between legs",
-        /// Gap between a leg and a keep-out minus the required clearance.
+        /// Gap of leg and keep-out minus clearance.
         KeepOut = "keep_out" | "clearance to keep-out",
-        /// Greatest leg force minus the force under a load.
+        /// Limit minus leg force under a load.
         LegForce = "leg_force" | "leg force, maximum",
-        /// Greatest leg speed minus the speed in the worst direction of motion.
+        /// Limit minus leg speed in the worst direction.
         LegSpeed = "leg_speed" | "leg speed, maximum",
-        /// Gap between two housings of the base, or distance of joint centres minus the least one.
+        /// Gap of two base housings, or distance of joint centres minus the least one.
         BaseSpacing = "base_spacing" | "distance of base joints",
-        /// Gap between two housings of the platform, or distance of joint centres minus the least one.
+        /// Gap of two platform housings, or distance of joint centres minus the least one.
         PlatformSpacing = "platform_spacing" | "distance of platform joints",
-        /// Distance of a base joint with its housing inside the envelope of the base.
+        /// Distance of base housings inside their envelope.
         BaseEnvelope = "base_envelope" | "envelope of base",
-        /// Distance of a platform joint with its housing inside the envelope of the platform.
+        /// Distance of platform housings inside their envelope.
         PlatformEnvelope = "platform_envelope" | "envelope of platform",
-        /// Distance of a joint with its housing inside the envelope of the whole machine.
+        /// Distance of housings inside the machine envelope.
         MachineEnvelope = "machine_envelope" | "envelope of machine",
-        /// Distance of the holes under a base joint from the outline of the plate, minus the required one.
+        /// Distance of holes from the base outline, minus the required one.
         BaseHoleEdge = "base_hole_edge" | "holes to edge of base plate",
-        /// Distance of the holes under a platform joint from the outline of the plate, minus the required one.
+        /// Distance of holes from the platform outline, minus the required one.
         PlatformHoleEdge = "platform_hole_edge" | "holes to edge of platform plate",
-        /// Distance between the holes and feet of two base joints, or between the holes of one, minus the required one.
+        /// Gap of base holes and feet, or between the holes of one, minus the required one.
         BaseHoleGap = "base_hole_gap" | "gap of holes in base plate",
-        /// Distance between the holes and feet of two platform joints, or between the holes of one, minus the required
-        /// one.
+        /// Gap of platform holes and feet, or between the holes of one, minus the required one.
         PlatformHoleGap = "platform_hole_gap" | "gap of holes in platform plate",
-        /// Gap between a leg and a plate minus the required clearance.
+        /// Gap of leg and plate minus clearance.
         PlateClearance = "plate_clearance" | "clearance of legs to plate",
-        /// Gap between a leg and the payload minus the required clearance.
+        /// Gap of leg and payload minus clearance.
         PayloadClearance = "payload_clearance" | "clearance of legs to payload",
-        /// Stiffness of the platform against a force in the softest direction minus the least one.
+        /// Softest stiffness against a force minus minimum.
         LinearStiffness = "linear_stiffness" | "stiffness against force, minimum",
-        /// Stiffness of the platform against a torque about the softest axis minus the least one.
+        /// Softest stiffness against a torque minus minimum.
         AngularStiffness = "angular_stiffness" | "stiffness against torque, minimum",
-        /// Lowest natural frequency minus the least one.
+        /// Lowest natural frequency minus minimum.
         NaturalFrequency = "natural_frequency" | "natural frequency, minimum",
-        /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
+        /// Rod length minus nearest distance of platform joint and crank circle.
         MinRodLength = "min_rod_length" | "rod length to near side, minimum",
-        /// Distance of the platform joint from the farthest point of the crank circle minus the rod length.
+        /// Farthest distance of platform joint and crank circle minus rod length.
         MaxRodLength = "max_rod_length" | "rod length to far side, maximum",
-        /// Transmission angle of a crank minus the least one. Its sine is the share of a push along the rod that turns
-        /// the crank. At 0 degrees crank and rod are in a plane with the axis.
+        /// Transmission angle minus minimum. Its sine is the share of a push along the rod that turns the crank. At 0
+        /// degrees crank and rod are in a plane with the axis.
         CrankTransmission = "crank_transmission" | "transmission angle, minimum",
-        /// Distance of the angle of a crank from its limits.
+        /// Distance of the crank angle from its limits.
         CrankAngle = "crank_angle" | "crank angle, range",
-        /// Limit minus the angle between a rod and the plane in which its crank turns.
+        /// Limit minus angle of rod and crank plane.
         TipAngle = "tip_angle" | "joint angle at crank tip, maximum",
-        /// Greatest torque of a crank minus the torque under a load.
+        /// Limit minus crank torque under a load.
         CrankTorque = "crank_torque" | "crank torque, maximum",
-        /// Greatest speed of a crank minus the speed in the worst direction of motion.
+        /// Limit minus crank speed in the worst direction.
         CrankSpeed = "crank_speed" | "crank speed, maximum",
     }
 }

@@ -85,15 +85,15 @@ pub struct HistoryStep {
     /// Value after the step: the weighted gain of the objectives; for offsets the worst inverse condition number.
     #[cfg_attr(feature = "serde", serde(rename = "objective"))]
     pub gain: f64,
-    /// Greatest violation in the scale of its constraint; lengths relative to the size.
+    /// Greatest scaled violation; lengths relative to the size.
     pub violation: f64,
-    /// Radius of the trust region.
+    /// Trust region radius.
     pub radius: f64,
     /// Number of poses held.
     pub poses: usize,
-    /// Whether the step was accepted.
+    /// Whether it was accepted.
     pub accepted: bool,
-    /// Gain of the merit function predicted by the model.
+    /// Predicted gain of the merit function.
     pub predicted: f64,
     /// Actual gain of the merit function; for a rejected step, at the poses that rejected it.
     pub actual: f64,

@@ -24,11 +24,11 @@ pub struct ChosenVariable {
     // no component of a joint axis
     /// The name of the quantity.
     pub name: String,
-    /// Its value in the initial design.
+    /// Initial value.
     pub start: f64,
-    /// Its value in the platform.
+    /// Chosen value.
     pub value: f64,
-    /// Its least and greatest allowed value.
+    /// Least and greatest allowed value.
     pub bounds: [f64; 2],
 }
 

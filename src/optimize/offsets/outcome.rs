@@ -248,17 +248,17 @@ pub struct BranchCounts {
     /// Feasible branches.
     // including the best one
     pub feasible: usize,
-    /// Proved empty: no part of a zone is within the bounds.
+    /// Proved empty: zone outside the bounds.
     #[cfg_attr(feature = "serde", serde(rename = "infeasible_bounds"))]
     pub outside_bounds: usize,
-    /// Proved empty: no space for the joints.
+    /// Proved empty: no space for joints.
     // of vertices, edge joints, or several together
     #[cfg_attr(feature = "serde", serde(rename = "infeasible_spacing"))]
     pub spacing: usize,
-    /// Proved empty: |det A| is too small.
+    /// Proved empty: |det A| too small.
     #[cfg_attr(feature = "serde", serde(rename = "infeasible_det"))]
     pub det: usize,
-    /// Covered by the bound over all offsets, without a search.
+    /// Excluded by the bound over all offsets, without a search.
     pub bounded: usize,
     /// Undecided.
     pub unproved: usize,

@@ -15,7 +15,7 @@ pub struct PoseRecord {
     /// Rows of the rotation matrix.
     #[serde(rename = "R")]
     pub rotation: [[Number; 3]; 3],
-    /// Position of the platform origin, base frame, design units.
+    /// Platform origin, base frame, design units.
     #[serde(rename = "p")]
     pub position: [Number; 3],
 }
@@ -50,7 +50,7 @@ pub struct PoseInFrames {
     /// Whether the rotation has no other angles: false near the ends of the middle angle, where only a combination of
     /// the others is determined to more than half of the digits of a double.
     pub angles_unique: bool,
-    /// The unit quaternion in the order of `frames`.
+    /// Unit quaternion in the order of `frames`.
     pub quaternion: [Number; 4],
 }
 
@@ -71,17 +71,17 @@ pub struct PoseConventionRecord {
     /// Order of the rotations: `fixed-xyz` and the like for fixed axes, `moving-xyz` for moving axes, or
     /// `vector` for rotation vectors.
     pub rotation_order: String,
-    /// The rotation as a product of matrices for the three angles a, b, c in their order.
+    /// Rotation as a product of matrices of angles a, b, c in their order.
     pub formula: String,
     /// Unit of angles: `deg` or `rad`.
     pub angles: String,
     /// Order of quaternions: `wxyz` or `xyzw`.
     pub quaternion: String,
-    /// The point of the platform whose position is given, platform frame, design units.
+    /// Point whose position is given, platform frame, design units.
     pub pivot: [Number; 3],
     /// The origin of poses: `base` or `home`.
     pub relative_to: String,
-    /// The axis that points up: `z` or `y`.
+    /// Upward axis: `z` or `y`.
     pub up: String,
     /// The convention in words.
     pub sentence: String,
@@ -142,7 +142,7 @@ impl JsonSchema for Pose {
 /// A pose by its quaternion: a platform point x is at R(q) x + p in the base frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseQuaternionRecord {
-    /// Position of the platform origin, base frame, design units.
+    /// Platform origin, base frame, design units.
     #[serde(rename = "p")]
     pub position: [Number; 3],
     /// Unit quaternion, scalar part first.

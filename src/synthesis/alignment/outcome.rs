@@ -44,7 +44,7 @@ impl Motion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "NearestMotionRecord", transform = num::nullable))]
 pub struct NearestMotion {
-    /// Motion of the base of the second design.
+    /// Motion of the second design's base.
     pub base: Pose,
     /// Motion of its platform.
     pub platform: Pose,

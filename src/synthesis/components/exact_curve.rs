@@ -22,7 +22,7 @@ const LONG: u64 = 300;
 )]
 pub struct ExactPart {
     // it does not split over the rational numbers
-    /// The kind of the part.
+    /// Kind.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = [
         "line", "two_conjugate_real_lines", "two_conjugate_complex_lines", "three_conjugate_real_lines",
         "three_conjugate_lines_one_real", "conic", "conic_without_real_points", "cubic", "undecided"
@@ -48,7 +48,7 @@ pub struct ExactPoint {
     // the singular point of a cubic that is irreducible over the complex numbers
     /// Homogeneous coordinates (w, x, y), integers as text.
     pub coordinates: [String; 3],
-    /// The kind of the singular point.
+    /// Type of the point.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"])))]
     pub kind: SingularKind,
 }

@@ -268,14 +268,14 @@ pub(super) fn candidates(joints: &[Vec<f64>]) -> Vec<Vec<f64>> {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurvePartRecord", transform = num::nullable))]
 pub struct CurvePart {
-    /// The kind of the part.
+    /// Kind.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"])))]
     pub kind: PartKind,
-    /// Coefficients in the order of the monomials of its degree.
+    /// Coefficients in monomial order.
     pub coefficients: Vec<f64>,
     /// Its multiplicity.
     pub multiplicity: usize,
-    /// The measure that decided its kind.
+    /// Measure for the kind.
     // the residual of the curve on a line, or the ratio of eigenvalues of a conic
     pub measure: f64,
 }

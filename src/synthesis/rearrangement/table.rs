@@ -348,11 +348,11 @@ pub struct Obstruction {
     // Any number of legs comes from the families `allowed` (with a common joint), and one from each of the others with
     // a common joint. The bound is the rank of the families `within`, plus for each family outside its rank, or 1 if
     // its joint must not be shared.
-    /// Families that may have several legs, from 0.
+    /// Families with several legs, from 0.
     pub allowed: Vec<usize>,
     /// Summands of these families, from 0.
     pub within: Vec<usize>,
-    /// The greatest number of independent legs in these summands.
+    /// Greatest number of independent legs there.
     // below six
     pub most: usize,
 }

@@ -185,7 +185,7 @@ pub enum Assembly {
     /// The triangles of the legs do not close, by far more than rounding.
     // the condition holds within rounding, and there is no real pose
     NoRealPose {},
-    /// The search found no real pose.
+    /// No real pose found.
     Undecided {
         /// Squared lengths of the octahedral platforms.
         #[cfg_attr(feature = "serde", serde(rename = "octahedral_squared_lengths"))]

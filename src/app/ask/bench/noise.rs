@@ -54,13 +54,13 @@ pub struct Spread {
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "NoiseLevelRecord", transform = num::nullable))]
 pub struct NoiseLevel {
     // the statistics are over the problems that have a real pose
-    /// Relative error of the leg lengths.
+    /// Relative error of the lengths.
     pub sigma: f64,
-    /// Number of problems without a real pose.
+    /// Number of problems without real pose.
     // here two real poses met and became complex
     #[cfg_attr(feature = "files", serde(rename = "without_real_pose"))]
     pub without_pose: u64,
-    /// Angle of the rotation to the nearest real pose, radians; null: no problem has one.
+    /// Rotation angle to the nearest real pose, radians; null: no problem has one.
     #[cfg_attr(feature = "files", serde(rename = "rotation_rad"))]
     pub rotation: Option<Spread>,
     /// Angle between the position vectors, radians.

@@ -68,7 +68,7 @@ pub struct ErrorBin {
     pub from: f64,
     /// The upper end, decimal logarithm; it belongs to the next bin.
     pub to: f64,
-    /// Number of problems in the bin.
+    /// Number of problems.
     pub count: u64,
 }
 
@@ -76,12 +76,12 @@ pub struct ErrorBin {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "StepTimeRecord", transform = num::nullable))]
 pub struct StepTime {
-    /// The name of the step: `template`, `plu`, `qz` as in Table 2 of Martyushev, or `determinants`, `roots`,
+    /// Name of the step: `template`, `plu`, `qz` as in Table 2 of Martyushev, or `determinants`, `roots`,
     /// `back_substitution`.
     pub step: &'static str,
     /// The median time, microseconds.
     pub median_us: f64,
-    /// The library that computes it; null: equipod itself.
+    /// Library; null: equipod itself.
     pub library: Option<&'static str>,
 }
 
@@ -91,20 +91,19 @@ pub struct StepTime {
 pub struct RawReport {
     /// The matrix.
     pub matrix: EliminationMatrix,
-    /// Number of candidates of a problem; forty of them are poses.
+    /// Number of candidates; forty of them are poses.
     pub candidates: usize,
-    /// Number of problems with a degenerate elimination in frames drawn once; the statistics leave them out.
+    /// Number of problems with a degenerate elimination; the statistics leave them out.
     pub refused: u64,
     /// Number of problems with fewer than forty finite candidates; the statistics leave them out.
     pub infinite: u64,
-    /// The error of the forty best candidates (Martyushev, eq. 19), decimal logarithm; null: all problems degenerate.
+    /// Error of the forty best candidates (Martyushev, eq. 19), decimal logarithm; null: all problems degenerate.
     pub epsilon: Option<ErrorStatistics>,
-    /// Decimal logarithm of the fortieth residual divided by the next one (Martyushev, Table 1); null: there is no next
-    /// one.
+    /// Ratio of the fortieth to the next residual, decimal logarithm (Martyushev, Table 1); null: there is no next one.
     pub gap: Option<GapStatistics>,
     /// Histogram of the error (Martyushev, Fig. 3a).
     pub bins: Vec<ErrorBin>,
-    /// Times of the steps, in order.
+    /// Times by step, in order.
     pub steps: Vec<StepTime>,
 }
 

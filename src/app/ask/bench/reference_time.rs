@@ -12,9 +12,9 @@ const RUNS: usize = 12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "ReferenceRecord", transform = num::nullable))]
 pub struct ReferenceTimes {
-    /// Generalised eigenvalues of a random pair of 69 x 69 matrices.
+    /// Generalised eigenvalues, random 69 x 69 pair.
     pub qz69: f64,
-    /// Eigenvalues of a random 40 x 40 matrix.
+    /// Eigenvalues, random 40 x 40 matrix.
     pub eig40: f64,
 }
 

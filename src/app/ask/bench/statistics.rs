@@ -16,9 +16,9 @@ pub struct ErrorStatistics {
     pub mean: f64,
     /// The largest.
     pub max: f64,
-    /// Share of the problems with a value above -5.
+    /// Share of problems above -5.
     pub above_minus_5: f64,
-    /// Share of the problems with a value above -6.
+    /// Share of problems above -6.
     pub above_minus_6: f64,
 }
 
@@ -26,9 +26,9 @@ pub struct ErrorStatistics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "files", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "TimeSplitRecord", transform = num::nullable))]
 pub struct TimeSplit {
-    /// The solver call without certification.
+    /// Call without certification.
     pub solve: f64,
-    /// Certification of the roots, measured separately.
+    /// Certification, measured separately.
     pub certify: f64,
     /// Validation; not part of the solver's time.
     pub validate: f64,

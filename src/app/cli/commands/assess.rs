@@ -12,19 +12,18 @@ use records::AssessAnswer;
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AssessArgs {
-    /// Design file (.toml or .json) with the tables home, workspace and hardware
+    /// Design file (.toml or .json) with `[home]`, `[workspace]` and `[hardware]`
     design: PathBuf,
-    /// Number of Halton points in the region of poses; as many random points are added
+    /// Number of Halton points in the region of poses, and of random ones
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     points: u32,
     /// Number of steps between two poses of a trajectory
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     steps: u32,
-    /// Number of local searches for the worst pose of each requirement
+    /// Number of local searches for each worst pose
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Greatest number of workspace cells for the proof of each kind of requirement, and of det J; default: 6000, and
-    /// 60000 for undecided requirements
+    /// Greatest number of workspace cells for each proof; default: 6000, and 60000 for undecided requirements
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
     cells: Option<u32>,
 }

@@ -16,32 +16,31 @@ use records::AtPoseAnswer;
 pub(crate) struct AtArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// The pose: `home`, or numbers as --rotation-order and the like say
+    /// The pose
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Point that wrenches, shifts and stiffness are about, platform frame; the pivot of poses when absent
+    /// Point that wrenches, shifts and stiffness are about, platform frame; default: the pivot
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     point: Option<String>,
     /// Body whose axes vectors have: `base` or `platform`
     #[arg(long, value_name = "BODY", default_value = "base", value_parser = body)]
     axes: Body,
-    /// Force and torque on the platform about the point: compute the forces of the legs that hold them
+    /// Force and torque on the platform about the point, to be held by the legs
     #[arg(long, value_name = "FX,FY,FZ,TX,TY,TZ", allow_hyphen_values = true)]
     wrench: Option<String>,
-    /// Forces of the legs, positive where they push, or torques of the cranks: compute the wrench that they hold, as a
-    /// six-axis load cell does
+    /// Forces of the legs (positive: push), or torques of the cranks: compute the wrench that they hold
     #[arg(long, value_name = "F1,..,F6", allow_hyphen_values = true)]
     forces: Option<String>,
-    /// Step of the drives for which the motion of the platform is computed: design units of legs, degrees of cranks
+    /// Step of the drives for the resolution: design units of legs, degrees of cranks
     #[arg(long, value_name = "STEP", default_value_t = 1.0, allow_hyphen_values = true)]
     step: f64,
-    /// Leg that is stuck, or free while the others are locked, from 1: compute the motion that remains
+    /// Leg that is stuck, or alone free, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=6))]
     leg: Option<u8>,
     /// Find the nearest singular pose
     #[arg(long)]
     nearest_singular: bool,
-    /// Number of random directions in which the nearest singular pose is sought, in addition to the axes
+    /// Number of random directions of this search, beside the axes
     #[arg(long, value_name = "N", default_value_t = 200, requires = "nearest_singular", value_parser = clap::value_parser!(u32).range(0..=100_000))]
     directions: u32,
     #[command(flatten)]

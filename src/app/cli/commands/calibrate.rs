@@ -23,34 +23,33 @@ use records::{
 pub(crate) struct CalibrateArgs {
     /// Design file (.toml or .json) of the nominal machine
     design: PathBuf,
-    /// Table with a measured pose and six measured lengths on each line (`-` for standard input); without it, poses to
-    /// measure are planned
+    /// Table of measured poses and lengths (`-` for standard input); without it, poses to measure are planned
     measurements: Option<PathBuf>,
-    /// Standard deviation of a length, design units; default: estimated, with equally uncertain lengths and exact poses
+    /// Standard deviation of a length, design units; default: estimated, for exact poses
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     sigma_length: Option<f64>,
-    /// Standard deviation of each coordinate of a measured position, design units; default 0
+    /// Standard deviation of a measured coordinate, design units; default 0
     #[arg(long, value_name = "LENGTH", requires = "sigma_length", allow_hyphen_values = true)]
     sigma_position: Option<f64>,
-    /// Standard deviation of each component of the rotation vector of a measured orientation, degrees; default 0
+    /// Standard deviation of a measured rotation vector component, degrees; default 0
     #[arg(long, value_name = "DEG", requires = "sigma_length", allow_hyphen_values = true)]
     sigma_rotation_deg: Option<f64>,
-    /// Loss function for large residuals; all kinds except squares tolerate gross errors
+    /// Loss function; all except squares tolerate gross errors
     #[arg(long, value_enum, default_value_t = LossArg::Squares)]
     loss: LossArg,
-    /// Unit rejected by the loss: whole poses, or the lengths of single legs
+    /// Unit rejected by the loss: a pose, or a leg length
     #[arg(long, value_enum, default_value_t = UnitArg::Pose)]
     loss_of: UnitArg,
-    /// Frames of the joints: of the measured poses, or of the design, carried by the best-fitting rigid motions
+    /// Frames of the joints: of the measurement, or fitted to the design
     #[arg(long, value_enum, default_value_t = FramesArg::Measured)]
     frames: FramesArg,
-    /// Known quantities to hold fixed, separated by commas
+    /// Known quantities to hold, separated by commas
     #[arg(long, value_enum, value_delimiter = ',')]
     hold: Vec<HeldArg>,
-    /// Start of the fit: the design, a solution that needs no design, or the better result of both
+    /// Start of the fit: the design, a closed form, or the better of both
     #[arg(long, value_enum, default_value_t = StartArg::Best)]
     start: StartArg,
-    /// Greatest standard deviation of an identified change of the machine, as a share of the size of the design
+    /// Greatest standard deviation of an identified change, over the size of the design
     #[arg(long, value_name = "SHARE", default_value_t = 0.01, allow_hyphen_values = true)]
     identified: f64,
     /// Second table of measurements, for residuals outside the fit
@@ -59,11 +58,11 @@ pub(crate) struct CalibrateArgs {
     /// Number of poses to measure next
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(0..=200))]
     next: u16,
-    /// Number of Halton points in the workspace, with as many random ones: candidates for --next, and poses for the
-    /// uncertainty of computed poses
+    /// Number of Halton points in the workspace, and of random ones: candidates for --next, and poses for the
+    /// uncertainty
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(1..=5000))]
     candidates: u16,
-    /// Write the calibrated design, if all of it is identified and no test refutes it
+    /// Write the calibrated design, if identified and not refuted
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
     #[command(flatten)]

@@ -13,7 +13,7 @@ use records::CheckAnswer;
 pub(crate) struct CheckArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Print the algebra behind the answer too: ranks, dependencies, fields, counts
+    /// Print the algebra too: ranks, dependencies, fields, counts
     #[arg(long)]
     details: bool,
 }

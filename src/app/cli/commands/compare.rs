@@ -31,10 +31,10 @@ pub(crate) struct CompareArgs {
     /// Acceleration from rest at home, design units or degrees per second squared; repeat for several
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// Accuracy for joint tolerances: of the platform origin, design units, and of the orientation, degrees
+    /// Accuracy for joint tolerances: platform origin, design units, and orientation, degrees
     #[arg(long, value_name = "LENGTH,DEG")]
     accuracy: Option<String>,
-    /// Number of Halton points in the region of poses; as many random points are added
+    /// Number of Halton points in the region of poses, and of random ones
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     points: u32,
     /// Write the table as CSV, one design on each line

@@ -22,7 +22,7 @@ pub(crate) struct ExportArgs {
     /// Formats, separated by commas, or `all`
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true, value_parser = PossibleValuesParser::new(names()))]
     to: Vec<String>,
-    /// Folder for the files; made if missing
+    /// Folder for the files
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
     /// Length unit of the design, if its label is not one: um, mm, cm, m, in, ft
@@ -31,7 +31,7 @@ pub(crate) struct ExportArgs {
     /// Thickness of the plates, design units
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     thickness: Option<Length>,
-    /// Distance from the joints' hull to the outline of a plate, design units
+    /// Distance from the joints to the outline of a plate, design units
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     margin: Option<Length>,
     /// Diameter of the holes under the joints, design units
@@ -40,14 +40,13 @@ pub(crate) struct ExportArgs {
     /// Diameter of the balls, design units
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     ball_diameter: Option<Length>,
-    /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees. Adds joint tolerances
-    /// to hole plans and tables, as `build tolerances`
+    /// Allowed error as in `build tolerances`, for joint tolerances in hole plans and tables
     #[arg(long, value_name = "LENGTH,DEG")]
     bound: Option<String>,
     /// Tool point, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Mass of platform and payload in the simulation, kilograms
+    /// Mass of platform and payload in simulations, kilograms
     #[arg(long, value_name = "KG")]
     mass: Option<f64>,
     /// Compensate the weight of all bodies in the simulator

@@ -25,21 +25,20 @@ pub(crate) struct LimitsArgs {
     /// Add the straight path to this pose, and the allowed pose nearest to it
     #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
     to: Option<String>,
-    /// Number of starts in addition to home in the search for the nearest allowed pose
+    /// Number of starts beside home in the search for the nearest allowed pose
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     starts: u32,
-    /// Add the size of the workspace around home: volume, largest ball and box of positions, rotations, the required
-    /// region
+    /// Add the size of the workspace around home
     #[arg(long)]
     workspace: bool,
-    /// Number of directions for the volume and the largest box of the workspace
+    /// Number of directions for the volume and the box
     #[arg(long, value_name = "N", default_value_t = RAYS as u32, value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
     rays: u32,
-    /// Write the surface of the positions that straight paths from the pose reach at its orientation: a mesh (.stl,
-    /// .ply), or its corners with the limits that end the paths (.csv)
+    /// Write the surface of the positions reached at this orientation: a mesh (.stl, .ply), or its corners with the
+    /// limits that end the paths (.csv)
     #[arg(long, value_name = "FILE")]
     surface: Option<OutputPath>,
-    /// Fineness of this surface: the number of paths is 10 times 4 to this power, plus 2
+    /// Fineness of this surface: 10 4^N + 2 paths
     #[arg(long, value_name = "N", default_value_t = 4, requires = "surface", value_parser = clap::value_parser!(u32).range(0..=8))]
     level: u32,
     #[command(flatten)]

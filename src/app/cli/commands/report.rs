@@ -23,8 +23,7 @@ const MOST_BYTES: u64 = 64 << 20;
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReportArgs {
-    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of its folders only
-    /// machine/parts.csv, the bill of materials, is read
+    /// Folder with designs (.toml, .json), results (.json) and pictures (.svg); below it only machine/parts.csv is read
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Write the page to this file; default: report.html in the folder

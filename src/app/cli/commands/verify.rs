@@ -13,11 +13,11 @@ use verify::{Verdict, VerifyError, verify_mapped};
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct VerifyArgs {
-    /// Design file (.toml or .json); its home pose and workspace give the sample poses
+    /// Design file (.toml or .json); home and workspace give the sample poses
     a: PathBuf,
-    /// Design file to compare with, in the same units and, without --align, in the same two frames
+    /// Design file to compare with, in the same units and, without --align, the same frames
     b: PathBuf,
-    /// Number of length sets; both designs are solved and compared at each
+    /// Number of length sets at which both designs are solved
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = at_least_one)]
     samples: usize,
     #[command(flatten)]

@@ -9,16 +9,15 @@ use records::{AssessAnswer, ViewAnswer};
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// Design file (.toml or .json); without it, the page asks for a hexapod from a data sheet, twelve points or an
-    /// example
+    /// Design file (.toml or .json); without it, the page asks for a hexapod
     design: Option<PathBuf>,
-    /// Write the page to this file; default: the name of the design file with .html, or equipod.html without a design
+    /// Write the page to this file; default: DESIGN.html or equipod.html
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Pattern of the equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
+    /// Pattern of the equivalent platform shown first, for instance S123456 (no shared joint)
     #[arg(long, value_name = "ID", requires = "offsets")]
     pattern: Option<String>,
-    /// Offsets of this platform, as fractions of the edges; without --pattern they are for S123456
+    /// Offsets of this platform, as fractions of the edges; default pattern: S123456
     #[arg(
         long,
         value_name = "T1,..",
@@ -27,8 +26,7 @@ pub(crate) struct ViewArgs {
         requires = "design"
     )]
     offsets: Option<Vec<f64>>,
-    /// WebAssembly core to use instead of the program's own, plain or gzip-compressed; `none` makes a page with
-    /// recorded data only
+    /// WebAssembly core instead of the program's own, plain or compressed; `none`: recorded data only
     #[arg(long, value_name = "FILE|none")]
     core: Option<PathBuf>,
 }

@@ -17,7 +17,7 @@ const RECORDS_OF_ALL: [&str; 4] =
 /// A field that so many records have with the same meaning is described once, at the top of the page.
 const COMMON: usize = 2;
 /// A meaning with fewer words is repeated instead.
-const LEAST_COMMON: usize = 3;
+const LEAST_COMMON: usize = 2;
 /// A longer list of words has a section of its own.
 const MOST_WORDS: usize = 12;
 /// Records with fewer fields are written out again where another record contains them.
@@ -39,6 +39,12 @@ const UNITS: [&str; 8] = [
     "decimal logarithm",
 ];
 
+/// Ends of names that tell a unit.
+const NAMED_UNITS: [(&str, &str); 5] =
+    [("_deg", "degrees"), ("_s", "seconds"), ("_us", "microseconds"), ("_rad", "radians"), ("_hz", "hertz")];
+/// Definitions of complex numbers, whose names end with the arrangement of the numbers.
+const COMPLEX: &str = "ComplexRecord";
+
 /// A field as one line shows it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Field {
@@ -48,12 +54,38 @@ struct Field {
 }
 
 impl Field {
-    /// Numbers are the usual kind and go without saying, as do records whose fields follow.
+    /// The field whether it may be null or not, and for integers as for other numbers.
+    fn loose(&self) -> Self {
+        let kind = self.kind.replace("integer", "number").trim_end_matches('?').to_string();
+        Self { kind, ..self.clone() }
+    }
+
+    /// The marks of lists and of null behind the name, if they say all of the kind: numbers and records are the usual
+    /// kinds, and a meaning tells a boolean.
+    fn marks(&self) -> Option<&str> {
+        let usual = ["number", "integer", "record"].into_iter().find_map(|k| self.kind.strip_prefix(k));
+        let told = self.kind.strip_prefix("boolean").filter(|_| self.meaning.starts_with("Whether"));
+        let marks = usual.or(told)?;
+        let of_list = marks.strip_suffix('?').unwrap_or(marks);
+        let is_number = ["number?", "integer?"].contains(&self.kind.as_str());
+        let is_plain = of_list.chars().all(|c| c.is_ascii_digit() || c == '[' || c == ']');
+        is_plain.then_some(if is_number { "" } else { marks })
+    }
+
     fn line(&self) -> String {
-        let is_usual = ["number", "number?", "integer", "integer?", "record"].contains(&self.kind.as_str());
-        let kind = if is_usual { String::new() } else { format!(" ({})", self.kind) };
+        let (marks, kind) = match self.marks() {
+            Some(marks) => (marks, String::new()),
+            None => ("", format!(" ({})", self.kind)),
+        };
         let meaning = if self.meaning.is_empty() { String::new() } else { format!(": {}.", self.meaning) };
-        format!("`{}`{kind}{meaning}", self.name)
+        format!("`{}{marks}`{kind}{meaning}", self.name)
+    }
+
+    /// The name of a field that is described elsewhere.
+    fn reminder(&self) -> String {
+        let is_number = ["number?", "integer?"].contains(&self.kind.as_str());
+        let mark = if self.kind.ends_with('?') && !is_number { "?" } else { "" };
+        format!("`{}{mark}`", self.name)
     }
 }
 
@@ -66,6 +98,11 @@ struct Answers {
     sections: BTreeSet<String>,
     /// Fields described at the top.
     common: BTreeSet<Field>,
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 fn count(text: &str) -> usize {
@@ -131,8 +168,7 @@ fn brief(description: &str) -> String {
     }
     for article in ["The ", "A ", "An "] {
         if let Some(rest) = main.strip_prefix(article).filter(|rest| !rest.starts_with("same")) {
-            let mut letters = rest.chars();
-            main = letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default();
+            main = capitalised(rest);
         }
     }
     // both values of a truth value
@@ -141,8 +177,27 @@ fn brief(description: &str) -> String {
     std::iter::once(main.as_str()).chain(others).collect::<Vec<_>>().join("; ")
 }
 
+/// A meaning without a unit that the page or the name tells, and without `Number of` for an integer.
+fn without_usual(name: &str, kind: &str, meaning: &str) -> String {
+    let mut main = meaning.strip_suffix(", design units").unwrap_or(meaning);
+    for (end, unit) in NAMED_UNITS {
+        let rest = main.strip_suffix(unit).and_then(|rest| rest.strip_suffix(", "));
+        main = rest.filter(|_| name.ends_with(end)).unwrap_or(main);
+    }
+    let counted = main.strip_prefix("Number of ").filter(|_| ["integer", "integer?"].contains(&kind));
+    let things = counted.filter(|rest| {
+        let first = rest.split(' ').next().unwrap_or_default();
+        !first.starts_with('`') && !["the", "its", "a", "an", "this", "these", "that"].contains(&first)
+    });
+    things.map_or_else(|| main.to_string(), capitalised)
+}
+
 /// Whether a text says no more than the name of its field.
 fn repeats(name: &str, meaning: &str) -> bool {
+    let of_name = meaning.strip_prefix("Name of the ").filter(|_| name == "name");
+    if of_name.is_some_and(|rest| rest.chars().all(char::is_alphanumeric)) {
+        return true;
+    }
     let names: Vec<String> = name.to_lowercase().split('_').map(|n| n.chars().take(5).collect()).collect();
     let small = ["the", "a", "an", "of", "its", "it", "in", "to", "and", "is", "as", "for", "this", "are"];
     let mut said = meaning.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
@@ -152,23 +207,48 @@ fn repeats(name: &str, meaning: &str) -> bool {
     })
 }
 
-/// Adds the definitions of an answer. A type that holds several shapes of numbers has numbered definitions, and each
-/// answer counts from 1: such a name gets another number here.
-fn add(all: &mut BTreeMap<String, Value>, found: &Map<String, Value>) {
-    let clashes = |name: &str, schema: &Value| all.get(name).is_some_and(|known| known != schema);
-    let mut names: BTreeMap<&str, String> = BTreeMap::new();
+/// The sizes of nested lists, such as `[3][3]`, or the record that a schema names.
+fn arrangement(schema: &Value) -> String {
+    match (schema.get("items"), schema.get("minItems")) {
+        (Some(each), Some(size)) => format!("{}[{size}]", arrangement(each)),
+        _ => reference(schema).unwrap_or_default().to_string(),
+    }
+}
+
+/// Definitions under new names.
+fn renamed(found: &Map<String, Value>, names: &BTreeMap<String, String>) -> Map<String, Value> {
     let mut text = Value::Object(found.clone()).to_string();
+    for (name, new) in names {
+        text = text.replace(&format!("#/$defs/{name}\""), &format!("#/$defs/{new}\""));
+    }
+    let found: Map<String, Value> = serde_json::from_str(&text).unwrap_or_default();
+    found.into_iter().map(|(name, schema)| (names.get(&name).cloned().unwrap_or(name), schema)).collect()
+}
+
+/// Adds the definitions of an answer. A type that holds several shapes of numbers has numbered definitions, and each
+/// answer counts from 1: complex numbers are named by their arrangement here, and other such names get another number.
+fn add(all: &mut BTreeMap<String, Value>, found: &Map<String, Value>) {
+    let complex = found.iter().filter_map(|(name, schema)| {
+        let number = name.strip_prefix(COMPLEX)?;
+        let part = schema.get("properties")?.get("re")?;
+        let is_numbered = number.chars().all(|c| c.is_ascii_digit());
+        is_numbered.then(|| (name.clone(), format!("{COMPLEX}{}", arrangement(part))))
+    });
+    let found = renamed(found, &complex.collect());
+    let clashes = |name: &str, schema: &Value| all.get(name).is_some_and(|known| known != schema);
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
     for (name, schema) in found.iter().filter(|(name, schema)| clashes(name, schema)) {
         let is_free = |new: &String| !found.contains_key(new) && !clashes(new, schema);
         if let Some(new) = (2..=found.len() + all.len() + 2).map(|k| format!("{name}{k}")).find(is_free) {
-            text = text.replace(&format!("#/$defs/{name}\""), &format!("#/$defs/{new}\""));
-            names.insert(name, new);
+            names.insert(name.clone(), new);
         }
     }
-    let renamed: Map<String, Value> = serde_json::from_str(&text).unwrap_or_default();
-    for (name, schema) in renamed {
-        all.insert(names.get(name.as_str()).cloned().unwrap_or(name), schema);
-    }
+    all.extend(renamed(&found, &names));
+}
+
+/// The arrangement of complex numbers, for the definitions that hold nothing else.
+fn complex_list(name: &str) -> Option<&str> {
+    name.strip_prefix(COMPLEX).filter(|list| list.starts_with('['))
 }
 
 /// A design file or a part of it, which has a page of its own.
@@ -179,6 +259,14 @@ fn is_of_design(name: &str) -> bool {
 fn own_properties(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
     let properties = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
     properties.filter(|(name, _)| !IN_ALL.contains(&name.as_str()))
+}
+
+/// A line with names, if there are some.
+fn write_names(out: &mut String, pad: &str, before: &str, names: &mut Vec<String>) {
+    if !names.is_empty() {
+        let _ = writeln!(out, "{pad}- {before}{}.", names.join(", "));
+        names.clear();
+    }
 }
 
 impl Answers {
@@ -214,7 +302,7 @@ impl Answers {
     /// The records that a field names, in lists, tables and alternatives too.
     fn named<'a>(&'a self, schema: &'a Value, out: &mut Vec<&'a str>) {
         if let Some((name, found)) = self.definition(schema) {
-            match (is_of_design(name), self.is_record(found)) {
+            match (is_of_design(name) || complex_list(name).is_some(), self.is_record(found)) {
                 (true, _) => {}
                 (_, true) => out.push(name),
                 _ => self.named(found, out),
@@ -285,7 +373,7 @@ impl Answers {
             let mut fields = BTreeSet::new();
             self.collect_fields(root, &self.definitions[root], &mut fields);
             for field in fields {
-                *seen.entry(field).or_default() += 1;
+                *seen.entry(field.loose()).or_default() += 1;
             }
         }
         let mut best: BTreeMap<String, (usize, Field)> = BTreeMap::new();
@@ -325,6 +413,7 @@ impl Answers {
         let others = self.definitions.iter().filter(|(other, found)| {
             let smaller =
                 own_properties(found).count() < own.len() || name.is_empty() || other.as_str() < name;
+            let smaller = smaller || alternatives(schema).next().is_some();
             other.as_str() != name && !self.names.contains(&other.as_str()) && smaller && is_part(found)
         });
         others.max_by_key(|(_, found)| own_properties(found).count()).map(|(other, _)| other.as_str())
@@ -344,6 +433,9 @@ impl Answers {
             return match name {
                 "design" => "[design](design-files.md)".to_string(),
                 _ if is_of_design(name) => "[part of a design](design-files.md)".to_string(),
+                _ if complex_list(name).is_some() => {
+                    format!("complex{}", complex_list(name).unwrap_or_default())
+                }
                 _ if words(found).len() > MOST_WORDS => format!("[{name}](#{})", name.to_lowercase()),
                 _ if !self.is_record(found) => self.kind(found),
                 _ if self.sections.contains(name) => format!("[{name}](#{})", name.to_lowercase()),
@@ -421,12 +513,14 @@ impl Answers {
 
     fn field(&self, name: &str, property: &Value) -> Field {
         let said = text(property, "description").or_else(|| text(self.resolved(property), "description"));
-        let meaning = said.map(brief).filter(|said| !repeats(name, said)).unwrap_or_default();
-        Field { name: name.to_string(), kind: self.kind(property), meaning }
+        let kind = self.kind(property);
+        let meaning = said.map(|said| without_usual(name, &kind, &brief(said)));
+        let meaning = meaning.filter(|said| !repeats(name, said)).unwrap_or_default();
+        Field { name: name.to_string(), kind, meaning }
     }
 
-    /// The fields of a record and of its cases as a list. Fields of the records around it, and of an earlier case, are
-    /// only named.
+    /// The fields of a record and of its cases as a list. Fields described at the top, in the records around it or in
+    /// an earlier case are only named.
     fn list(
         &self,
         (name, schema): (&str, &Value),
@@ -437,7 +531,7 @@ impl Answers {
         let pad = " ".repeat(indent);
         let mut out = String::new();
         if let Some(part) = self.part_of(name, schema) {
-            let _ = writeln!(out, "{pad}- The fields of [{part}](#{}).", part.to_lowercase());
+            let _ = writeln!(out, "{pad}- Fields of [{part}](#{}).", part.to_lowercase());
         }
         let own: Vec<(&String, &Value)> = self.shown(name, schema).collect();
         let plain = own.iter().filter(|(_, property)| !self.has_list_below(property));
@@ -445,19 +539,27 @@ impl Answers {
             .map(|(field, property)| self.field(field, property))
             .chain(around.iter().cloned())
             .collect();
-        let (mut common, mut outside, mut before) = (Vec::new(), Vec::new(), Vec::new());
+        // neighbours without a meaning share a line
+        let (mut bare, mut before) = (Vec::new(), Vec::new());
         for (name, property) in own {
             let field = self.field(name, property);
-            let names = match self.has_list_below(property) {
-                false if self.common.contains(&field) => Some(&mut common),
-                false if around.contains(&field) => Some(&mut outside),
-                false if shown.contains(&field) => Some(&mut before),
-                _ => None,
-            };
-            if let Some(names) = names {
-                names.push(format!("`{name}`"));
+            let has_list = self.has_list_below(property);
+            // a reminder is of the nearest field with this name, so all of them have to be the same
+            let mut namesakes = around.iter().chain(shown.iter()).filter(|known| known.name == *name);
+            let agree = namesakes.all(|known| known.loose() == field.loose());
+            let is_described =
+                self.common.contains(&field.loose()) || around.contains(&field) || shown.contains(&field);
+            let is_described = agree && is_described;
+            if is_described && !has_list {
+                before.push(field.reminder());
                 continue;
             }
+            if field.meaning.is_empty() && !has_list {
+                bare.push(field.line());
+                shown.insert(field);
+                continue;
+            }
+            write_names(&mut out, &pad, "", &mut bare);
             let _ = writeln!(out, "{pad}- {}", field.line());
             for record in self.below(property) {
                 let found = (record, &self.definitions[record]);
@@ -465,11 +567,8 @@ impl Answers {
             }
             shown.insert(field);
         }
-        for (title, names) in [("Common", common), ("As around it", outside), ("As above", before)] {
-            if !names.is_empty() {
-                let _ = writeln!(out, "{pad}- {title}: {}.", names.join(", "));
-            }
-        }
+        write_names(&mut out, &pad, "", &mut bare);
+        write_names(&mut out, &pad, "Also ", &mut before);
         for case in self.cases(schema) {
             let found = self.resolved(case);
             let said = text(case, "description").or_else(|| text(found, "description")).unwrap_or("Or");
@@ -477,7 +576,7 @@ impl Answers {
             let said = format!("*{}*", brief(said));
             if self.sections.contains(case_name) {
                 let link = format!("[{case_name}](#{})", case_name.to_lowercase());
-                let _ = writeln!(out, "{pad}- {said}: the fields of {link}.");
+                let _ = writeln!(out, "{pad}- {said}: {link}.");
                 continue;
             }
             let fields = self.list((case_name, found), indent + 2, &inside, shown);

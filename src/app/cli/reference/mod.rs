@@ -19,7 +19,7 @@ use records::{ReferenceAnswer, schema_names};
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
-    /// Page with marks `<!-- options of COMMAND -->`, `<!-- fields of ANSWER -->`, `<!-- keys of design -->` or
+    /// Page with marks `<!-- options of COMMAND -->`, `<!-- options of poses -->`, `<!-- keys of design -->` or
     /// `<!-- all records -->`; the text up to `<!-- end of options -->` and so on is replaced
     page: PathBuf,
 }
@@ -60,19 +60,31 @@ fn spelling(arg: &Arg) -> String {
 /// The beginning of the text of an argument that the manual describes once for all commands.
 const DESIGN: &str = "Design file (.toml or .json)";
 
+/// The notations of a pose, which the manual describes once too.
+const POSE: &str = ": `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`";
+/// The name of the block with the options that many commands share, and the place of that block in the manual.
+const SHARED: (&str, &str) = ("poses", "[Convention of poses](#convention-of-poses)");
+/// A longer list of words is left to the page that describes them.
+const MOST_WORDS: usize = 20;
+
+/// Whether an argument is one of the options that many commands share.
+fn is_shared(arg: &Arg) -> bool {
+    arg.get_help_heading().is_some_and(|heading| heading.starts_with("Convention of poses"))
+}
+
 /// The link to the fields of the answer of a command; empty for groups.
 fn answer(command: &Command) -> String {
     let name = path(command).replace(' ', "-");
     let known = schema_names().any(|schema| schema == name);
-    if known { format!("Answer: [fields](answers.md#equipod-{name}).\n\n") } else { String::new() }
+    if known { format!(" [Answer](answers.md#equipod-{name}).") } else { String::new() }
 }
 
 fn meaning(arg: &Arg) -> String {
-    let mut out = one_line(&arg.get_help().map(ToString::to_string).unwrap_or_default());
+    let mut out = one_line(&arg.get_help().map(ToString::to_string).unwrap_or_default()).replace(POSE, "");
     if arg.get_action().takes_values() {
         let possible: Vec<String> =
             arg.get_possible_values().iter().map(|v| format!("`{}`", v.get_name())).collect();
-        if !possible.is_empty() {
+        if (1..=MOST_WORDS).contains(&possible.len()) {
             let _ = write!(out, "; one of {}", possible.join(", "));
         }
         let default: Vec<_> = arg.get_default_values().iter().map(|v| v.to_string_lossy()).collect();
@@ -94,46 +106,57 @@ fn path(command: &Command) -> &str {
 /// The examples of a command as in its `--help`; none for groups.
 fn examples(command: &Command) -> String {
     let Some(entry) = guide::entries().find(|e| e.path == path(command)) else { return String::new() };
-    let heading = if entry.examples.len() == 1 { "Example" } else { "Examples" };
     let lines: Vec<String> = entry.examples.iter().map(|e| format!("    equipod {e}\n")).collect();
-    format!("{heading}:\n\n{}\n", lines.concat())
+    format!("{}\n", lines.concat())
 }
 
-/// Purpose, usage, options and examples of one command and its own commands; options of all commands are listed only
-/// for the program.
-fn block(command: &Command, global: bool) -> String {
-    let usage = command.clone().render_usage().to_string();
-    let mut out = String::from("\n");
-    if let (Some(about), false) = (command.get_about(), global) {
-        let _ = writeln!(out, "{}.\n", one_line(&about.to_string()));
-    }
-    let _ = writeln!(out, "    {}\n", one_line(usage.trim_start_matches("Usage:")));
-    let shown = |a: &&Arg| {
-        let own = global || !a.is_global_set();
-        !a.is_hide_set() && own && !["help", "version"].contains(&a.get_id().as_str())
-    };
-    let (first, rest): (Vec<&Arg>, Vec<&Arg>) =
-        command.get_arguments().filter(shown).partition(|a| a.is_positional());
+/// A line for each argument, those without a dash first.
+fn lines<'a>(arguments: impl Iterator<Item = &'a Arg>) -> String {
+    let (first, rest): (Vec<&Arg>, Vec<&Arg>) = arguments.partition(|a| a.is_positional());
     let said = |a: &&Arg| {
         let rest = meaning(a);
         rest.strip_prefix(DESIGN).is_none_or(|rest| !(rest.is_empty() || rest.starts_with(", or `-`")))
     };
-    let lines: Vec<String> = first
-        .into_iter()
-        .chain(rest)
-        .filter(said)
-        .map(|arg| format!("- `{}`: {}\n", spelling(arg), meaning(arg)))
-        .collect();
-    if !lines.is_empty() {
-        let _ = writeln!(out, "{}", lines.concat());
+    let mut out = String::new();
+    for arg in first.into_iter().chain(rest).filter(said) {
+        let _ = writeln!(out, "- `{}`: {}", spelling(arg), meaning(arg));
+    }
+    out
+}
+
+/// Purpose, examples and options of one command and its own commands; options of all commands are listed only for the
+/// program, and those that many commands share by a link. A figure of `plot` has no heading: its purpose names it.
+fn block(command: &Command, global: bool) -> String {
+    let mut out = String::from("\n");
+    let shown = |a: &&Arg| {
+        let own = global || !a.is_global_set();
+        !a.is_hide_set() && own && !["help", "version"].contains(&a.get_id().as_str())
+    };
+    let arguments = || command.get_arguments().filter(shown);
+    if let (Some(about), false) = (command.get_about(), global) {
+        let name =
+            path(command).strip_prefix("plot ").map(|name| format!("`plot {name}`: ")).unwrap_or_default();
+        let _ = writeln!(out, "{name}{}.{}\n", one_line(&about.to_string()), answer(command));
+        out.push_str(&examples(command));
+    }
+    let mut listed = lines(arguments().filter(|a| !is_shared(a)));
+    if arguments().any(is_shared) {
+        let _ = writeln!(listed, "- {}", SHARED.1);
+    }
+    if !listed.is_empty() {
+        let _ = writeln!(out, "{listed}");
     }
     if !global {
-        out.push_str(&examples(command));
-        out.push_str(&answer(command));
         let parts = command.get_subcommands().filter(|c| !c.is_hide_set());
         out.extend(parts.map(|c| block(c, false).trim_start_matches('\n').to_string()));
     }
     out
+}
+
+/// The options that many commands share, from the first command that has them.
+fn shared_options(program: &Command) -> Option<String> {
+    let command = program.get_subcommands().find(|c| c.get_arguments().any(is_shared))?;
+    Some(format!("\n{}\n", lines(command.get_arguments().filter(|a| is_shared(a)))))
 }
 
 /// The commands and answers that the manual still has to describe.
@@ -147,7 +170,7 @@ impl OpenEntries {
     fn new() -> Self {
         let mut program = guide::program().disable_help_subcommand(true);
         program.build();
-        Self { program, whole: true, commands: guide::entries().map(|e| e.path).collect() }
+        Self { program, whole: true, commands: guide::entries().map(|e| e.path).chain([SHARED.0]).collect() }
     }
 
     /// The options of a command, each command once; `None` if it is unknown or already described.
@@ -157,6 +180,9 @@ impl OpenEntries {
         }
         let before = self.commands.len();
         self.commands.retain(|path| *path != name && !path.starts_with(&format!("{name} ")));
+        if name == SHARED.0 {
+            return (self.commands.len() < before).then(|| shared_options(&self.program)).flatten();
+        }
         let command = name.split(' ').try_fold(&self.program, |c, word| c.find_subcommand(word))?;
         (self.commands.len() < before).then(|| block(command, false))
     }

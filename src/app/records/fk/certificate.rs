@@ -16,52 +16,51 @@ use num::ball::Disc;
 pub enum CertificateRecord {
     /// In coordinates `(e, g / unit)` with `e_patch = 1`; distances are largest moduli of coordinate differences.
     Study {
-        /// Index of the coordinate that equals 1.
+        /// Coordinate that equals 1.
         patch: usize,
         /// A power of two, design units.
         unit: Number,
         /// The centre of the ball.
         centre: ComplexRecord<[Number; 8]>,
-        /// Low-order parts of the centre, to be added to it.
+        /// Its low-order parts, to be added to it.
         centre_low: ComplexRecord<[Number; 8]>,
         /// One root lies within this distance of the centre.
         radius: Number,
         /// No other root lies within this distance.
         uniqueness_radius: Number,
-        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
+        /// Contraction of the simplified Newton map on that ball, below 1.
         contraction: Number,
         /// Precision of the centre.
         precision: CentrePrecision,
         /// Reality of the root, proved for all squared lengths within the rounding of the data.
         reality: ProvedReality,
-        /// Discs that contain the pose of the root.
+        /// Discs that contain the pose.
         enclosure: Box<EnclosureRecord>,
     },
-    /// A cluster of close or equal roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1.
-    /// They lie on a curve through the centre, parametrised by t with |t| below `reach`.
+    /// Cluster of close or equal roots (e, g / unit), with coordinate `patch` of e equal to 1. They lie on a curve
+    /// through the centre, parametrised by t with |t| below `reach`.
     Cluster {
         /// Number of roots, counted with multiplicity; at least 2.
         multiplicity: usize,
-        /// Index of the coordinate that equals 1.
+        /// Coordinate that equals 1.
         patch: usize,
         /// The unit of g, design units.
         unit: Number,
         /// e0..e3, g0..g3 over the unit.
         centre: ComplexRecord<[Number; 8]>,
-        /// Low-order parts of the centre, to be added to it.
+        /// Its low-order parts, to be added to it.
         centre_low: ComplexRecord<[Number; 8]>,
-        /// All roots of the cluster lie within this distance of the centre.
+        /// All roots lie within this distance of the centre.
         radius: Number,
         /// No other root lies within this distance; it may be smaller than the radius.
         uniqueness_radius: Number,
         /// Radius of the disc of t.
         reach: Number,
-        /// Remainder of the equation divided by its leading term, the power of t with the multiplicity as exponent, on
-        /// the circle; below 1.
+        /// Remainder over the leading term, the power of t with the multiplicity as exponent, on the circle; below 1.
         dominance: Number,
         /// `non_real` if no root is real; otherwise undecided.
         reality: ProvedReality,
-        /// Discs that contain all poses of the cluster.
+        /// Discs that contain all poses.
         enclosure: Box<EnclosureRecord>,
     },
     /// Three angles as coordinates. The legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles about the axes P1 P2, P2 P3,
@@ -79,13 +78,13 @@ pub enum CertificateRecord {
         radius: Number,
         /// No other pose lies within this angle.
         uniqueness_radius: Number,
-        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
+        /// Contraction of the simplified Newton map on that ball, below 1.
         contraction: Number,
         /// Precision of the centre.
         precision: CentrePrecision,
         /// Reality of the root, proved for all squared lengths within the rounding of the data.
         reality: ProvedReality,
-        /// Discs that contain the pose of the root.
+        /// Discs that contain the pose.
         enclosure: Box<EnclosureRecord>,
     },
 }
@@ -155,10 +154,10 @@ impl From<&OctahedralCertificate> for CertificateRecord {
 /// Discs that contain the entries of R and p of a root.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct EnclosureRecord {
-    /// The entries of the rotation matrix, rows.
+    /// Rotation matrix entries, rows.
     #[serde(rename = "R")]
     pub rotation: DiscsRecord<[[Number; 3]; 3]>,
-    /// The entries of the position, design units.
+    /// Position entries, design units.
     #[serde(rename = "p")]
     pub position: DiscsRecord<[Number; 3]>,
 }
@@ -166,9 +165,9 @@ pub struct EnclosureRecord {
 /// Discs in the complex plane, in some arrangement.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DiscsRecord<T> {
-    /// Real parts of the centres.
+    /// Real parts of centres.
     pub re: T,
-    /// Imaginary parts of the centres.
+    /// Imaginary parts of centres.
     pub im: T,
     /// Radii.
     pub radius: T,

@@ -14,11 +14,11 @@ use platform::topology::{JointIndex, Step};
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ClosureRecord {
-    /// The polynomial is computed by trilaterations in exact arithmetic.
+    /// Polynomial by trilaterations, in exact arithmetic.
     Polynomial(Box<ClosurePolynomialRecord>),
-    /// The polynomial is computed from all poses, with enclosed coefficients.
+    /// Polynomial from all poses, with enclosed coefficients.
     OfPoses(Box<DistancePolynomialRecord>),
-    /// There is no polynomial.
+    /// No polynomial.
     None {
         /// The reason.
         error: String,
@@ -30,7 +30,7 @@ pub enum ClosureRecord {
 pub struct ClosurePolynomialRecord {
     /// The joints of the virtual leg; null: none is needed.
     pub virtual_leg: Option<[String; 2]>,
-    /// The two joints with the unknown squared distance.
+    /// Two joints with unknown squared distance.
     pub unknown: [String; 2],
     /// The joints of the first triangle.
     pub start: [String; 3],
@@ -51,19 +51,19 @@ pub struct ClosurePolynomialRecord {
 /// planar design have one root.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DistancePolynomialRecord {
-    /// The two joints with the unknown squared distance.
+    /// Two joints with unknown squared distance.
     pub unknown: [String; 2],
     /// The polynomial and its real roots.
     #[serde(flatten)]
     pub polynomial: PolynomialRecord,
-    /// The reason why trilaterations give no polynomial.
+    /// Reason for no trilateration polynomial.
     pub no_sequence: String,
 }
 
 /// One trilateration: a joint placed by its distances from three others.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
-    /// Three joints already placed.
+    /// Joints already placed.
     pub from: [String; 3],
     /// The joint placed.
     pub place: String,

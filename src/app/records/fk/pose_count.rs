@@ -11,20 +11,20 @@ use fk::{Completeness, FkSolutions};
 pub struct PoseCountRecord {
     /// Number of poses with multiplicity; null: not finite, or undecided.
     pub finite: Option<usize>,
-    /// Number of standard monomials of each degree.
+    /// Number of standard monomials by degree.
     pub by_degree: Option<Vec<usize>>,
-    /// Dimension of a set of positive dimension.
+    /// Dimension of a positive-dimensional set.
     pub dimension: Option<usize>,
-    /// Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
+    /// Degree of a positive-dimensional set, in the 16 coordinates of a pose, with multiplicity.
     pub degree: Option<usize>,
-    /// The reason why there is no count.
+    /// Reason for no count.
     pub undecided: Option<CountUndecided>,
     /// The counted lengths: the exact ones given, or generic ones, which have at least as many isolated poses. Lengths
     /// known only to rounding, such as images under a leg map, are counted as generic.
     pub lengths: CountedLengths,
     /// The evidence for the count: a theorem with certificates, or counting modulo random primes.
     pub evidence: EvidenceWord,
-    /// A bound on the probability of a wrong count; null: proved, or undecided.
+    /// Bound on the probability of a wrong count; null: proved, or undecided.
     pub error_probability: Option<f64>,
     /// The primes in decimal, as text: they have more digits than a double.
     pub primes: Vec<String>,

@@ -22,28 +22,28 @@ const GROWN: f64 = 1.2;
 /// The active bounds of a platform, and the growth of its bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActiveBoundsRecord {
-    /// Active ranges of variables and active limits.
+    /// Active bounds.
     pub bounds: Vec<ActiveBoundRecord>,
-    /// Growth of the base as a factor: greatest distance of a base joint from the centre of the base joints, divided by
-    /// its value in the design.
+    /// Growth factor of the base: greatest distance of a base joint from the centre of the base joints, divided by its
+    /// value in the design.
     pub base_growth: Number,
-    /// Growth of the platform as a factor: greatest distance of a platform joint from the centre of the platform
-    /// joints, divided by its value in the design.
+    /// Growth factor of the platform: greatest distance of a platform joint from the centre of the platform joints,
+    /// divided by its value in the design.
     pub platform_growth: Number,
-    /// The bounds in one sentence.
+    /// Bounds in words.
     pub message: String,
 }
 
 /// An active bound.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActiveBoundRecord {
-    /// The name of a variable or a requirement, or `abs_det`.
+    /// Variable or requirement, or `abs_det`.
     pub name: String,
     /// The kind of bound.
     pub kind: ActiveBoundWord,
-    /// The value of the variable or the margin of the limit.
+    /// Value of the variable, or margin.
     pub value: Number,
-    /// The unit of the value; empty for a pure number.
+    /// Unit; empty for a pure number.
     pub unit: String,
 }
 

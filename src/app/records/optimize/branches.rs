@@ -13,15 +13,15 @@ pub struct BranchRecord {
     /// Zone of each offset: before, inside or beyond its edge.
     #[schemars(extend("pattern" = ZONES))]
     pub branch: String,
-    /// The outcome of the branch.
+    /// Outcome.
     pub verdict: BranchWord,
     /// The best objective of the branch, if it is dominated.
     pub objective: Option<Number>,
     /// The offsets with this objective.
     pub offsets: Option<[Number; 6]>,
-    /// Number of parts of the branch searched.
+    /// Number of searched parts.
     pub cells: usize,
-    /// Proved conflicts of the branch or of parts of it.
+    /// Proved conflicts.
     pub conflicts: Vec<BranchConflictRecord>,
 }
 
@@ -48,7 +48,7 @@ pub struct BranchConflictRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]
     pub code: String,
-    /// The proof in one sentence, with its numbers.
+    /// Proof in words, with its numbers.
     pub message: String,
 }
 

@@ -17,7 +17,7 @@ pub struct ConflictRecord {
     pub proved: bool,
     /// The requirements in conflict, with the amounts to relax. Empty: the branches are empty for different reasons.
     pub requirements: Vec<GiveRecord>,
-    /// The reasons for empty branches of the offsets, by kind; empty: the search has no branches.
+    /// Reasons for empty branches, by kind; empty: the search has no branches.
     pub reasons: Vec<ConflictReasonRecord>,
 }
 
@@ -27,9 +27,9 @@ pub struct ConflictReasonRecord {
     /// A short stable code.
     #[schemars(extend("enum" = Conflict::CODES))]
     pub code: String,
-    /// Number of branches with this as their first proof.
+    /// Number of branches with this first proof.
     pub branches: usize,
-    /// The proof for one of these branches in one sentence, with its numbers.
+    /// Proof for one branch, with its numbers.
     pub message: String,
 }
 
@@ -74,14 +74,13 @@ impl ConflictReasonRecord {
 pub struct GiveRecord {
     /// The requirement.
     pub name: DemandWord,
-    /// The unit of the amounts.
+    /// Unit.
     pub unit: String,
-    /// The amount of relaxation that suffices alone; null: no amount suffices.
+    /// Relaxation that suffices alone; null: no amount suffices.
     pub alone: Option<Number>,
-    /// The amount of relaxation if all requirements give way together; the sum of these amounts, each in its scale, is
-    /// least.
+    /// Relaxation if all give way together; the sum of these amounts, each in its scale, is least.
     pub together: Number,
-    /// The relaxation in one sentence.
+    /// Relaxation in words.
     pub message: String,
 }
 

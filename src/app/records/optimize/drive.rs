@@ -13,17 +13,17 @@ use optimize::dimensional::DimensionalOutcome;
 /// The search over the drives of a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveSearchRecord {
-    /// The name of the drive of the answer; null: no drive leads to a platform that is proved to meet the requirements.
+    /// Drive of the answer; null: no drive leads to a platform that is proved to meet the requirements.
     pub chosen: Option<String>,
-    /// The criterion for choosing among the drives that meet the requirements.
+    /// Criterion of the choice.
     pub ranked_by: DriveRanking,
-    /// The currency of prices from the table; null: the table names none.
+    /// Currency of prices; null: the table names none.
     pub currency: Option<String>,
-    /// Whether the search was interrupted before every drive that could win was tried.
+    /// Whether the search was interrupted.
     pub interrupted: bool,
-    /// The result in one sentence.
+    /// Result in words.
     pub message: String,
-    /// All drives, the best first.
+    /// Drives, best first.
     pub drives: Vec<SearchedDriveRecord>,
 }
 
@@ -38,22 +38,22 @@ pub struct SearchedDriveRecord {
     pub price: Option<Number>,
     /// Mass; null: not in the table.
     pub mass: Option<Number>,
-    /// Least and greatest length from joint centre to joint centre, design units.
+    /// Least and greatest joint distance, design units.
     pub leg_length: [Number; 2],
     /// Greatest force; null: not in the table.
     pub force: Option<Number>,
     /// Greatest speed; null: not in the table.
     pub speed: Option<Number>,
-    /// The outcome for the drive.
+    /// Outcome.
     pub outcome: DriveSearchWord,
-    /// Value of the first objective of the platform found; null: no platform was found.
+    /// First objective of the platform found; null: no platform was found.
     pub objective: Option<Number>,
-    /// Margins against the limits of the drive (length, force, speed), for the platform found or the one with the least
+    /// Margins against the drive's limits (length, force, speed), for the platform found or the one with the least
     /// violation. Empty: the drive was not searched.
     pub margins: Vec<MarginRecord>,
-    /// The result for the three-fold symmetry of the design; null under the same conditions as without a table.
+    /// Result for the three-fold symmetry; null under the same conditions as without a table.
     pub symmetry: Option<SymmetryRecord>,
-    /// The reason why this drive is not the answer, one sentence; null: it is the answer.
+    /// Reason for rejection, one sentence; null: it is the answer.
     pub reason: Option<String>,
 }
 

@@ -15,14 +15,13 @@ pub struct FreedomRecord {
     pub freedom: ConflictFreedom,
     /// The outcome of the search.
     pub outcome: FreedomWord,
-    /// The amount by which the limit was relaxed in the last search, or by which the platform found is higher; null: no
-    /// such number.
+    /// Relaxation of the limit in the last search, or by which the platform found is higher; null: no such number.
     pub amount: Option<Number>,
-    /// The unit of the amount.
+    /// Unit.
     pub unit: String,
-    /// The result in one sentence.
+    /// Result in words.
     pub message: String,
-    /// The result of `assess` for the platform found; null: none was found.
+    /// Result of `assess`; null: none was found.
     pub assessment: Option<AssessAnswer>,
     /// The platform found, with the relaxed limit; null: none was found.
     pub design: Option<DesignRecord>,

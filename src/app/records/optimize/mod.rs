@@ -52,52 +52,52 @@ pub struct OptimizeAnswer {
     pub design: Option<DesignRecord>,
     /// The file written, with the best platform or the one with the least violation.
     pub output: Option<String>,
-    /// The platform with the least violation; null: a platform meets the requirements.
+    /// Platform with the least violation; null: a platform meets the requirements.
     pub nearest: Option<Box<NearestPlatformRecord>>,
     /// The requirements in conflict; null: no conflict is known.
     pub conflict: Option<ConflictRecord>,
-    /// The reason why the search did not decide, one sentence; null: it decided, or nothing failed.
+    /// Reason for no decision, one sentence; null: it decided, or nothing failed.
     pub failure: Option<String>,
     /// The searches with other freedoms, symmetry and drives.
     #[serde(flatten)]
     pub beside: SearchesBesideRecord,
-    /// Other local optima that meet the requirements at the poses held, best first; null: not requested.
+    /// Other local optima that meet the requirements, best first; null: not requested.
     pub candidates: Option<Vec<OptimumRecord>>,
-    /// The Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling
-    /// gain of the first objective; null in other modes.
+    /// Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling gain
+    /// of the first objective; null in other modes.
     pub front: Option<Vec<FrontMemberRecord>>,
-    /// The reason why the sizes of the bodies and the height of home are chosen, one sentence. Null: the variables come
-    /// from the design or are the usual ones.
+    /// Reason for choosing sizes and home height, one sentence. Null: the variables come from the design or are the
+    /// usual ones.
     pub choice: Option<String>,
-    /// Limits of the search itself.
+    /// Limits of the search.
     pub limits: SearchLimitsRecord,
     /// The poses required.
     pub region: PoseRegionRecord,
-    /// Statistics of the search.
+    /// Search statistics.
     pub search: SearchRecord,
-    /// An upper bound on the objective of every platform at the poses held; null: not proved, or there is no solution.
+    /// Upper bound on the objective at the poses held; null: not proved, or there is no solution.
     pub global_bound: Option<GlobalBound>,
-    /// Greatest gap to this bound at which the answer counts as optimal; null: the search proves no bound.
+    /// Greatest gap that counts as optimal; null: the search proves no bound.
     pub tolerance: Option<f64>,
-    /// Numbers of branches by outcome; null: the search has none.
+    /// Branches by outcome; null: the search has none.
     pub branch_counts: Option<BranchCounts>,
     /// The best other branches.
     pub runners_up: Option<Vec<BranchRecord>>,
-    /// All branches, with one zone for each offset.
+    /// All branches.
     pub branches: Option<Vec<BranchRecord>>,
 }
 
 /// The results of the searches beside the one for the platform.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SearchesBesideRecord {
-    /// Further freedoms that might allow a platform, each with its search result. Null: a platform meets the
-    /// requirements, or no freedom was tried.
+    /// Searches with one more freedom, each with its search result. Null: a platform meets the requirements, or no
+    /// freedom was tried.
     pub freedoms: Option<Vec<FreedomRecord>>,
-    /// The result for the three-fold symmetry of the design. Null: the design has none or names one, or the search
-    /// could not break it or did not check it.
+    /// Result for the three-fold symmetry. Null: the design has none or names one, or the search could not break it or
+    /// did not check it.
     pub symmetry: Option<SymmetryRecord>,
-    /// The drives of a table with the search result for each; null: no table was given. The rest of the answer is about
-    /// the chosen drive, or else about the drive with the best result.
+    /// Drives of the table with their results; null: no table was given. The rest of the answer is about the chosen
+    /// drive, or else about the drive with the best result.
     pub drive_search: Option<DriveSearchRecord>,
 }
 
@@ -128,16 +128,15 @@ pub struct SearchRecord {
     pub method: SearchMethodWord,
     /// Number of starts; null: the search begins in the branches.
     pub starts: Option<usize>,
-    /// Number of starts that led to a feasible point.
+    /// Number of starts with a feasible result.
     pub feasible: Option<usize>,
-    /// Gains of the polished runs; null in the list: not feasible.
+    /// Gains of polished runs; null in the list: not feasible.
     pub polished: Option<Vec<Option<Number>>>,
-    /// Number of runs of a Pareto front that met their bounds and were dominated by or equal to others; null: no front.
+    /// Number of runs on a Pareto front dominated by others; null: no front.
     pub dominated: Option<usize>,
     /// Number of bounds of a Pareto front that no run met; null: no front.
     pub unmet: Option<usize>,
-    /// Number of conic programs solved by the library clarabel in this search; searches with other drives and for
-    /// freedoms are not counted.
+    /// Number of conic programs solved by clarabel; searches with other drives and for freedoms are not counted.
     pub conic_programs: u64,
 }
 
@@ -160,11 +159,11 @@ impl SearchRecord {
 pub struct SearchLimitsRecord {
     /// Least distance of joint centres of a body, design units; null: none.
     pub min_joint_distance: Option<f64>,
-    /// Least |det A| of platforms equivalent to the design.
+    /// Least |det A| of equivalent platforms.
     pub min_abs_det: f64,
     /// The characteristic length, by which moments in the Jacobian are divided, design units.
     pub characteristic_length: f64,
-    /// Label of the length unit.
+    /// Unit of lengths.
     pub units: String,
 }
 
@@ -195,9 +194,9 @@ impl SearchLimitsRecord {
 pub struct PoseRegionRecord {
     /// The source of home.
     pub home: SourceWord,
-    /// The position of home in the starting design, base frame, design units.
+    /// Home position of the starting design, base frame, design units.
     pub home_position: [Number; 3],
-    /// The source of the workspace.
+    /// Source of the workspace.
     pub workspace: SourceWord,
 }
 

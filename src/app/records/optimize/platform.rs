@@ -26,7 +26,7 @@ pub(super) const ZONES: &str = "^[-0+]{6}$";
 /// A platform found by a search; every field is null if there is none.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct FoundPlatformRecord {
-    /// Value of the first objective.
+    /// First objective.
     pub objective: Option<Number>,
     /// All objectives.
     pub objectives: Option<Vec<ObjectiveRecord>>,
@@ -38,7 +38,7 @@ pub struct FoundPlatformRecord {
     pub shifts: Option<[Number; 6]>,
     /// The edges `d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
     pub edge_lengths: Option<[Number; 6]>,
-    /// The legs of the cycle, from 1; null: no offsets were chosen.
+    /// Legs in cyclic order, from 1; null: no offsets were chosen.
     pub cyclic_order: Option<[usize; 6]>,
     /// Zone of each offset: before, inside or beyond its edge; null: no offsets were chosen.
     #[schemars(extend("pattern" = ZONES))]
@@ -55,23 +55,23 @@ pub struct FoundPlatformRecord {
     pub home: Option<PoseQuaternionRecord>,
     /// The chosen joint axes.
     pub joint_axes: Option<JointAxesRecord>,
-    /// Margins of the requirements, over many poses and computed independently of the search.
+    /// Margins of requirements, over many poses and computed independently of the search.
     pub constraint_margins: Option<Vec<MarginRecord>>,
-    /// Margins of the extra conditions of the search.
+    /// Margins of the search's extra conditions.
     pub search_margins: Option<SearchMarginsRecord>,
     /// The active bounds: ends of ranges and limits without any margin, and the growth of the bodies. Null: none.
     pub active_bounds: Option<ActiveBoundsRecord>,
-    /// Whether the platform is proved to meet its requirements; null: some are unproved.
+    /// Whether all requirements are proved; null: some are unproved.
     pub requirements_met: Option<bool>,
-    /// The result of `assess` for the platform; null: the design has no requirements.
+    /// Result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
-    /// Whether it is equivalent to the design; null: the variables leave the equivalence class.
+    /// Equivalence with the design; null: the variables leave the equivalence class.
     pub verify: Option<VerifiedRecord>,
-    /// The held pose with the value of the first objective; null: the objective is not the worst conditioning.
+    /// Pose with the first objective's value; null: the objective is not the worst conditioning.
     pub worst_pose: Option<WorstPoseRecord>,
     /// Evidence of local optimality.
     pub local_optimality: Option<LocalOptimalityRecord>,
-    /// Steps of the run that found it; null: a member of a front.
+    /// Steps of the successful run; null: a member of a front.
     pub history: Option<Vec<HistoryStep>>,
     /// Numbers of poses held and checked.
     pub poses: Option<HeldPosesRecord>,
@@ -222,7 +222,7 @@ pub struct OptimumRecord {
     pub objectives: Vec<ObjectiveRecord>,
     /// The chosen variables, without axes.
     pub variables: Vec<ChosenVariable>,
-    /// Whether the platform is proved to meet its requirements; null: some are unproved.
+    /// Whether all requirements are proved; null: some are unproved.
     pub requirements_met: Option<bool>,
     /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
@@ -252,7 +252,7 @@ impl OptimumRecord {
 pub struct NearestPlatformRecord {
     /// The chosen variables, without axes.
     pub variables: Vec<ChosenVariable>,
-    /// Margins of the requirements, over many poses and computed independently of the search.
+    /// Margins of requirements, over many poses and computed independently of the search.
     pub constraint_margins: Vec<MarginRecord>,
     /// The result of `assess`; null: the design has no requirements.
     pub assessment: Option<AssessAnswer>,
@@ -281,7 +281,7 @@ pub struct FrontMemberRecord {
     pub design: DesignRecord,
     /// The file written; null: none.
     pub output: Option<String>,
-    /// The objectives as evaluated for comparing the members.
+    /// Objectives as compared on the front.
     pub non_dominated_at: Vec<Number>,
 }
 
@@ -290,9 +290,9 @@ pub struct FrontMemberRecord {
 pub struct ObjectiveRecord {
     /// The name of the objective.
     pub name: Objective,
-    /// The value over many poses, computed independently of the search.
+    /// Value over many poses, computed independently of the search.
     pub value: Number,
-    /// The value over the poses at which the search held the requirements.
+    /// Value over the poses held.
     pub at_held_poses: Number,
     /// The unit; empty for a pure number.
     pub unit: String,
@@ -314,9 +314,9 @@ impl ObjectiveRecord {
 /// Joint axes: unit vectors, body frame; null: not chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JointAxesRecord {
-    /// Axes at the base ends of the legs, base frame.
+    /// Axes at the base ends, base frame.
     pub base: Option<[[Number; 3]; 6]>,
-    /// Axes at the platform ends of the legs, platform frame.
+    /// Axes at the platform ends, platform frame.
     pub platform: Option<[[Number; 3]; 6]>,
 }
 
@@ -344,7 +344,7 @@ impl From<&Verification> for VerifiedRecord {
 /// The pose with the worst conditioning.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorstPoseRecord {
-    /// Index of the pose among the poses held, from 0.
+    /// Index among the poses held, from 0.
     pub index: usize,
     /// The pose.
     #[serde(flatten)]
@@ -354,21 +354,21 @@ pub struct WorstPoseRecord {
 /// Evidence of local optimality.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LocalOptimalityRecord {
-    /// Whether the search converged: the model of the last step promised no further gain.
+    /// Whether it converged: the model of the last step promised no further gain.
     pub converged: bool,
-    /// The remaining first-order gain for a unit of the variables.
+    /// First-order gain per unit of the variables.
     pub stationarity: Number,
-    /// The gain of a pattern search from there; null: none was made.
+    /// Gain of a further pattern search; null: none was made.
     pub pattern_gain: Option<Number>,
-    /// Number of points tried by the pattern search.
+    /// Number of points of the pattern search.
     pub pattern_trials: Option<usize>,
 }
 
 /// Numbers of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct HeldPosesRecord {
-    /// Number of poses at which the search held the requirements.
+    /// Number of poses held by the search.
     pub held: usize,
-    /// Number of poses of the independent evaluation.
+    /// Number of poses evaluated independently.
     pub checked: usize,
 }

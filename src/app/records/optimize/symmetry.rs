@@ -8,9 +8,9 @@ use machine::requirements::StartSymmetry;
 /// The search result for the three-fold symmetry that a design has at home and does not require.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SymmetryRecord {
-    /// The result for the symmetry.
+    /// Result.
     pub three_fold: StartSymmetry,
-    /// The reason, and the way to switch this off, in one sentence.
+    /// Reason, and how to switch it off, in one sentence.
     pub message: String,
 }
 

@@ -232,7 +232,7 @@ fn poses(out: &mut Sheet, units: &str, s: &SolvedRecord, frames: Option<&PoseCon
         );
     }
     let frames = frames.filter(|frames| !frames.is_usual());
-    let mut listed: Vec<_> = numbered(s).filter(|(_, r)| r.real != Some(false)).collect();
+    let mut listed: Vec<_> = s.numbered().filter(|(_, r)| r.real != Some(false)).collect();
     let violating = listed.len();
     listed.retain(|(_, r)| r.real_pose.is_none_or(|pose| pose.allowed != Some(false)));
     let violating = violating - listed.len();
@@ -259,11 +259,6 @@ fn poses(out: &mut Sheet, units: &str, s: &SolvedRecord, frames: Option<&PoseCon
             unproved_pose(out, i + 1, r);
         }
     }
-}
-
-/// All poses with the numbers shown to people.
-fn numbered(s: &SolvedRecord) -> impl Iterator<Item = (usize, &SolutionRecord)> {
-    (1..).zip(s.solution_set.witness_points().iter().chain(&s.solutions))
 }
 
 /// The beginning of the completeness sentence, before the reason.
@@ -342,7 +337,7 @@ fn unproved_pose(out: &mut Sheet, number: usize, r: &SolutionRecord) {
 /// The real poses with all cranks on the sides that the design keeps.
 fn elbows(s: &SolvedRecord) -> String {
     let kept =
-        numbered(s).filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
+        s.numbered().filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
     let kept: Vec<String> = kept.map(|(i, _)| i.to_string()).collect();
     match kept.len() {
         0 => "No real pose has all cranks on the elbow sides of the design.".into(),

@@ -156,12 +156,12 @@ pub struct CommonPoints {
     // vanish where `e` does. There are forty points where all are isolated.
     /// Finite poses.
     pub finite: usize,
-    /// Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not counted.
+    /// Limits of poses with isotropic quaternion e: e.e = 0, e not 0. Null: not isolated, or not counted.
     pub isotropic: Option<usize>,
     /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not
     /// counted.
     pub at_infinity: Option<usize>,
-    /// A bound on the probability that the numbers are wrong.
+    /// Bound on the probability of a wrong count.
     pub error_probability: f64,
 }
 

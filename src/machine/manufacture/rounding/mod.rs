@@ -340,23 +340,23 @@ fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "EvaluationRecord", transform = num::nullable))]
 pub struct Evaluation {
-    /// The worst inverse condition number over the poses.
+    /// Worst inverse condition number.
     pub objective: f64,
     /// The pose of this value.
     #[cfg_attr(feature = "serde", serde(with = "platform::geom::ByQuaternion"))]
     pub worst_pose: Pose,
-    /// Least distances of two joints, base and platform.
+    /// Least distances of joints, base and platform.
     // design units
     pub least_distances: [f64; 2],
     /// det A; null: there is no leg map.
     // of the leg map from the octahedral platform
     pub det: Option<f64>,
-    /// The least margin of each requirement.
+    /// Least margin by requirement.
     pub requirements: Vec<LeastMargin>,
-    /// No requirement is violated.
+    /// Whether all requirements are met.
     // by more than rounding, and `|det A|` is as large as required
     pub met: bool,
-    /// Every margin is at least its safety margin.
+    /// Whether all safety margins are kept.
     pub safety_margin_kept: bool,
 }
 

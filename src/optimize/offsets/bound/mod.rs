@@ -26,13 +26,13 @@ use synthesis::sides;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "GlobalBoundRecord", transform = num::nullable))]
 pub struct GlobalBound {
-    /// No offsets within the limits reach a greater value.
+    /// Greatest value that offsets within limits could reach.
     // of the worst-case inverse condition number, proved in interval arithmetic
     pub upper: f64,
-    /// Relative distance of the bound above the solution.
+    /// Relative gap of the bound above the solution.
     // `upper / value - 1`
     pub gap: f64,
-    /// Number of searched boxes of offsets.
+    /// Number of searched boxes.
     pub boxes: usize,
 }
 

@@ -89,7 +89,7 @@ pub struct TargetMargin {
     /// The required value.
     // the greatest value for the reach, the least one for the others
     pub required: f64,
-    /// The slack: the difference over the size.
+    /// Difference over the size.
     // for the conditioning the difference itself; negative for a miss
     pub slack: f64,
 }

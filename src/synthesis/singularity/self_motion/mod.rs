@@ -70,9 +70,9 @@ pub struct MotionPoint {
     pub pose: Pose,
     /// Length of the curve up to here, in (e, g / size).
     pub arc: f64,
-    /// The largest error of a leg length over the size.
+    /// Largest error of a leg length over the size.
     pub length_error: f64,
-    /// The smallest singular value that is not zero over the largest.
+    /// Smallest nonzero over largest singular value.
     // small near crossings
     pub gap: f64,
 }
@@ -85,7 +85,7 @@ pub struct MotionPoint {
     schemars(rename = "CurveCrossingRecord")
 )]
 pub struct CurveCrossing {
-    /// Index of the last point before the crossing, from 0.
+    /// Last point before the crossing, from 0.
     pub after_point: usize,
     /// Index into `crossings` of the answer, from 0.
     pub crossing: usize,

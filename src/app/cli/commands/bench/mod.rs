@@ -21,35 +21,32 @@ pub(crate) struct BenchArgs {
     /// Number of problems of each class
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     count: u64,
-    /// Index of the first problem; with --count 1 it repeats a failed problem
+    /// Index of the first problem
     #[arg(long, value_name = "K", default_value_t = 0)]
     first: u64,
-    /// Worker threads; each problem is solved and timed on one of them
+    /// Worker threads, each for one problem at a time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
     /// Method of solution; auto takes the best one for the design. sylvester and template also measure the candidates
     /// before refinement
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
-    /// Source of the lengths: squared lengths uniform in [0.5, 3], or a random real pose; default: the former, if the
-    /// class allows it
+    /// Source of the lengths: uniform squares in [0.5, 3] (default where possible), or a random real pose
     #[arg(long, value_enum, value_name = "SOURCE")]
     lengths_from: Option<Source>,
-    /// Round the coordinates of the joints to this number of decimals, as people type them
+    /// Round the joints to this number of decimals
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=17))]
     decimals: Option<u32>,
-    /// Search for missed roots from two other starts in every N-th problem; 0 means never
+    /// Search for missed roots from two other starts in every N-th problem; 0: never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
-    /// Count the poses modulo random primes if completeness is not proved, as fk does; takes some milliseconds per
-    /// problem
+    /// Count the poses modulo random primes if completeness is not proved
     #[arg(long)]
     count_poses: bool,
-    /// Measure the effect of noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to
-    /// 1e-1
+    /// Measure the effect of relative errors of leg lengths from 1e-12 to 1e-1 instead
     #[arg(long, conflicts_with_all = ["first", "lengths_from", "decimals", "recheck_every", "count_poses"])]
     noise: bool,
-    /// Write a picture of the displacements of the poses caused by noise
+    /// Write a picture of the pose errors by noise
     #[arg(long, value_name = "FILE", requires = "noise")]
     svg: Option<OutputPath>,
 }

@@ -13,12 +13,11 @@ use records::{DriveRecord, DrivesAnswer, LightestDriveRecord};
 /// Arguments of `build drives`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BuildDrivesArgs {
-    /// Design file (.toml or .json) with its home pose, workspace, limits and loads
+    /// Design file (.toml or .json) with home, workspace, limits and loads
     design: PathBuf,
-    /// Table of drives (.csv); default: the table of the design (`drives` in `[hardware]`). Its first line names the
-    /// columns and their units: name, stroke, dead or retracted length, force, speed, mass, stiffness, price, source
+    /// Table of drives (.csv) with columns such as `force_N` and `price_EUR`; default: `drives` in `[hardware]`
     table: Option<PathBuf>,
-    /// Table with a time in seconds and a pose on each line; the drives must be fast and strong enough along it
+    /// Table of times and poses; the drives must be fast and strong enough for it
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
     /// Sine about home: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency; repeat for
@@ -31,7 +30,7 @@ pub(crate) struct BuildDrivesArgs {
     /// Length unit of the design for forces along motions, if its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
-    /// Write the design with the chosen drive; .json gives JSON, anything else TOML
+    /// Write the design with the chosen drive (.json, else TOML)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }

@@ -18,12 +18,10 @@ pub(crate) struct DesignConvertArgs {
     /// Write all lengths in this unit: um, mm, cm, m, in or ft
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
-    /// Write the symmetry that joints have up to rounding as constructions: coincident, mirrored and rotated joints,
-    /// joints on lines and circles, and similar bodies
+    /// Write symmetries of the joints up to rounding as constructions
     #[arg(long)]
     snap: bool,
-    /// Write the parameters of a motion-simulator program instead of a design. The long side of the base is L4 in
-    /// `motion4sim` (and `FlyPT Mover`), and L3 in `dr-sim-manager`
+    /// Write the parameters of a motion-simulator program instead, as `new --sheet` reads them
     #[arg(long, value_name = "DIALECT")]
     dialect: Option<SheetDialect>,
 }

@@ -10,7 +10,7 @@ use records::{self, SchemaAnswer};
 /// Arguments of `design schema`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct DesignSchemaArgs {
-    /// `design` for design files, `error` for refusals, `help` for --help, or a command for its answer with --json
+    /// `design`, `error` for refusals, `help` for --help, or a command such as `equivalents-map`
     #[arg(value_name = "ANSWER", default_value = "design", value_parser = PossibleValuesParser::new(names()))]
     of: String,
 }

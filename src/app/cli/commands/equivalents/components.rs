@@ -22,7 +22,7 @@ pub(crate) struct EquivalentsComponentsArgs {
     /// Write a picture of the curves in two planes, for all pairs of planes
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Draw only this pair of planes: its number in the answer, from 1
+    /// Draw only this pair of planes, from 1
     #[arg(long, value_name = "K", requires = "svg")]
     pair: Option<usize>,
     /// Threshold for zero, relative to the size of the body

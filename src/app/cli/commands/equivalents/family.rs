@@ -18,7 +18,7 @@ use synthesis::{Family, FamilyMember, LegMapOutcome, Pattern, Relation};
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EquivalentsFamilyArgs {
-    /// Design (.toml or .json) that is octahedral, or made from an octahedral one by offsets along its triangle sides
+    /// Octahedral design (.toml or .json), or one with offsets along its sides
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
     #[arg(long, value_name = "FILE")]
@@ -29,8 +29,7 @@ pub(crate) struct EquivalentsFamilyArgs {
     /// Report only this pattern, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID")]
     pattern: Option<String>,
-    /// Offsets of the moved joints as shares of the edges, one for each inner point: decimals or expressions such as
-    /// 1/5
+    /// Offsets of the moved joints as fractions of the edges: decimals or expressions such as 1/5
     #[arg(
         long,
         value_name = "T1,..",
@@ -40,7 +39,7 @@ pub(crate) struct EquivalentsFamilyArgs {
         requires = "pattern"
     )]
     offsets: Option<Vec<String>>,
-    /// Show the derivation of A, c and det A from coplanar joints step by step, and the check by forward kinematics
+    /// Show the derivation of A, c and det A step by step, and the check by forward kinematics
     #[arg(long, requires = "offsets")]
     explain: bool,
     /// Write the platform of the pattern as a design

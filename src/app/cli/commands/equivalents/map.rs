@@ -13,11 +13,11 @@ use synthesis::{LegCorrespondence, LegMapOutcome, Relation};
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EquivalentsMapArgs {
-    /// Design file (.toml or .json) FROM with the given lengths
+    /// Design file (.toml or .json) with the given lengths
     from: PathBuf,
-    /// Design file TO with the unknown lengths, in the same units and, without --align, in the same two frames
+    /// Design file with the unknown lengths, in the same units and, without --align, the same frames
     to: PathBuf,
-    /// Six leg lengths of FROM, design units; prints the lengths of TO at the same poses
+    /// Six lengths of FROM, design units, for those of TO at the same poses
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
     #[command(flatten)]

@@ -13,13 +13,13 @@ use records::NearestAnswer;
 pub(crate) struct EquivalentsNearestArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Greatest distance of a joint from its side along the extension, in lengths of the side
+    /// Greatest distance of a joint beyond its side, in side lengths
     #[arg(long, value_name = "X", default_value_t = NEAREST_EXTENSION)]
     extension: f64,
     /// Write the octahedral platform as a design
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Write the platform equivalent to it with legs near those of the design
+    /// Write the platform equivalent to it near the design
     #[arg(long, value_name = "FILE")]
     beside: Option<OutputPath>,
 }

@@ -47,24 +47,20 @@ use verify::VerdictWord;
 pub(crate) struct ExploreArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Folder for the results, made if missing. Results of an earlier run are replaced; a file of your
-    /// own in their place is refused
+    /// Folder for the results; results of an earlier run are replaced, other files refused
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Number of length sets for comparing two designs. An octahedral design is compared with the optimised one,
-    /// another design with its equivalent, or its nearest octahedral platform with that one's equivalent
+    /// Number of length sets for comparing two designs, as in `verify`
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
-    /// Greatest distance of a joint beyond a corner, along the extension of its side, in lengths of the side. Default:
-    /// 0.3; for another design's nearest octahedral platform 1
+    /// Greatest distance of a joint beyond its side, in side lengths; default: 0.3, or 1 for the nearest octahedral
+    /// platform
     #[arg(long, value_name = "X")]
     extension: Option<f64>,
-    /// Table of drives (.csv) as for `equipod build drives`; default: the table of the design (`drives` in
-    /// `[hardware]`). Searches with each drive that could win, as `optimize --drives`. Only for octahedral designs
+    /// Table of drives (.csv) as in `optimize`, for octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// Time limit of search and assessment, seconds; the folder gets the best platform until then. Only for octahedral
-    /// designs
+    /// Time limit of search and assessment, seconds, for octahedral designs
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }

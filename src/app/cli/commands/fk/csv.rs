@@ -69,22 +69,22 @@ impl PoseTable {
         names
     }
 
-    /// One row for each pose that may be real, from the nearest to home on; with `all` also the complex poses after
-    /// them.
+    /// One row for each pose that may be real, from the nearest to home on, with its number in the text and in JSON;
+    /// with `all` also the complex poses after them.
     fn poses(&self, out: &mut String, before: &[String], one: &FkOneAnswer) {
         let far = |s: &SolutionRecord| s.real_pose.map_or(f64::INFINITY, |p| p.distance_from_home);
-        let points = one.solved.solution_set.witness_points().iter().chain(&one.solved.solutions);
-        let mut shown: Vec<&SolutionRecord> = points.filter(|s| self.all || s.real != Some(false)).collect();
+        let mut shown: Vec<(usize, &SolutionRecord)> =
+            one.solved.numbered().filter(|(_, s)| self.all || s.real != Some(false)).collect();
         if self.limits {
-            shown.retain(|s| s.real_pose.is_none_or(|pose| pose.allowed != Some(false)));
+            shown.retain(|(_, s)| s.real_pose.is_none_or(|pose| pose.allowed != Some(false)));
         }
-        shown.sort_by(|a, b| far(a).total_cmp(&far(b)));
+        shown.sort_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)));
         let completeness = one.solved.completeness.name();
         if shown.is_empty() {
             self.nothing(out, before, completeness);
         }
-        for (k, solution) in shown.into_iter().enumerate() {
-            let number = (k + 1).to_string();
+        for (number, solution) in shown {
+            let number = number.to_string();
             let cells = before.iter().cloned().chain([number]).chain(self.pose(solution, completeness));
             out.push_str(&csv_line(&cells.collect::<Vec<_>>()));
         }

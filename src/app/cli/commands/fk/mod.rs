@@ -35,37 +35,36 @@ use self::lengths::GivenLengths;
 pub(crate) struct FkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// Six lengths, design units, or a table with six columns and optional times (`-` for standard input). A design of
-    /// five legs takes five. Default: the lengths of the design
+    /// Six lengths (five for five legs), design units, or a table of lengths with optional times (`-` for standard
+    /// input); default: from the design
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
-    /// Six crank angles, degrees, or a table with six columns (`-` for standard input), if the legs are rods on cranks
+    /// Six crank angles, degrees, or a table of angles (`-` for standard input), for rods on cranks
     #[arg(long, value_name = "A1,..,A6|FILE", allow_hyphen_values = true, conflicts_with = "lengths")]
     angles: Option<String>,
     /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
-    /// Show the closure polynomial in the squared distance of these two joints, one on each body
+    /// Show the closure polynomial in the squared distance of a base and a platform joint
     #[arg(long, value_name = "JOINT,JOINT", conflicts_with_all = ["near", "csv", "angles"])]
     between: Option<String>,
-    /// Show the polynomial in the Cayley parameter c3 = z / w of the rotation's quaternion (w, x, y, z). It has one
-    /// root for each pose, 40 for a general platform
+    /// Show the polynomial of all poses in the Cayley parameter c3 = z / w of the quaternion (w, x, y, z)
     #[arg(long, conflicts_with_all = ["near", "csv", "angles"])]
     polynomial: bool,
-    /// Worker threads for the rows of a CSV file; default: one for each processor. The answer does not depend on it
+    /// Worker threads for the rows of a table; default: one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Track one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or
     /// `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
-    /// Write a CSV table with one real pose on each row, the nearest to home first
+    /// Write a CSV table of the real poses, the nearest to home first
     #[arg(long, conflicts_with = "json")]
     csv: bool,
     /// Add the complex poses to --csv
     #[arg(long, requires = "csv")]
     all: bool,
-    /// List only real poses that meet the requirements of the design; --json marks all poses
+    /// List only poses that meet the requirements; --json marks all
     #[arg(long)]
     limits: bool,
     #[command(flatten)]

@@ -20,14 +20,13 @@ use records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
 pub(crate) struct IkArgs {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// Table with a pose on each line, and optional times (`-` for standard input)
+    /// Table of poses, with optional times (`-` for standard input)
     #[arg(conflicts_with = "pose")]
     poses: Option<PathBuf>,
     /// Pose: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; repeat for several; default: home
     #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
     pose: Vec<String>,
-    /// Add columns for joint angles (for cranks: transmissions and torques), inverse condition number and margins;
-    /// --json always has them
+    /// Add columns for joint angles (cranks: transmissions and torques), conditioning and margins; --json has them
     #[arg(long)]
     details: bool,
     #[command(flatten)]

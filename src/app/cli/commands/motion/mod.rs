@@ -17,9 +17,9 @@ use records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 /// Arguments of `motion`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct MotionArgs {
-    /// Design file (.toml or .json) with the tables home, payload and hardware
+    /// Design file (.toml or .json) with `[home]`, `[payload]` and `[hardware]`
     design: PathBuf,
-    /// Table with a time in seconds and a pose on each line (`-` for standard input)
+    /// Table of times and poses (`-` for standard input)
     trajectory: Option<PathBuf>,
     /// Sine about a pose: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency; repeat for
     /// several
@@ -28,16 +28,16 @@ pub(crate) struct MotionArgs {
     /// Acceleration from rest at a pose, design units or degrees per second squared; repeat for several
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// Add stiffness matrix and natural frequencies at the pose of --about
+    /// Add stiffness and natural frequencies at --about
     #[arg(long)]
     stiffness: bool,
     /// Pose of sines, accelerations and stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     about: String,
-    /// Name of a load of the design that acts all the time, in addition to the weight
+    /// Name of a load of the design that acts beside the weight
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
-    /// Let the platform rest at the first and last pose of the trajectory
+    /// Rest at the first and last pose of the trajectory
     #[arg(long)]
     at_rest: bool,
     /// Number of steps between two poses of the trajectory

@@ -30,17 +30,16 @@ pub(crate) struct NewArgs {
     /// Radius of the circle of the platform joints, design units
     #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     platform_radius: Option<f64>,
-    /// Angle between the two joints of a pair on the base, seen from the centre, degrees; 0 for one joint of two legs
+    /// Angle between the two base joints of a pair, seen from the centre, degrees; 0: one joint
     #[arg(long, value_name = "DEG", value_parser = number, allow_negative_numbers = true)]
     base_spread: Option<f64>,
-    /// Angle between the two joints of a pair on the platform, seen from the centre, degrees; 0 for one joint of two
-    /// legs
+    /// The same for the platform
     #[arg(long, value_name = "DEG", value_parser = number, allow_negative_numbers = true)]
     platform_spread: Option<f64>,
     /// Height of the platform frame above the base frame at home, design units
     #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     height: Option<f64>,
-    /// Three corners of an octahedral platform's base and three of its platform, each as x,y/x,y/x,y or with z
+    /// Three corners of the base and three of the platform of an octahedral design, each as x,y/x,y/x,y or with z
     #[arg(
         long,
         num_args = 2,
@@ -49,31 +48,29 @@ pub(crate) struct NewArgs {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
     )]
     corners: Option<Vec<String>>,
-    /// Table of the leg ends (`-` for standard input): six rows of two points or twelve rows of one, in any usual
-    /// notation. Also pins of `genhexkins`, a spreadsheet, or a model of `MuJoCo`, Gazebo (SDF) or ROS (URDF)
+    /// Table of the leg ends (`-` for standard input): six rows of two points or twelve rows of one. Also pins of
+    /// `genhexkins`, a spreadsheet, or a model of `MuJoCo`, Gazebo (SDF) or ROS (URDF)
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread"]
     )]
     points: Option<PathBuf>,
-    /// Write the symmetry that joints of --points have up to rounding as constructions: coincident, mirrored and
-    /// rotated joints, joints on lines and circles, and similar bodies
+    /// Write symmetries of the joints up to rounding as constructions, as `design convert --snap`
     #[arg(long, requires = "points")]
     snap: bool,
-    /// Parameters of a motion-simulator program named by --dialect (`-` for standard input). Lines `L1 = 900` to `L4`,
-    /// then `middle` and `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`
+    /// Parameters of a motion-simulator program (`-` for standard input): lines `L1 = 900` to `L4`, then `middle` and
+    /// `range` of legs, or `crank`, `rod`, `middle_angle` and `crank_angle_1` to `crank_angle_6`
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "height", "corners", "points"]
     )]
     sheet: Option<PathBuf>,
-    /// Program of the parameters in --sheet; the long side of the base is L4 in `motion4sim` (and `FlyPT Mover`), and
-    /// L3 in `dr-sim-manager`
+    /// Program of --sheet: the long side of the base is L4 in `motion4sim` (and `FlyPT Mover`), L3 in `dr-sim-manager`
     #[arg(long, value_name = "DIALECT", requires = "sheet")]
     dialect: Option<SheetDialect>,
-    /// Label of the length unit; default: from the table, or mm
+    /// Label of the length unit; default: from the table, else mm
     #[arg(long, value_name = "UNIT")]
     units: Option<String>,
     /// Name of the design

@@ -20,39 +20,35 @@ use sheet::Sheet;
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct OptimizeArgs {
-    /// Design (.toml or .json); its tables home, workspace, hardware and optimize give poses and limits. Octahedral:
-    /// shared joints are spread along the sides. Others: legs are moved in their families of replaceable legs, unless
-    /// the design names other variables
+    /// Design (.toml or .json) with poses and limits in `[home]`, `[workspace]`, `[hardware]` and `[optimize]`
     design: PathBuf,
-    /// Write the optimised design; .json gives JSON, anything else TOML
+    /// Write the optimised design (.json, else TOML)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Greatest distance of a joint from its edge along the extension, in edge lengths
+    /// Greatest distance of a joint beyond its side, in side lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
-    /// Search every branch for its own best platform; takes ten times as long
+    /// Search every branch for its best platform; takes ten times as long
     #[arg(long)]
     survey: bool,
-    /// Greatest relative gap between the answer and the proved upper bound over all offsets for the status optimal
+    /// Greatest relative gap to the proved upper bound for the status `optimal`
     #[arg(long, value_name = "X", default_value_t = 1e-2)]
     gap: f64,
-    /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
+    /// Write the steps of the successful run: .svg a picture, else CSV
     #[arg(long, value_name = "FILE")]
     history: Option<OutputPath>,
-    /// Write the answer and the other local optima into this folder, for `equipod compare`; without an answer, the
-    /// platforms found with other freedoms
+    /// Write the answer and other local optima into this folder; without an answer, the platforms found with other
+    /// freedoms
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
-    /// Table of drives (.csv) as for `equipod build drives`; default: the table of the design (`drives` in
-    /// `[hardware]`). Searches with each drive that could win; if every drive has a price, the cheapest that meets the
-    /// requirements wins
+    /// Table of drives (.csv) as in `build drives`: searches with each drive that could win, by price if all have
+    /// prices
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// Worker threads; default: one for each processor. The answer does not depend on it
+    /// Worker threads; default: one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Time limit, seconds: interrupts the search like Ctrl-C, with status `interrupted`. The last quarter, at most 10
-    /// s, is for assessing the best platform
+    /// Time limit, seconds, with status `interrupted`; the last quarter, at most 10 s, is for the assessment
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }

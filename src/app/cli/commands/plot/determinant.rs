@@ -16,11 +16,10 @@ const SIDE: usize = 201;
 pub(super) struct PlotDeterminantArgs {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
-    /// Two offsets for the axes, 1 to 6 in the order of the legs around the octahedron; `equal`: base offsets and
-    /// platform offsets
+    /// Two offsets for the axes, 1 to 6 around the octahedron; `equal`: base and platform offsets
     #[arg(long, value_name = "I,J", default_value = "equal", value_parser = ChangedOffsets::parse)]
     slice: ChangedOffsets,
-    /// Six offsets of the marked design, as fractions of the edges; offsets off the axes keep these values
+    /// Six offsets of the marked design, as fractions of the edges; those off the axes are kept
     #[arg(long, value_name = "T1,..,T6", allow_hyphen_values = true, default_value = "0,0,0,0,0,0", value_parser = six)]
     offsets: Offsets,
     /// Least and greatest offset in the picture

@@ -11,7 +11,7 @@ use machine::requirements::Objective;
 /// Arguments of `plot pareto`.
 #[derive(Debug, clap::Args)]
 pub(super) struct PlotFrontArgs {
-    /// Result that `equipod optimize DESIGN --json` wrote for a design with `mode = "pareto"`
+    /// Answer of `optimize --json` with `mode = "pareto"`
     front: PathBuf,
 }
 

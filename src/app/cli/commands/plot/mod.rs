@@ -38,7 +38,7 @@ enum Figure {
     Components {
         /// Design file (.toml or .json)
         design: PathBuf,
-        /// Draw only this pair of planes: its number in the answer of `equivalents components`, from 1
+        /// Draw only this pair of planes of `equivalents components`, from 1
         #[arg(long, value_name = "K")]
         pair: Option<usize>,
         /// Threshold for zero, relative to the size of the body
@@ -62,7 +62,7 @@ enum Figure {
         /// Pose in the centre of the picture
         #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
         pose: String,
-        /// Two freedoms on the axes: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+        /// Two freedoms on the axes: x, y, z, or rx, ry, rz (rotation vector, base frame)
         #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
         slice: Freedoms,
     },
@@ -72,7 +72,7 @@ enum Figure {
     Topologies {
         /// Design file (.toml or .json): name only its topology
         design: Option<PathBuf>,
-        /// Number of random members of each topology, solved to count its poses
+        /// Number of random members of each topology to solve
         #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
         members: u64,
     },

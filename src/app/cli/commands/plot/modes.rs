@@ -11,7 +11,7 @@ use ::fk::FkOptions;
 pub(super) struct PlotModesArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Six lengths, design units; default: the lengths of the design, or of its home pose
+    /// Six lengths, design units; default: from the design or its home
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
 }

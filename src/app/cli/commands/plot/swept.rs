@@ -13,17 +13,16 @@ use files::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_hist
 pub(super) struct PlotSweptArgs {
     /// Folder of a sweep, or the file written by `equipod sweep merge`
     table: PathBuf,
-    /// Kind of picture: colours or lines over two columns, distribution of one, parallel axes, points over two, front
-    /// of two
+    /// Kind of picture
     #[arg(long, value_enum, default_value_t = SweptKind::Scatter)]
     kind: SweptKind,
-    /// Columns with commas between: horizontal, vertical and optionally colour; two to eight for parallel axes
+    /// Columns, separated by commas: horizontal, vertical, colour; two to eight for parallel axes
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', required = true)]
     columns: Vec<String>,
-    /// Keep only rows with this condition, as in a plan: "conditioning > 0.1"; repeat for several
+    /// Keep rows with this condition, such as "conditioning > 0.1"; repeat for several
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
-    /// Better direction of the first and of the second column, for the front
+    /// Better directions of the two columns, for the front
     #[arg(long, value_enum, num_args = 2, value_delimiter = ',', value_name = "HIGH|LOW", default_values_t = [Better::High, Better::High])]
     better: Vec<Better>,
 }

@@ -19,14 +19,13 @@ const DEGREES: f64 = 90.0;
 pub(super) struct PlotWorkspaceArgs {
     /// Design file (.toml or .json) with its limits in the table hardware
     design: PathBuf,
-    /// Two freedoms on the axes: x, y, z (reachable positions, fixed orientation), rx, ry, rz (reachable orientations,
-    /// fixed position; rotation vector, base frame)
+    /// Two freedoms on the axes: x, y, z, or rx, ry, rz (rotation vector, base frame)
     #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = Freedoms::parse)]
     slice: Freedoms,
-    /// Pose in the centre of the picture, which fixes the other four freedoms; the legs are mounted for the home pose
+    /// Pose in the centre of the picture, with the other four freedoms
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Half widths of the picture, design units or degrees; default: the size of the design, and 90 degrees
+    /// Half widths of the picture, design units or degrees; default: the size, and 90 degrees
     #[arg(long, value_name = "A,B", value_parser = half_widths)]
     half_widths: Option<[f64; 2]>,
     /// Number of poses along each side of the picture

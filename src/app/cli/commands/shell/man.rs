@@ -11,7 +11,7 @@ use records::ManAnswer;
 /// Arguments of `shell man`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ShellManArgs {
-    /// Folder for the pages; made if missing
+    /// Folder for the pages
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
 }

@@ -19,11 +19,11 @@ pub(crate) struct SingularLocusArgs {
     /// of any norm; numbers may be expressions such as 1/3
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Direction of a line: only the positions on this line through the pose, in the unknown u
+    /// Direction of a line through the pose; positions on it have the unknown u
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, conflicts_with = "about")]
     along: Option<String>,
-    /// Axis through the platform origin, for rotations about it instead of positions. The unknown u is the tangent of
-    /// half the angle divided by the axis length
+    /// Axis through the platform origin, for rotations about it; u is the tangent of half the angle over the axis
+    /// length
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     about: Option<String>,
     #[command(flatten)]

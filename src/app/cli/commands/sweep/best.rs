@@ -29,7 +29,7 @@ pub(crate) struct SweepBestArgs {
     /// Better direction of its values
     #[arg(long, value_enum, default_value_t = Better::High)]
     better: Better,
-    /// Keep only rows with this condition, as in a plan: "conditioning > 0.1"; repeat for several
+    /// Keep rows with this condition, such as "conditioning > 0.1"; repeat for several
     #[arg(long, value_name = "CONDITION")]
     keep: Vec<String>,
     /// Number of candidates

@@ -22,24 +22,24 @@ use sweep::{Sweep, shard_range};
 /// Arguments of `sweep run`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SweepRunArgs {
-    /// Plan (.toml or .json): base design, variables, computed quantities, conditions
+    /// Plan (.toml or .json)
     plan: PathBuf,
-    /// Folder of the parts; continues a sweep of the same plan in it
+    /// Folder of the parts; a sweep of the same plan is continued
     #[arg(short, long, value_name = "DIR", required_unless_present = "estimate")]
     output: Option<OutputPath>,
-    /// Compute only shard I of N, counted from 0 (N/N is the same as 0/N)
+    /// Compute only shard I of N, from 0 (N/N is 0/N)
     #[arg(long, value_name = "I/N", conflicts_with = "shards")]
     shard: Option<ShardNumber>,
-    /// Offset added to the number of the shard, if array numbers of the cluster are limited
+    /// Offset added to the shard's number, for clusters with limited array numbers
     #[arg(long, value_name = "K", requires = "shard", default_value_t = 0)]
     shard_offset: u64,
     /// Number of shards; default 16, or more for more than 1.6 million candidates
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_SHARDS))]
     shards: Option<u64>,
-    /// Worker threads; default: one for each processor. The parts do not depend on it
+    /// Worker threads; default: one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Compute only a sample, and estimate the time and the columns of the sweep
+    /// Compute a sample only, and estimate time and columns
     #[arg(long)]
     estimate: bool,
 }

@@ -25,16 +25,16 @@ pub(crate) struct SweepScriptArgs {
     /// Write the script; default: standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Number of shards; default: enough for about --minutes each, from a sample
+    /// Number of shards; default: about --minutes each, from a sample
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_SHARDS))]
     shards: Option<u64>,
-    /// Target time of a shard, minutes; clusters advise ten to thirty
+    /// Target time of a shard, minutes
     #[arg(long, value_name = "M", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     minutes: u64,
     /// Number of processors for each job
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
-    /// Greatest number of jobs in one array: the cluster's `MaxArraySize`
+    /// Greatest number of jobs in an array: the cluster's `MaxArraySize`
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     array: u64,
 }

@@ -18,26 +18,24 @@ use verify::{Verdict, Verification};
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BuildRoundArgs {
-    /// Design file (.toml or .json) with planar bodies; roundings are assessed by its home pose, workspace and
-    /// requirements
+    /// Design file (.toml or .json) with planar bodies
     design: PathBuf,
-    /// Distance of neighbouring holes of the base, design units; replaces the grids in the design's table holes
+    /// Distance of neighbouring base holes, design units; replaces `[holes]`
     #[arg(long, value_name = "PITCH", value_parser = length)]
     grid: Option<Length>,
-    /// Distance of neighbouring holes of the platform, design units; default: as on the base
+    /// Distance of neighbouring platform holes, design units; default: as --grid
     #[arg(long, value_name = "PITCH", value_parser = length)]
     grid_platform: Option<Length>,
     /// Pattern of the holes; default: from the design, or square
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern: Option<PatternWord>,
-    /// Pattern of the holes of the platform; default: as --pattern
+    /// Pattern of the platform holes; default: as --pattern
     #[arg(long, value_enum, value_name = "PATTERN")]
     pattern_platform: Option<PatternWord>,
-    /// Position of one hole of the base grid, design units, in the plane of the base joints; default: from the design,
-    /// or 0,0
+    /// Position of a base hole in the plane of the joints, design units; default: from the design, or 0,0
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin: Option<String>,
-    /// Position of one hole of the platform grid, design units
+    /// Position of a platform hole, design units
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin_platform: Option<String>,
     /// Angle of the base grid, degrees; default: from the design, or 0
@@ -46,25 +44,25 @@ pub(crate) struct BuildRoundArgs {
     /// Angle of the platform grid, degrees
     #[arg(long, value_name = "DEG", value_parser = number, allow_hyphen_values = true)]
     angle_platform: Option<f64>,
-    /// Choose the origins and angles of the grids too; the given ones are candidates
+    /// Choose origins and angles of the grids too
     #[arg(long)]
     free_grid: bool,
     /// Rounding to write
     #[arg(long, value_enum, default_value_t = Variant::Rule)]
     variant: Variant,
-    /// Share of the inverse condition number that the exact rounding must keep to be chosen
+    /// Share of the conditioning that the exact rounding must keep
     #[arg(long, value_name = "SHARE", default_value_t = KEEP)]
     keep: f64,
-    /// Number of triangles of each body combined in the first search
+    /// Number of triangles of each body in the first search
     #[arg(long, value_name = "N", default_value_t = CANDIDATES, value_parser = clap::value_parser!(u32).range(1..=1000))]
     candidates: u32,
-    /// Tool point for errors of the pose, design units, platform frame
+    /// Tool point, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Number of random poses for the error of the nearest rounding
+    /// Number of random poses for the nearest rounding's error
     #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     trials: u32,
-    /// Write the rounded design; .json gives JSON, anything else TOML
+    /// Write the rounded design (.json, else TOML)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }

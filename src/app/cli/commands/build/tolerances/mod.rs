@@ -24,13 +24,13 @@ use records::PoseDeviations;
 pub(crate) struct BuildTolerancesArgs {
     /// Design file (.toml or .json); its home pose and workspace give the poses
     design: PathBuf,
-    /// Greatest error allowed: of the tool point, design units, and of the orientation, degrees
+    /// Allowed error: tool point, design units, and orientation, degrees
     #[arg(long, value_name = "LENGTH,DEG", allow_hyphen_values = true)]
     bound: String,
     /// Tool point, design units, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Number of Halton points in the region of poses; as many random points are added
+    /// Number of Halton points in the region of poses, and of random ones
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     points: u32,
     /// Number of local searches for every worst pose
@@ -39,22 +39,19 @@ pub(crate) struct BuildTolerancesArgs {
     /// Number of random joint errors and poses to solve
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     trials: u32,
-    /// Add the uncertainty of computed poses from the calibration table of the design, and random errors with its
-    /// standard deviations and correlations
+    /// Add the uncertainty of computed poses from `[calibration]`, and random errors with its covariance
     #[arg(long)]
     calibrated: bool,
-    /// Greatest error of each joint in any direction for the error map, design units; default: the radius that keeps
-    /// the bound
+    /// Greatest joint error for the error map, design units; default: the radius that keeps the bound
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     joint_error: Option<f64>,
-    /// Greatest difference between the true and the shown length of a leg, design units: homing, backlash, pitch of the
-    /// screw
+    /// Greatest error of a shown leg length, design units: homing, backlash, pitch of the screw
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     length_error: Option<f64>,
-    /// Relative expansion of base, platform and legs by temperature: degrees times coefficient of expansion
+    /// Relative thermal expansion of base, platform and legs
     #[arg(long, value_name = "BASE,PLATFORM,LEGS", allow_hyphen_values = true)]
     growth: Option<String>,
-    /// Write a table of the greatest errors by joints, lengths and temperature at all poses evaluated
+    /// Write a table of the greatest errors at all poses
     #[arg(long, value_name = "FILE")]
     map: Option<OutputPath>,
 }

@@ -19,24 +19,23 @@ pub(crate) struct EquivalentsMoveArgs {
     /// Number of the leg to move, 1 to 6
     #[arg(long, value_name = "LEG", requires_all = ["along", "to"])]
     leg: Option<String>,
-    /// Family of the leg: its number in `equipod equivalents components`, or its joints; P1:P4-P5 means the legs from
-    /// P1 to the line P4 P5
+    /// Family of the leg: number in `equivalents components`, or joints: P1:P4-P5 has the legs from P1 to the line P4
+    /// P5
     #[arg(long, value_name = "FAMILY", requires = "leg")]
     along: Option<String>,
     /// Parameters of the new leg in the family
     #[arg(long, value_name = "T[,U,..]", allow_hyphen_values = true, requires = "leg")]
     to: Option<String>,
-    /// Leg, family and parameters in one word, for instance 1:3:0.25 or 1:P1:P4-P5:1/4; repeat the option for several
-    /// moves
+    /// Leg, family and parameters, for instance 1:3:0.25 or 1:P1:P4-P5:1/4; repeat for several
     #[arg(long = "move", value_name = "LEG:FAMILY:T[,U,..]", conflicts_with = "leg")]
     moves: Vec<String>,
-    /// Make all moves at once, along families of the given design, instead of one after another
+    /// Make all moves at once, along families of the given design
     #[arg(long)]
     together: bool,
-    /// Write the new design to this file; with --search, write the designs found into this folder
+    /// Write the new design; with --search, the designs found into this folder
     #[arg(short, long, value_name = "PATH")]
     output: Option<OutputPath>,
-    /// Threshold for zero in the search for families, relative to the size of the body
+    /// Threshold for zero, relative to the size of the body
     #[arg(long, value_name = "X", default_value_t = 1e-9)]
     tolerance: f64,
     /// Search for equivalent platforms with the properties below

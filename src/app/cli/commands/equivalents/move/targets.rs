@@ -14,29 +14,29 @@ pub(in crate::app::cli::commands) struct TargetArgs {
     /// Search: every joint holds one leg
     #[arg(long)]
     no_shared_joints: bool,
-    /// Search: no two legs meet, as straight segments at the home pose
+    /// Search: no two legs meet at home
     #[arg(long)]
     no_crossing: bool,
-    /// Search: least clearance of two legs, design units; default: the leg diameter of the design, or 0
+    /// Search: least clearance of two legs, design units; default: the leg diameter, or 0
     #[arg(long, value_name = "D", value_parser = numbers::length, requires = "no_crossing")]
     clearance: Option<Length>,
-    /// Search: a joint of the body lies here, base:X,Y,Z or platform:X,Y,Z; repeat the option for several
+    /// Search: a joint of the body lies here; repeat for several
     #[arg(long, value_name = "BODY:X,Y,Z")]
     hole: Vec<String>,
-    /// Search: the joint of this name moves here, with one of its legs; repeat the option for several
+    /// Search: this joint moves here, with one of its legs; repeat for several
     #[arg(long, value_name = "NAME=X,Y,Z")]
     joint: Vec<String>,
-    /// Search: least distance of two joints of one body, design units; default: the least distance in the design, or a
-    /// hundredth of its size
+    /// Search: least distance of two joints of one body, design units; default: the widest joint, `min_joint_distance`,
+    /// or a hundredth of the size
     #[arg(long, value_name = "D", value_parser = numbers::length)]
     spacing: Option<Length>,
-    /// Search: least inverse condition number of the Jacobian; default: a tenth of the design's own
+    /// Search: least inverse condition number of the Jacobian; default: a tenth of the design's
     #[arg(long, value_name = "X")]
     conditioning: Option<f64>,
-    /// Search: greatest distance of a joint from the centre of its body, in sizes of the design; default 1.5
+    /// Search: greatest distance of a joint from its body's centre, in sizes of the design; default 1.5
     #[arg(long, value_name = "X")]
     reach: Option<f64>,
-    /// Search: check all poses of the design's workspace instead of the home pose alone
+    /// Search: check the whole workspace, not home alone
     #[arg(long)]
     workspace: bool,
     /// Search: number of platforms to list; default 5

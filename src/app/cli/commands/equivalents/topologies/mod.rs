@@ -26,17 +26,17 @@ use records::{
 pub(crate) struct EquivalentsTopologiesArgs {
     /// Design file (.toml or .json): name only its topology
     design: Option<PathBuf>,
-    /// Number of random members of each topology, solved to count its poses
+    /// Number of random members of each topology to solve
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
     members: u64,
     /// Write a picture of all listed topologies
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each topology into this folder
+    /// Write a design (T01.toml) and a picture (T01.svg) of each topology into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<OutputPath>,
-    /// Add the best equivalent rearrangement of each topology, with bodies in space or in a plane: fewest shared
-    /// joints, octahedral or not. With -o, write its designs
+    /// Add the equivalent rearrangement of each topology with the fewest shared joints, bodies in space or in a plane;
+    /// with -o, write its designs
     #[arg(long)]
     rearrangements: bool,
 }

@@ -17,7 +17,7 @@ use sheet::Sheet;
 pub(crate) struct PlotLocusArgs {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Six lengths, design units; default: the lengths of the design. The length of the variable leg is ignored
+    /// Six lengths, design units; default: from the design; the length of the variable leg is ignored
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
     /// Number of the leg with variable length, 1 to 6
@@ -32,8 +32,7 @@ pub(crate) struct PlotLocusArgs {
     /// Number of lengths, both ends included
     #[arg(long, value_name = "N", default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     steps: u32,
-    /// Virtual leg, named by its joints; default: the first that trilateration needs, or the first pair that no leg
-    /// joins
+    /// Virtual leg, by its joints; default: the first that trilateration needs, or the first pair that no leg joins
     #[arg(long, value_name = "BASE,PLATFORM")]
     between: Option<String>,
     /// Method of solution; auto takes the best one for the design

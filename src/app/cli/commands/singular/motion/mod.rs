@@ -34,14 +34,13 @@ pub(crate) struct CurveQuestion {
     /// Pose to start from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Six lengths instead of a pose, design units: find all real components of the poses with these lengths
+    /// Six lengths instead of a pose, design units, for all real components of their poses
     #[arg(long, value_name = "L1,..,L6", conflicts_with = "pose")]
     lengths: Option<String>,
-    /// Number of random sections that cut all curves over the complex numbers; 0 traces only the curves connected to
-    /// the pose
+    /// Number of random complex sections of all curves; 0: only curves connected to the pose
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=100))]
     sections: u64,
-    /// Largest rotation of the tangent from point to point, radians
+    /// Largest rotation of the tangent between points, radians
     #[arg(long, value_name = "RAD", default_value_t = 0.05, value_parser = turn)]
     turn: f64,
     #[command(flatten)]

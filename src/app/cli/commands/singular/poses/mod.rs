@@ -24,24 +24,23 @@ pub(crate) struct SingularPosesArgs {
     /// Pose in the centre: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Six lengths for the assembly modes, design units; default: the lengths at the pose
+    /// Six lengths for the assembly modes, design units; default: from the pose
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// Shape of the box: half widths of translations (design units) and of the rotation vector (degrees). Default: the
-    /// workspace of the design, or half its size and 30 degrees
+    /// Shape of the box: half widths of positions (design units) and of the rotation vector (degrees); default: the
+    /// workspace, or half the size and 30 degrees
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
-    /// Greatest number of cells for bounding det J in the proof of the box
+    /// Greatest number of cells for the proof
     #[arg(long, value_name = "N", default_value_t = BOX_CELLS)]
     cells: usize,
-    /// Write a picture of the singular poses over two of the six freedoms
+    /// Write a picture of the singular poses over two freedoms
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+    /// Two freedoms of that picture: x, y, z, or rx, ry, rz (rotation vector, base frame)
     #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse, requires = "svg")]
     slice: Freedoms,
-    /// Compute det J along the straight path between two assembly modes, by their numbers in the list; 0 is the pose of
-    /// --pose
+    /// Compute det J along the straight path between two assembly modes, by number; 0: the pose
     #[arg(long, value_name = "I,J")]
     path: Option<String>,
     /// Pose that the path passes through; repeat for several, in order
@@ -53,11 +52,10 @@ pub(crate) struct SingularPosesArgs {
     /// Write a picture of det J along this path
     #[arg(long, value_name = "FILE", requires = "path")]
     path_svg: Option<OutputPath>,
-    /// Compute det J along the straight paths between all assembly modes, and find the modes joined by other regular
-    /// paths
+    /// Compute det J along straight paths between all assembly modes, and find modes joined by other regular paths
     #[arg(long)]
     between: bool,
-    /// Number of random poses in the search for such paths, for each sign of det J
+    /// Number of random poses for such paths, for each sign of det J
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
     samples: usize,
     #[command(flatten)]
