@@ -255,6 +255,8 @@ class AssessAnswer(Record):
     schema_version: int
     #: Assessed design.
     name: str
+    #: Unit of lengths.
+    length_unit: str
     #: Role of the design here.
     role: DesignRoleWord
     #: Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a
@@ -390,7 +392,7 @@ class BeyondPrecisionRecord(Record):
 
 
 class BoundedProof(Record):
-    """The numbers of a proof that all poses up to a distance are listed."""
+    """The numbers of a proof that all real poses are listed, or all poses up to a distance."""
 
     #: Certified poses listed, with multiplicity.
     poses: int
