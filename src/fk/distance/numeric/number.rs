@@ -131,20 +131,22 @@ mod tests {
     use num::Rng;
 
     #[test]
-    fn both_places_have_the_distances() {
+    fn both_places_have_the_distances_and_the_height_is_the_volume() {
         let rng = &mut Rng::new(5);
         let mut number = || Complex64::new(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0));
         for _ in 0..50 {
             let p: [Vector<Complex64>; 3] = std::array::from_fn(|_| std::array::from_fn(|_| number()));
             let s = [number(), number(), number()];
             let places = TrilateratedPlaces::of([&p[0], &p[1], &p[2]], s);
-            for q in places.both() {
+            let limit = 1e-9 / places.gram.norm().powi(2).min(1.0);
+            let normal = cross(&minus(&p[1], &p[0]), &minus(&p[2], &p[0]));
+            for (q, sign) in places.both().into_iter().zip([1.0, -1.0]) {
                 for k in 0..3 {
-                    assert!(
-                        (squared_distance(&q, &p[k]) - s[k]).norm()
-                            < 1e-9 / places.gram.norm().powi(2).min(1.0)
-                    );
+                    assert!((squared_distance(&q, &p[k]) - s[k]).norm() < limit);
                 }
+                // six times the volume of the tetrahedron, with its orientation
+                let volume = dot(&normal, &minus(&q, &p[0]));
+                assert!((volume - (places.height * places.gram).times(sign)).norm() < limit);
             }
         }
         for z in
