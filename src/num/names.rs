@@ -41,9 +41,11 @@ pub fn named<T: Copy>(
 
 /// Gives the choices of an enum the words that people write for them, each beside its choice.
 ///
-/// After the name of the enum stands a list of what it gets: `name`, the word of a choice, or `word(code)` if the method
-/// has another name; `ALL`, every choice in order, or `BOTH` of two; `Display` by the name; `FromStr("what")`, which finds
-/// the choice of a name by [`named`].
+/// After the name of the enum stands a list of what it gets.
+/// * `name`: the word of a choice, or `word(code)` if the method has another name.
+/// * `ALL`: every choice in order, or `BOTH` of two.
+/// * `Display`: by the name.
+/// * `FromStr("what")`: the choice of a name by [`named`].
 ///
 /// `Name as function` is short for `Name: word(function), ALL`; after `as function | other` each choice has two words.
 ///

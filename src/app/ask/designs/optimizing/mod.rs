@@ -162,8 +162,8 @@ impl<'a> OptimizeOptions<'a> {
     }
 
     num::setters! {
-        /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the best
-        /// result until then.
+        /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the
+        /// best result until then.
         fn time_limit(limit: Option<Duration>) ends = limit.and_then(ends_of);
         /// Sets whether a conflict is searched for if no platform meets the requirements.
         fn explains(explains: bool) = explains;
