@@ -221,15 +221,15 @@ mod tests {
 
     #[test]
     fn zeros_come_back_from_values() {
-        let given =
+        let known =
             [Complex64::new(0.5, 0.2), Complex64::new(-1.1, 0.7), Complex64::I, Complex64::new(2.0, 0.0)];
-        let value = |v: &Complex64| given.iter().map(|w| v - w).product::<Complex64>() / (v * v);
+        let value = |v: &Complex64| known.iter().map(|w| v - w).product::<Complex64>() / (v * v);
         let values: Vec<Complex64> = unit_circle(8).iter().map(value).collect();
         let c = coefficients(&values, 3, &unit_circle(8));
         assert!(c[0].norm() < 1e-15 && c[6].norm() < 1e-15 && (c[5] - 1.0).norm() < 1e-15);
         let (found, lost) = zeros(&c[1..6]);
         assert_eq!((found.len(), lost), (4, 0));
-        for w in given {
+        for w in known {
             assert!(found.iter().any(|z| (z - w).norm() < 1e-9));
         }
         let (found, lost) = zeros(&c);
