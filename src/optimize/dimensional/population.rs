@@ -201,18 +201,19 @@ fn nearest(model: &Model<'_>, all: &[Member], x: &[f64]) -> usize {
     distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k)
 }
 
-/// The best member of each niche, best first, of members in this order.
+/// The members in another order: the best of every niche first, then the others, both best first as before.
 ///
 /// A member leads a niche if the nearest better one is more than twice as far away as such members are on average
 /// (nearest-better clustering, Preuss 2010).
-pub(super) fn leaders(model: &Model<'_>, members: Vec<Member>) -> Vec<Member> {
+pub(super) fn leaders_first(model: &Model<'_>, members: Vec<Member>) -> impl Iterator<Item = Member> {
     let to_better = |i: usize| {
         members[..i].iter().map(|m| apart(model, &m.x, &members[i].x)).fold(f64::INFINITY, f64::min)
     };
     let distances: Vec<f64> = (0..members.len()).map(to_better).collect();
     let finite = distances.iter().filter(|d| d.is_finite());
     let far = FAR * finite.sum::<f64>() / members.len().saturating_sub(1).max(1) as f64;
-    members.into_iter().zip(distances).filter(|(_, d)| *d > far).map(|(m, _)| m).collect()
+    let (leaders, others): (Vec<_>, Vec<_>) = members.into_iter().zip(distances).partition(|(_, d)| *d > far);
+    leaders.into_iter().chain(others).map(|(m, _)| m)
 }
 
 /// Largest difference of two members in a variable.

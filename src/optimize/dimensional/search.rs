@@ -11,7 +11,7 @@ use super::outcome::{
     ChosenVariable, ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution,
     outcome, solution,
 };
-use super::population::{Judge, Member, PointMerit, evolve, is_close, leaders, offspring};
+use super::population::{Judge, PointMerit, evolve, is_close, leaders_first, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::worst_pose::worse_poses;
 use crate::climb::{Effort, PENALTY, Run, Task};
@@ -29,7 +29,7 @@ pub struct ShapeSearchOptions {
     pub populations: usize,
     /// Generations of each.
     pub generations: usize,
-    /// Greatest number of niches of each population with a climb in the first pass.
+    /// Number of members of each population with climbs in the first pass.
     pub starts: usize,
     /// Number of polished runs.
     pub polished: usize,
@@ -108,8 +108,8 @@ const STARTS_PER_MIXTURE: usize = 4;
 const SHORT_ROUNDS: usize = 3;
 /// Greatest number of rounds of adding poses.
 const ROUNDS: usize = 12;
-/// Ends that differ by less in every variable count as one.
-const DISTINCT_ENDS: f64 = 0.1;
+/// Starts, and ends, that differ by less in every variable count as one.
+const DISTINCT: f64 = 0.1;
 /// Ends whose values differ by less, relatively, count as equal.
 const DISTINCT_GAINS: f64 = 1e-4;
 /// The same for ends of the first pass, whose climbs are less accurate.
@@ -187,7 +187,7 @@ pub(crate) struct SearchStart {
     population: Option<usize>,
 }
 
-/// The best members of the niches of a population.
+/// Distinct members of a population: the best of every niche, then others.
 pub(super) fn population(
     model: &Model<'_>,
     task: &Task,
@@ -200,8 +200,13 @@ pub(super) fn population(
     let generations = if is_long { LONG_FACTOR * o.generations } else { o.generations };
     let members = evolve(&mut judge, given, generations, &mut Purpose::POPULATIONS.item(o.seed, k as u64));
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
-    let start = |m: Member| SearchStart { x: m.x, few: few.clone(), population: Some(k) };
-    leaders(model, members).into_iter().take(o.starts.max(1)).map(start).collect()
+    let mut out: Vec<SearchStart> = Vec::new();
+    for m in leaders_first(model, members) {
+        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT)) {
+            out.push(SearchStart { x: m.x, few: few.clone(), population: Some(k) });
+        }
+    }
+    out
 }
 
 fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
@@ -714,7 +719,7 @@ pub(super) fn distinct<'r>(
     value: impl Fn(&RefinedRun) -> f64,
 ) -> Vec<&'r RefinedRun> {
     let is_one = |a: &RefinedRun, b: &RefinedRun| {
-        is_close(value(a), value(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_ENDS)
+        is_close(value(a), value(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT)
     };
     let mut kept: Vec<&RefinedRun> = Vec::new();
     for run in runs {

@@ -173,7 +173,7 @@ fn smaller(options: &ShapeSearchOptions) -> ShapeSearchOptions {
     let quarter = |n: usize| n.div_ceil(4).max(1);
     ShapeSearchOptions {
         populations: quarter(options.populations),
-        starts: quarter(options.starts).max(2),
+        starts: quarter(options.starts).max(3),
         polished: quarter(options.polished).max(2),
         ..*options
     }

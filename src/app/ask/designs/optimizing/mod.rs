@@ -461,12 +461,3 @@ impl Design {
         Ok(OptimizeReport::new(self, status, OptimizeEvidence::Front(Box::new(found))))
     }
 }
-
-/// Probe.
-pub fn probe_problem(design: &Design) -> (dimensional::DimensionalProblem, bool) {
-    let free = dimensional_problem(design, EXTENSION);
-    match platform_search::keeps_symmetry_of_start(design, &free) {
-        Some(kept) => (kept, true),
-        None => (free, false),
-    }
-}
