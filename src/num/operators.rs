@@ -14,6 +14,8 @@ macro_rules! operators {
         @one [$($inline:tt)+] [$($parameters:tt)*] [$number:ty] [$output:ty]
         $trait:ident $function:ident $x:ident [$($y:ident)?] $body:block
     ) => {
+        // the formula of a product of duals or of discs has sums
+        #[allow(clippy::suspicious_arithmetic_impl)]
         impl<$($parameters)*> std::ops::$trait for $number {
             type Output = $output;
             #[$($inline)+]

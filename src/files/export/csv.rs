@@ -12,6 +12,8 @@ use platform::geom::Pose;
 pub(super) static WRITER: Writer =
     Writer::new("tables of joints, leg lengths and parts, for spreadsheets and controllers", files);
 
+// all formats have one signature, and others can fail
+#[allow(clippy::unnecessary_wraps)]
 fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
     let mut out = vec![
         ExportedFile::new("joints.csv", joints(export)),

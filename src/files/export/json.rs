@@ -12,6 +12,8 @@ use platform::geom::Pose;
 pub(super) static WRITER: Writer =
     Writer::new("joints, plates, legs, poses and lengths in one document, for scripts", files);
 
+// all formats have one signature, and others can fail
+#[allow(clippy::unnecessary_wraps)]
 fn files(export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
     // texts, numbers, lists and fields always serialise
     let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();

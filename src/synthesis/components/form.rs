@@ -82,7 +82,7 @@ where
         [0, 1, 2].map(|variable| {
             let mut out = Self::zero(self.degree.saturating_sub(1));
             for (mut e, c) in self.terms().filter(|(e, _)| e[variable] > 0) {
-                let factor = T::from(e[variable] as i32);
+                let factor = T::from(i32::try_from(e[variable]).unwrap_or(i32::MAX));
                 e[variable] -= 1;
                 out.coefficients[index(e)] += &factor * c;
             }

@@ -12,7 +12,11 @@ pub fn components(r: &ComponentsAnswer) -> Sheet {
     let families = if r.count == 1 { "1 family".to_owned() } else { format!("{} families", r.count) };
     match r.count {
         0 => {
-            say!(out, "{}: no leg is replaceable, so no leg can move without changing the kinematics", r.name)
+            say!(
+                out,
+                "{}: no leg is replaceable, so no leg can move without changing the kinematics",
+                r.name
+            );
         }
         _ => say!(
             out,

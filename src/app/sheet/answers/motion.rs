@@ -178,7 +178,7 @@ fn stiffness(out: &mut Sheet, answer: &MotionAnswer, found: &StiffnessRecord) {
     out.table(Table::new((0..6).map(|_| right("", 9).gap(2))).with_rows(rows));
     match &found.natural {
         None => {
-            out.line("No natural frequencies: the payload has no mass, or no inertia against some rotation.")
+            out.line("No natural frequencies: the payload has no mass, or no inertia against some rotation.");
         }
         Some(all) => {
             let shape = ["x", "y", "z", "rx", "ry", "rz"].map(|title| right(title, 8));

@@ -107,7 +107,7 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
             figure(s.scale.0)
         ),
         None => {
-            say!(out, "{requested}; up to {} times, no singular pose was found.", figure(b.searched_scale.0))
+            say!(out, "{requested}; up to {} times, no singular pose was found.", figure(b.searched_scale.0));
         }
     }
 }
