@@ -313,8 +313,8 @@ fn conclude_by_number(
     Ok(false)
 }
 
-/// Rejects roots without a certificate when all poses, or all real ones, are certified: they are no further roots, or not
-/// real.
+/// Rejects roots without a certificate when all poses, or all real ones, are certified: they are no further roots, or
+/// not real.
 pub(super) fn reject_others(solutions: &mut FkSolutions) {
     // most answers: a record has a kilobyte, and none is moved
     if solutions.roots.iter().all(FkRoot::certified) {

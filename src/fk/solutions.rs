@@ -222,8 +222,8 @@ pub enum RejectionReason {
     ResidualTooLarge,
     /// It is a root found already.
     Duplicate,
-    /// It is near a solution to rounding but no proof of one succeeded (a multiple root, a pose near infinity). Where all
-    /// real poses are proved to be listed it is no real pose.
+    /// It is near a solution to rounding but no proof of one succeeded (a multiple root, a pose near infinity). It is
+    /// no real pose if all real poses are proved to be listed.
     NotCertified,
     /// The position is at infinity or the rotation does not exist.
     NotFinite,

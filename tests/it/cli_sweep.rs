@@ -120,7 +120,7 @@ fn killed(plan: &str, folder: &str, after: usize) {
 #[test]
 fn a_sweep_that_is_killed_twice_is_resumed_and_verified() {
     let place = Place::new();
-    let plan = place.plan("plan.toml", &OFFSETS.replace("count = 300", "count = 2000"));
+    let plan = place.plan("plan.toml", &OFFSETS.replace("count = 300", "count = 1400"));
     let (folder, whole) = (place.path("killed"), place.path("whole"));
     killed(&plan, &folder, 3);
     let (code, first) = asked(&["status", &folder]);

@@ -696,5 +696,5 @@ fn a_nearly_singular_data_sheet_is_said_to_be_one() {
     assert!(told.contains("nearly singular") && told.contains("(22 degrees)"), "{told}");
     assert!(!ask(&session, &sheet(20.0))["guesses"].to_string().contains("singular"));
     let refused = ask(&session, &sheet(100.0))["error"]["message"].to_string();
-    assert!(refused.contains("it would be 20 degrees"), "{refused}");
+    assert!(refused.contains("give 20 degrees"), "{refused}");
 }

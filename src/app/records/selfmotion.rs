@@ -57,8 +57,8 @@ pub struct SelfmotionAnswer {
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
     FirstOrder,
-    /// Proved: no freedom of first order satisfies the equations of second order. Without a `dimension`, a motion within
-    /// `isolated.within` is not excluded.
+    /// Proved: no freedom of first order satisfies the equations of second order. Without a `dimension`, a motion
+    /// within `isolated.within` is not excluded.
     SecondOrder,
     /// Proved: the rank of the leg lines is constant around the pose.
     ConstantRank,
@@ -82,8 +82,8 @@ impl From<PoseVerdict> for MotionEvidenceWord {
     }
 }
 
-/// The neighbourhood of a pose without others of its lengths, in displacements `(t / size, c)`: translation divided by the size, and axis
-/// times tangent of half the angle.
+/// The neighbourhood of a pose without others of its lengths, in displacements `(t / size, c)`: translation divided by
+/// the size, and axis times tangent of half the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Radius of the ball: every pose with these lengths inside it lies within the distance `within`.

@@ -179,7 +179,7 @@ fn pairs_of_far_poses_are_proved_together() {
             assert_eq!(concludes(&m, &mut less, &s), !is_near, "pose {k}");
             if is_near {
                 let said = less.completeness.to_string();
-                assert!(said.contains("15 poses and 24 that are far out are certified"), "{said}");
+                assert!(said.contains("15 near and 24 far poses are certified"), "{said}");
                 controls += 1;
             }
         }

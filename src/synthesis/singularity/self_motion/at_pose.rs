@@ -163,9 +163,9 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
 
 /// The rank of the leg lines, below six, if it is proved to be the same at the pose and at all poses around it.
 ///
-/// The generic rank is the greatest, and the rank does not fall near a pose. The rank at the pose is the `exact` one, or
-/// is proved to be at least that of the singular values, for all joints between their bounds. The generic rank is that
-/// of the exact joints.
+/// The generic rank is the greatest, and the rank does not fall near a pose. The rank at the pose is the `exact` one,
+/// or is proved to be at least that of the singular values, for all joints between their bounds. The generic rank is
+/// that of the exact joints.
 fn constant_rank(
     m: &Manipulator,
     local: &LegsAtPose,
@@ -316,8 +316,8 @@ struct Cleared {
 impl Cleared {
     /// The verdict for a pose with `k` singular values taken as zeros and the `exact` rank of the leg lines.
     ///
-    /// With rank six the inverse function theorem isolates the pose. With rank `6 - k` the left vectors `W` can be taken
-    /// as exact zeros, so that the error of the theorem, and with it `within`, is zero.
+    /// With rank six the inverse function theorem isolates the pose. With rank `6 - k` the left vectors `W` can be
+    /// taken as exact zeros, so that the error of the theorem, and with it `within`, is zero.
     fn verdict(self, k: usize, exact: Option<usize>) -> PoseVerdict {
         let Self { radius, within } = self;
         match exact {
