@@ -94,7 +94,7 @@ fn of_sequences(
     sequences: &[Sequence],
 ) -> Result<Closure, NoClosure> {
     // the polynomial is that of joints that are their doubles, and of squares without error
-    let exact = m.joint_knowledge() == JointKnowledge::Doubles && s.radius().iter().all(|r| *r <= 0.0);
+    let exact = m.joint_knowledge() == JointKnowledge::Doubles && s.is_exact();
     let complete = exact && matches!(found.completeness, Completeness::Proved { .. });
     let isolated = found.solution_set == SolutionSet::Isolated;
     let simple = found.roots.iter().all(|r| r.certified() && r.multiplicity == 1);

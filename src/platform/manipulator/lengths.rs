@@ -174,6 +174,12 @@ impl SquaredLegLengths {
         self.radius
     }
 
+    /// Whether the centres are the squares, without error.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.radius.iter().all(|r| *r <= 0.0)
+    }
+
     /// Small intervals of doubles that contain the squares.
     #[must_use]
     pub fn intervals(&self) -> [Interval; 6] {

@@ -25,8 +25,7 @@ pub type ExactSquares = [[f64; 2]; 6];
 /// Squared lengths as sums of two doubles; `None` when they are known within a radius only.
 #[must_use]
 pub fn exact_squares(s: &SquaredLegLengths) -> Option<ExactSquares> {
-    let exact = s.radius().iter().all(|r| r.to_bits() << 1 == 0);
-    exact.then(|| s.middle().map(|x| [x.hi(), x.lo()]))
+    s.is_exact().then(|| s.middle().map(|x| [x.hi(), x.lo()]))
 }
 
 /// Highest degree of the spaces. Four is enough for sets of poses whose closure is finite (see the documentation); more
