@@ -75,7 +75,7 @@ impl std::str::FromStr for Method {
 num::words! {
     /// Whether a root is a real pose (an assembly mode).
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum Reality as words {
+    pub enum Reality as words, Display {
         /// Imaginary parts vanish to rounding.
         Real = "real",
         /// Imaginary parts are far above rounding.
@@ -84,8 +84,6 @@ num::words! {
         Undecided = "real or not: undecided",
     }
 }
-
-num::displayed!(Reality by words);
 
 /// The kind of set that the finite complex poses form.
 #[derive(Debug, Clone, PartialEq)]

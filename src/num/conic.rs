@@ -72,7 +72,7 @@ crate::words! {
     /// The reason why the conic solver gave no answer.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
-    pub enum SolverFailure as words {
+    pub enum SolverFailure as words, Display {
         /// The data were refused.
         Data = "the conic solver refused the data",
         /// Claimed unbounded.
@@ -85,8 +85,6 @@ crate::words! {
         Residual = "the conic solver's point does not satisfy the constraints",
     }
 }
-
-crate::displayed!(SolverFailure by words);
 
 /// Counts the programs of a search; clones count together.
 #[derive(Debug, Clone, Default)]

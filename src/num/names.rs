@@ -41,53 +41,37 @@ pub fn named<T: Copy>(
 
 /// Gives the choices of an enum the words that people write for them, each beside its choice.
 ///
-/// After the name of the enum stands a list of what it gets.
-/// * `name`: the word of a choice, or `word(code)` if the method has another name.
-/// * `ALL`: every choice in order, or `BOTH` of two.
-/// * `Display`: by the name.
-/// * `FromStr("what")`: the choice of a name by [`named`].
-///
-/// `Name as function` is short for `Name: word(function), ALL`; after `as function | other` each choice has two words.
+/// `Name as function` has the word of a choice as `function` and every choice in order as `ALL`.
+/// After `as function | other` each choice has two words. A comma adds:
+/// * `Display`: by the word.
+/// * `FromStr("what")`: the choice of a word by [`named`].
 ///
 /// # Examples
 /// ```
 /// equipod_num::words! {
 ///     /// A side of a plane.
 ///     #[derive(Debug, Clone, Copy, PartialEq)]
-///     pub enum Side: name, BOTH, Display, FromStr("side") {
+///     pub enum Side as name, Display, FromStr("side") {
 ///         /// Above it.
 ///         Above = "above",
 ///         /// Below it.
 ///         Below = "below",
 ///     }
 /// }
-/// assert_eq!(Side::BOTH.map(Side::name), ["above", "below"]);
+/// assert_eq!(Side::ALL.map(Side::name), ["above", "below"]);
 /// assert_eq!("Above".parse(), Ok(Side::Above));
 /// ```
 #[macro_export]
 macro_rules! words {
     (
         $(#[$meta:meta])*
-        $visibility:vis enum $name:ident as $function:ident {
-            $($(#[$about:meta])* $variant:ident = $word:tt),+ $(,)?
-        }
-    ) => {
-        $crate::words! {
-            $(#[$meta])*
-            $visibility enum $name: word($function), ALL {
-                $($(#[$about])* $variant = $word),+
-            }
-        }
-    };
-    (
-        $(#[$meta:meta])*
-        $visibility:vis enum $name:ident as $function:ident | $other:ident {
+        $visibility:vis enum $name:ident as $function:ident | $other:ident $(, $made:ident $(($what:literal))?)* {
             $($(#[$about:meta])* $variant:ident = $word:tt | $label:tt),+ $(,)?
         }
     ) => {
         $crate::words! {
             $(#[$meta])*
-            $visibility enum $name: word($function), ALL {
+            $visibility enum $name as $function $(, $made $(($what))?)* {
                 $($(#[$about])* $variant = $word),+
             }
         }
@@ -103,60 +87,40 @@ macro_rules! words {
         }
     };
     (
-        $(#[$about:meta])*
-        $vis:vis enum $kind:ident: $($made:ident $(($what:tt))?),+ {
-            $($(#[$of:meta])* $choice:ident = $word:literal),+ $(,)?
+        $(#[$meta:meta])*
+        $visibility:vis enum $name:ident as $function:ident $(, $made:ident $(($what:literal))?)* {
+            $($(#[$about:meta])* $variant:ident = $word:tt),+ $(,)?
         }
     ) => {
-        $(#[$about])*
-        $vis enum $kind {
-            $($(#[$of])* $choice),+
+        $(#[$meta])*
+        $visibility enum $name {
+            $($(#[$about])* $variant),+
         }
 
-        $crate::words!(@each [$($made $(($what))?),+] $vis $kind [$($choice = $word),+]);
-    };
-    (@each [$($made:ident $(($what:tt))?),+] $vis:vis $kind:ident $words:tt) => {
-        $($crate::words!(@$made $(($what))? $vis $kind $words);)+
-    };
-    (@name $vis:vis $kind:ident $words:tt) => {
-        $crate::words!(@word(name) $vis $kind $words);
-    };
-    (@word($method:ident) $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
-        impl $kind {
+        impl $name {
+            /// Every choice, in order.
+            $visibility const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
+
             /// The word of the choice, as files and answers write it.
             #[must_use]
-            $vis fn $method(self) -> &'static str {
+            $visibility fn $function(self) -> &'static str {
                 match self {
-                    $(Self::$choice => $word),+
+                    $(Self::$variant => $word),+
                 }
             }
         }
+
+        $($crate::words!(@$made $(($what))? $name $function);)*
     };
-    (@ALL $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
-        impl $kind {
-            /// Every choice, in order.
-            $vis const ALL: [Self; [$($word),+].len()] = [$(Self::$choice),+];
-        }
+    (@Display $name:ident $function:ident) => {
+        $crate::displayed!($name by $function);
     };
-    (@BOTH $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
-        impl $kind {
-            /// Both choices, in order.
-            $vis const BOTH: [Self; 2] = [$(Self::$choice),+];
-        }
-    };
-    (@Display $vis:vis $kind:ident $words:tt) => {
-        impl std::fmt::Display for $kind {
-            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str(self.name())
-            }
-        }
-    };
-    (@FromStr($what:literal) $vis:vis $kind:ident [$($choice:ident = $word:literal),+]) => {
-        impl std::str::FromStr for $kind {
+    (@FromStr($what:literal) $name:ident $function:ident) => {
+        impl std::str::FromStr for $name {
             type Err = $crate::names::UnknownName;
 
             fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
-                $crate::names::named($what, text, &[$(Self::$choice),+], Self::name)
+                $crate::names::named($what, text, &Self::ALL, Self::$function)
             }
         }
     };
@@ -215,14 +179,14 @@ macro_rules! displayed {
 macro_rules! answer_words {
     (
         $(#[$meta:meta])*
-        $visibility:vis enum $name:ident as $function:ident $(| $other:ident)? {
+        $visibility:vis enum $name:ident as $function:ident $(| $other:ident)? $(, $made:ident $(($what:literal))?)* {
             $($(#[$about:meta])* $variant:ident = $word:tt $(| $label:tt)?),+ $(,)?
         }
     ) => {
         $crate::words! {
             #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
             $(#[$meta])*
-            $visibility enum $name as $function $(| $other)? {
+            $visibility enum $name as $function $(| $other)? $(, $made $(($what))?)* {
                 $($(#[$about])* #[cfg_attr(feature = "serde", serde(rename = $word))] $variant = $word $(| $label)?),+
             }
         }

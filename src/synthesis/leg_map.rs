@@ -121,7 +121,7 @@ impl AffineLegMap {
 num::answer_words! {
     /// The relation of two platforms.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum Relation as name {
+    pub enum Relation as name, Display {
         /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: equal poses, equal singularities.
         Equivalent = "equivalent",
         /// The legs of FROM or of TO are dependent: one of the two is architecturally singular.
@@ -139,8 +139,6 @@ impl Relation {
         Some(self).filter(|r| *r != Self::Undecided)
     }
 }
-
-num::displayed!(Relation by name);
 
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]

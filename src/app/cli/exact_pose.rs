@@ -177,10 +177,10 @@ mod tests {
         for (k, order) in RotationOrder::all().into_iter().enumerate() {
             let convention = PoseConvention {
                 rotation_order: Some(order),
-                quaternion: Some(QuaternionOrder::BOTH[k % 2]),
+                quaternion: Some(QuaternionOrder::ALL[k % 2]),
                 pivot: Some(nalgebra::Vector3::new(0.5, -1.0, 2.0)),
                 relative_to: Some([ListedFrom::Home, ListedFrom::Base][(k / 2) % 2]),
-                up: Some(UpAxis::BOTH[k % 2]),
+                up: Some(UpAxis::ALL[k % 2]),
                 angles: None,
             };
             let frames = design.pose_frames(convention);

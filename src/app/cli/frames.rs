@@ -23,13 +23,13 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "FRAME", value_parser = |word: &str| named("frame", word, &[ListedFrom::Base, ListedFrom::Home], ListedFrom::name))]
     relative_to: Option<ListedFrom>,
     /// Axis that points up: `z` or `y`
-    #[arg(long, value_name = "AXIS", value_parser = |word: &str| named("axis", word, &UpAxis::BOTH, UpAxis::name))]
+    #[arg(long, value_name = "AXIS", value_parser = |word: &str| named("axis", word, &UpAxis::ALL, UpAxis::name))]
     up: Option<UpAxis>,
     /// Unit of angles: `deg` or `rad`
-    #[arg(long, value_name = "UNIT", value_parser = |word: &str| named("unit of angles", word, &AngleUnit::BOTH, AngleUnit::name))]
+    #[arg(long, value_name = "UNIT", value_parser = |word: &str| named("unit of angles", word, &AngleUnit::ALL, AngleUnit::name))]
     angle_unit: Option<AngleUnit>,
     /// Order of quaternions: `wxyz` or `xyzw`
-    #[arg(long, value_name = "ORDER", value_parser = |word: &str| named("order of quaternions", word, &QuaternionOrder::BOTH, QuaternionOrder::name))]
+    #[arg(long, value_name = "ORDER", value_parser = |word: &str| named("order of quaternions", word, &QuaternionOrder::ALL, QuaternionOrder::name))]
     quaternion: Option<QuaternionOrder>,
 }
 

@@ -84,12 +84,12 @@ fn convention(py: Python<'_>, words: &ConventionWords) -> PyResult<PoseConventio
     let order = order.as_ref().map(|text| text.parse::<RotationOrder>()).transpose();
     Ok(PoseConvention {
         rotation_order: order.map_err(|why| refused(py, "frames", &why.to_string()))?,
-        angles: word(py, "unit of angles", angles.as_ref(), &AngleUnit::BOTH, AngleUnit::name)?,
+        angles: word(py, "unit of angles", angles.as_ref(), &AngleUnit::ALL, AngleUnit::name)?,
         quaternion: word(
             py,
             "order of quaternions",
             quaternion.as_ref(),
-            &QuaternionOrder::BOTH,
+            &QuaternionOrder::ALL,
             QuaternionOrder::name,
         )?,
         pivot: pivot.map(Into::into),
@@ -100,7 +100,7 @@ fn convention(py: Python<'_>, words: &ConventionWords) -> PyResult<PoseConventio
             &[ListedFrom::Base, ListedFrom::Home],
             ListedFrom::name,
         )?,
-        up: word(py, "axis", up.as_ref(), &UpAxis::BOTH, UpAxis::name)?,
+        up: word(py, "axis", up.as_ref(), &UpAxis::ALL, UpAxis::name)?,
     })
 }
 

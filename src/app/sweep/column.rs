@@ -6,7 +6,7 @@ pub(crate) const CANDIDATE: &str = "candidate";
 num::words! {
     /// The type of the cells of a column.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum ColumnKind: name, ALL {
+    pub enum ColumnKind as name {
         /// Doubles.
         Number = "number",
         /// Integers of 64 bits.

@@ -57,7 +57,7 @@ num::words! {
     /// The two notations of the same structure.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
-    pub enum Format: name, Display, FromStr("notation") {
+    pub enum Format as name, Display, FromStr("notation") {
         /// TOML 1.
         Toml = "toml",
         /// JSON as in RFC 8259: no comments, no trailing commas.

@@ -9,7 +9,7 @@ num::words! {
     /// The kind of a violation; the name in [`Code::name`] is stable.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     #[non_exhaustive]
-    pub enum Code: name, Display {
+    pub enum Code as name, Display {
         /// The text is not TOML or not JSON.
         Syntax = "design::syntax",
         /// The file is empty.

@@ -172,7 +172,7 @@ num::words! {
     /// A format by its name.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     #[non_exhaustive]
-    pub enum ExportFormat: name, ALL, Display, FromStr("format") {
+    pub enum ExportFormat as name, Display, FromStr("format") {
         /// C99 for controllers.
         C = "c",
         /// Joints, lengths at home, workspace and trajectory as tables.

@@ -12,7 +12,7 @@ num::words! {
         derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
         serde(rename_all = "snake_case")
     )]
-    pub enum Loss: name, ALL, FromStr("loss") {
+    pub enum Loss as name, FromStr("loss") {
         /// The square of the distance.
         #[default]
         Squares = "squares",

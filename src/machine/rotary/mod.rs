@@ -43,9 +43,6 @@ num::answer_words! {
 }
 
 impl Elbow {
-    /// Both sides.
-    pub const BOTH: [Self; 2] = [Self::Plus, Self::Minus];
-
     /// The other side.
     #[must_use]
     pub fn other(self) -> Self {

@@ -25,7 +25,7 @@ pub struct Topology {
 num::words! {
     /// Reasons why six legs can never hold a platform: the Jacobian has rank 5 or less at every pose, for all joints.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum AlwaysSingular as words {
+    pub enum AlwaysSingular as words, Display {
         /// Two legs join the same two joints, so their lines coincide.
         CoincidentLegs = "two legs join the same two joints",
         /// Four lines through one point have rank 3.
@@ -35,8 +35,6 @@ num::words! {
         TwoJointsHoldAllLegs = "two joints hold all six legs",
     }
 }
-
-num::displayed!(AlwaysSingular by words);
 
 impl Topology {
     /// The topology of six legs given by joint indices.

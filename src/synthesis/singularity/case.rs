@@ -320,7 +320,7 @@ fn projective_within(a: &[[f64; 3]], b: &[[f64; 3]]) -> Result<bool, LinalgError
 num::words! {
     /// The map from one planar set of points to another.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum PlanarMap as words {
+    pub enum PlanarMap as words, Display {
         /// A similarity: all distances in one ratio.
         Similar = "similar images",
         /// An affine map.
@@ -329,8 +329,6 @@ num::words! {
         Projective = "projective images",
     }
 }
-
-num::displayed!(PlanarMap by words);
 
 /// The most special regular map with `b_i` the image of `a_i`, points `(1, x, y, z)`; both sets span planes.
 fn planar_map(a: &[AlgebraicVector], b: &[AlgebraicVector]) -> Option<PlanarMap> {

@@ -21,7 +21,7 @@ num::words! {
         serde(rename_all = "snake_case"),
         schemars(rename = "SingularEvidenceWord")
     )]
-    pub enum SingularEvidence as words {
+    pub enum SingularEvidence as words, Display {
         /// Proved: det J is zero in exact arithmetic on the joints and the rotation as written.
         Zero = "det J = 0, proved in exact arithmetic",
         /// det J has opposite signs before and after: proved for legs, by instants for rods on cranks.
@@ -30,8 +30,6 @@ num::words! {
         Rounding = "det J = 0 to rounding",
     }
 }
-
-num::displayed!(SingularEvidence by words);
 
 /// Whether the legs hold the platform at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

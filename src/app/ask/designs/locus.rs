@@ -59,7 +59,7 @@ num::words! {
     /// The structure of the set of poses at one length.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
-    pub enum LocusWord: name {
+    pub enum LocusWord as name {
         /// Isolated poses.
         Isolated = "isolated",
         /// No pose.

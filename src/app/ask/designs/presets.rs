@@ -7,7 +7,7 @@ num::words! {
     /// The purpose of a machine.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
-    pub enum PresetClass: name {
+    pub enum PresetClass as name {
         /// Small machines with drives from a catalogue.
         Bench = "bench",
         /// Machines that move a person or a cabin.

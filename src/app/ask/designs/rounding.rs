@@ -61,7 +61,7 @@ num::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
     #[schemars(rename = "VariantWord")]
-    pub enum RoundingWay: name {
+    pub enum RoundingWay as name {
         /// All joints exactly on the sides of two triangles.
         Exact = "exact",
         /// All joints on holes near their given positions.

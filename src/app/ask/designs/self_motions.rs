@@ -37,7 +37,7 @@ num::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
     #[schemars(rename = "OriginWord")]
-    pub enum MotionOrigin: name {
+    pub enum MotionOrigin as name {
         /// The given pose.
         Pose = "pose",
         /// A point on a section of the set of poses.

@@ -193,7 +193,7 @@ pub struct AnswerField {
 num::words! {
     /// The commands whose answers have columns.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum AnswerName: name, ALL {
+    pub enum AnswerName as name {
         /// The answer on requirements and margins.
         Assess = "assess",
         /// The answer on architectural singularity.

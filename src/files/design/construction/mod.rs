@@ -25,7 +25,7 @@ use platform::manipulator::Body;
 num::words! {
     /// The exactness of the coordinates of a joint.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Exactness: name, Display {
+    pub enum Exactness as name, Display {
         /// All coordinates are fractions.
         Rational = "rational",
         /// All coordinates are sums of rational multiples of square roots of integers and of cosines.
@@ -114,7 +114,7 @@ pub(crate) enum LinePlace {
 num::words! {
     /// A plane of two axes of the frame of the body.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub(crate) enum CoordinatePlane: name, ALL {
+    pub(crate) enum CoordinatePlane as name {
         Xy = "xy",
         Xz = "xz",
         Yz = "yz",

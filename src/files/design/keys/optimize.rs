@@ -34,7 +34,7 @@ pub(super) struct OptimizeKeys {
 num::words! {
     /// The combination of several objectives.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub(super) enum WeighingMode: name, ALL {
+    pub(super) enum WeighingMode as name {
         Weighted = "weighted",
         Lexicographic = "lexicographic",
         Pareto = "pareto",

@@ -136,12 +136,12 @@ macro_rules! words {
 }
 
 words! {
-    AngleUnit: Self::BOTH, Self::name;
+    AngleUnit: Self::ALL, Self::name;
     Body: Self::BOTH, Self::name;
     BoltsFrom: Self::ALL, Self::name;
     CoordinatePlane: Self::ALL, Self::name;
     FrameAxis: Self::ALL, Self::name;
-    Elbow: Self::BOTH, Self::name;
+    Elbow: Self::ALL, Self::name;
     ForceUnit: Self::ALL, Self::label;
     HolePattern: Self::ALL, Self::name;
     JointType: [Self::Ball, Self::Universal, Self::Flexure], Self::name;
@@ -151,9 +151,9 @@ words! {
     MassUnit: Self::ALL, Self::label;
     Objective: Self::ALL, Self::code;
     PlateMass: Self::ALL, Self::name;
-    QuaternionOrder: Self::BOTH, Self::name;
+    QuaternionOrder: Self::ALL, Self::name;
     Region: [Self::Box, Self::Ellipsoid], Self::name;
-    UpAxis: Self::BOTH, Self::name;
+    UpAxis: Self::ALL, Self::name;
     VariableKind: Self::ALL, Self::code;
 }
 

@@ -103,7 +103,7 @@ pub enum InvalidDriveTable {
 num::words! {
     /// The meaning of a column.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    enum DriveColumn: name, ALL {
+    enum DriveColumn as name {
         Name = "name",
         Stroke = "stroke",
         DeadLength = "dead_length",

@@ -24,7 +24,7 @@ use machine::rotary::{Elbow, RotaryPlatform};
 num::words! {
     /// The program of a sheet; it determines which of `L3` and `L4` is the long side of the base.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum SheetDialect: name, ALL, FromStr("dialect") {
+    pub enum SheetDialect as name, FromStr("dialect") {
         /// `Motion4Sim`, whose parameters are those of `FlyPT` Mover: `L3` is the short side of the base, `L4` the long
         /// one.
         Motion4Sim = "motion4sim",

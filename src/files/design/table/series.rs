@@ -538,7 +538,7 @@ mod tests {
         assert_eq!(poses("x,y,z,roll,pitch,yaw\n10,20,30,1,0,0\n", &radians).rows[0].value, meant);
         let degrees = poses("x,y,z,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,90\n", &radians).rows[0].value;
         assert!((degrees.angles().degrees()[2] - 90.0).abs() < 1e-12, "the header says the unit");
-        for order in platform::geom::QuaternionOrder::BOTH {
+        for order in platform::geom::QuaternionOrder::ALL {
             let convention = PoseConvention { quaternion: Some(order), ..PoseConvention::default() };
             let found = poses("qw,qx,qy,qz,x,y,z,note\n0,1,0,0,10,20,30,\"a, b\"\n", &convention);
             let bits = found.rows[0].value.quaternion().map(f64::to_bits);

@@ -5,7 +5,7 @@ use crate::requirements::assess::Margin;
 num::answer_words! {
     /// The proved state of the least margin of a kind of requirement over all poses.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum MarginVerdict as name | label {
+    pub enum MarginVerdict as name | label, Display {
         /// Proved: no margin is negative.
         Met = "met" | "met",
         /// Proved: no margin is negative by more than the rounding of its evaluation
@@ -29,8 +29,6 @@ impl MarginVerdict {
         }
     }
 }
-
-num::displayed!(MarginVerdict by name);
 
 /// The least margin of a kind with its proved bound.
 #[derive(Debug, Clone, PartialEq)]

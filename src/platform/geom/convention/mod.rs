@@ -238,7 +238,7 @@ pub(super) fn angles_of_product(r: &Matrix3<f64>, [i, j, last]: [usize; 3]) -> W
 num::words! {
     /// The unit of angles.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum AngleUnit: name, BOTH {
+    pub enum AngleUnit as name {
         /// Degrees.
         #[default]
         Degrees = "deg",
@@ -268,7 +268,7 @@ impl AngleUnit {
 num::words! {
     /// The place of the scalar in a quaternion.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum QuaternionOrder: name, BOTH {
+    pub enum QuaternionOrder as name {
         /// In front.
         #[default]
         ScalarFirst = "wxyz",
@@ -300,7 +300,7 @@ impl QuaternionOrder {
 num::words! {
     /// The axis that points up.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum UpAxis: name, BOTH {
+    pub enum UpAxis as name {
         /// y, in the base frame and in that of the platform: `(x, y, z)` are our `(x, -z, y)`.
         Y = "y",
         /// z, as in this program.

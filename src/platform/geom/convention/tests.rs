@@ -18,11 +18,11 @@ fn conventions(rng: &mut Rng) -> Vec<PoseConvention> {
         let pick = |bit: usize| (k >> bit) & 1;
         out.push(PoseConvention {
             rotation_order: Some(order),
-            angles: Some(AngleUnit::BOTH[pick(0)]),
-            quaternion: Some(QuaternionOrder::BOTH[pick(1)]),
+            angles: Some(AngleUnit::ALL[pick(0)]),
+            quaternion: Some(QuaternionOrder::ALL[pick(1)]),
             pivot: (pick(2) == 1).then(|| Vector3::from_fn(|_, _| rng.normal())),
             relative_to: Some([ListedFrom::Base, ListedFrom::Home][pick(1)]),
-            up: Some(UpAxis::BOTH[pick(0)]),
+            up: Some(UpAxis::ALL[pick(0)]),
         });
     }
     out

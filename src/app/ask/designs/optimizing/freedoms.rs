@@ -31,7 +31,7 @@ num::words! {
     )]
     #[serde(rename_all = "snake_case")]
     #[schemars(rename = "Freedom")]
-    pub enum ConflictFreedom: name, ALL {
+    pub enum ConflictFreedom as name {
         /// The height of home is chosen.
         HomeHeight = "home_height",
         /// The sizes of the triangles, or of base and platform, are chosen.

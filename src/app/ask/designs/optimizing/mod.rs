@@ -194,7 +194,7 @@ num::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
     #[schemars(rename = "OptimizeWord")]
-    pub enum OptimizeStatus: name, Display {
+    pub enum OptimizeStatus as name, Display {
         /// The requirements are met, and it is proved that no offsets are better by more than `tolerance`.
         Optimal = "optimal",
         /// The requirements are met, and the platform is a local optimum, the best of all starts; a better one is

@@ -33,7 +33,7 @@ pub(super) fn is_xml(text: &str) -> bool {
 num::words! {
     /// A format of models.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    enum ModelFormat: name {
+    enum ModelFormat as name {
         Mujoco = "MuJoCo",
         Sdf = "SDF",
         Urdf = "URDF",
