@@ -8,27 +8,56 @@ use ask::equivalents::Original;
 use ask::{ComparedDesigns, Design, SAMPLES};
 use fk::FkOptions;
 use num::algebraic::Algebraic;
-use synthesis::{Derivation, LegSlide, Pattern};
+use synthesis::{Derivation, LegMapOutcome, LegSlide, Pattern};
 use verify::VerifyError;
 
-/// The derivation of A, c and det A for one platform of the class from coplanar joints, with the forward kinematics as
-/// a check.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DerivationRecord {
-    /// Whether numbers are exact: the joints are exact, and each moved joint lies exactly on its line. Otherwise the
-    /// numbers are doubles.
-    pub exact: bool,
-    /// Row of A of each moved leg, with all offsets at once, from the legs of the octahedral platform.
-    pub moves: Vec<LegSlideRecord>,
-    /// The moves one at a time, each from the legs before it; det A is the product of their `rest`. Null: every order
-    /// of single moves puts two legs on one another.
-    pub sequence: Option<Vec<LegSlideRecord>>,
-    /// The factors of det A.
-    pub factors: Vec<FactorRecord>,
-    /// Products over all offsets; det A is their difference. Null: some leg is not moved.
-    pub products: Option<OffsetProductsRecord>,
-    /// Check by forward kinematics, solved independently, and the leg map from one to the other.
-    pub verification: VerifyAnswer,
+view! {
+    /// The derivation of A, c and det A for one platform of the class from coplanar joints, with the forward kinematics
+    /// as a check.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct DerivationRecord {
+        /// Whether numbers are exact: the joints are exact, and each moved joint lies exactly on its line. Otherwise
+        /// the numbers are doubles.
+        pub exact: bool = steps.exact,
+        /// Row of A of each moved leg, with all offsets at once, from the legs of the octahedral platform.
+        pub moves: Vec<LegSlideRecord> = steps.moves.iter().map(record).collect(),
+        /// The moves one at a time, each from the legs before it; det A is the product of their `rest`. Null: every
+        /// order of single moves puts two legs on one another.
+        pub sequence: Option<Vec<LegSlideRecord>> =
+            steps.sequence.as_ref().map(|sequence| sequence.iter().map(record).collect()),
+        /// The factors of det A.
+        pub factors: Vec<FactorRecord> = (steps.factors.iter())
+            .map(|(f, value)| FactorRecord {
+                formula: f.to_string(),
+                zero: f.zero(),
+                value: number(value),
+            })
+            .collect(),
+        /// Products over all offsets; det A is their difference. Null: some leg is not moved.
+        pub products: Option<OffsetProductsRecord> = (steps.products.as_ref())
+            .map(|[rest, own]| OffsetProductsRecord { rest: number(rest), own: number(own) }),
+        /// Check by forward kinematics, solved independently, and the leg map from one to the other.
+        pub verification: VerifyAnswer = verification,
+    }
+    /// The steps, with the names that joints have in the class, and the verification of the platform they make.
+    pub fn new(steps: &Derivation, original: &Original, verification: VerifyAnswer) {
+        let number = |x: &Algebraic| ExactNumberRecord {
+            value: Number(x.approximate()),
+            exact: steps.exact.then(|| x.to_string()),
+        };
+        let record = |step: &LegSlide| LegSlideRecord {
+            leg: step.leg + 1,
+            between: step.between.map(|leg| leg + 1),
+            ends: step.ends.map(|j| original.joint_name(j)),
+            moved: original.joint_name(step.moved),
+            fixed: original.joint_name(step.fixed),
+            offset: number(&step.share),
+            rest: number(&step.rest()),
+            square: number(&step.square),
+            squares_to_ends: step.squares_to_ends().each_ref().map(number),
+            constant: number(&step.constant()),
+        };
+    }
 }
 
 /// One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose.
@@ -86,8 +115,8 @@ pub struct ExactNumberRecord {
 }
 
 impl DerivationRecord {
-    /// The steps to an equivalent platform, and forward kinematics of both platforms at sample poses; `None` where an
-    /// edge of the original has no length.
+    /// The steps to an equivalent platform, with forward kinematics of both platforms at sample poses, and the leg map of
+    /// the two; `None` where an edge of the original has no length.
     ///
     /// # Errors
     /// The comparison gives these ([`ComparedDesigns::of`]).
@@ -96,45 +125,9 @@ impl DerivationRecord {
         pattern: &Pattern,
         built: &Design,
         options: &FkOptions,
-    ) -> Result<Option<Self>, VerifyError> {
+    ) -> Result<Option<(Self, LegMapOutcome)>, VerifyError> {
         let Some(steps) = original.derivation(pattern, built) else { return Ok(None) };
         let compared = ComparedDesigns::of([&original.design, built], SAMPLES, options)?;
-        Ok(Some(Self::new(&steps, original, VerifyAnswer::from(&compared))))
-    }
-
-    /// The steps, with the names that joints have in the class, and the verification of the platform they make.
-    #[must_use]
-    pub fn new(steps: &Derivation, original: &Original, verification: VerifyAnswer) -> Self {
-        let number = |x: &Algebraic| ExactNumberRecord {
-            value: Number(x.approximate()),
-            exact: steps.exact.then(|| x.to_string()),
-        };
-        let record = |step: &LegSlide| LegSlideRecord {
-            leg: step.leg + 1,
-            between: step.between.map(|leg| leg + 1),
-            ends: step.ends.map(|j| original.joint_name(j)),
-            moved: original.joint_name(step.moved),
-            fixed: original.joint_name(step.fixed),
-            offset: number(&step.share),
-            rest: number(&step.rest()),
-            square: number(&step.square),
-            squares_to_ends: step.squares_to_ends().each_ref().map(number),
-            constant: number(&step.constant()),
-        };
-        Self {
-            exact: steps.exact,
-            moves: steps.moves.iter().map(record).collect(),
-            sequence: steps.sequence.as_ref().map(|sequence| sequence.iter().map(record).collect()),
-            factors: (steps.factors.iter())
-                .map(|(f, value)| FactorRecord {
-                    formula: f.to_string(),
-                    zero: f.zero(),
-                    value: number(value),
-                })
-                .collect(),
-            products: (steps.products.as_ref())
-                .map(|[rest, own]| OffsetProductsRecord { rest: number(rest), own: number(own) }),
-            verification,
-        }
+        Ok(Some((Self::new(&steps, original, VerifyAnswer::from(&compared)), compared.found.map)))
     }
 }

@@ -8,17 +8,29 @@ use ask::{LocusPoint, LocusReport, LocusWord};
 use files::plot::{LocusMeeting, locus_meetings};
 use fk::{Method, Reality};
 
-/// The answer of `plot locus`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct LocusAnswer {
-    /// Variable leg, from 1.
-    pub leg: usize,
-    /// Joints of the virtual leg.
-    pub between: [String; 2],
-    /// The values at each length.
-    pub rows: Vec<LocusRowRecord>,
-    /// Interpolated lengths at which two real values meet.
-    pub meetings: Vec<LocusMeeting>,
+view! {
+    /// The answer of `plot locus`.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct LocusAnswer {
+        /// Variable leg, from 1.
+        pub leg: usize = leg_number(found.leg),
+        /// Joints of the virtual leg.
+        pub between: [String; 2] = found.between.names.clone(),
+        /// The values at each length.
+        pub rows: Vec<LocusRowRecord> = found.points.iter().enumerate().map(row).collect(),
+        /// Interpolated lengths at which two real values meet.
+        pub meetings: Vec<LocusMeeting> = locus_meetings(&found.steps()),
+    }
+    impl From(found: &LocusReport) {
+        let row = |(step, point): (usize, &LocusPoint)| LocusRowRecord {
+            step,
+            length: Number(point.length),
+            status: point.word(),
+            all_paths_accounted: point.is_complete(),
+            method: point.found.as_ref().map(|f| f.0.method),
+            values: values(point),
+        };
+    }
 }
 
 /// The values at one length.
@@ -51,25 +63,6 @@ pub struct LocusValueRecord {
     pub certified: bool,
     /// Number of paths, or roots of a polynomial, that end at the pose.
     pub multiplicity: u32,
-}
-
-impl From<&LocusReport> for LocusAnswer {
-    fn from(found: &LocusReport) -> Self {
-        let row = |(step, point): (usize, &LocusPoint)| LocusRowRecord {
-            step,
-            length: Number(point.length),
-            status: point.word(),
-            all_paths_accounted: point.is_complete(),
-            method: point.found.as_ref().map(|f| f.0.method),
-            values: values(point),
-        };
-        Self {
-            leg: leg_number(found.leg),
-            between: found.between.names.clone(),
-            rows: found.points.iter().enumerate().map(row).collect(),
-            meetings: locus_meetings(&found.steps()),
-        }
-    }
 }
 
 fn values(point: &LocusPoint) -> Vec<LocusValueRecord> {

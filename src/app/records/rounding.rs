@@ -53,31 +53,22 @@ pub struct GridsRecord {
     pub platform: Option<GridRecord>,
 }
 
-/// A grid of holes in the plane of a body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GridRecord {
-    /// Hole pattern.
-    pub pattern: HolePattern,
-    /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
-    pub pitch: Option<Number>,
-    /// The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other patterns.
-    pub circles: Vec<HoleCircle>,
-    /// Hole, or centre of the circles, body frame, design units.
-    pub origin: [Number; 2],
-    /// The angle of the grid, degrees.
-    pub angle_deg: Number,
-}
-
-impl From<&Grid> for GridRecord {
-    fn from(g: &Grid) -> Self {
-        Self {
-            pattern: g.pattern,
-            pitch: (g.pattern != HolePattern::BoltCircle).then_some(Number(g.pitch)),
-            circles: g.circles.as_slice().to_vec(),
-            origin: g.origin.map(Number),
-            angle_deg: Number(g.angle_deg),
-        }
+view! {
+    /// A grid of holes in the plane of a body.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct GridRecord {
+        /// Hole pattern.
+        pub pattern: HolePattern = g.pattern,
+        /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
+        pub pitch: Option<Number> = (g.pattern != HolePattern::BoltCircle).then_some(Number(g.pitch)),
+        /// The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other patterns.
+        pub circles: Vec<HoleCircle> = g.circles.as_slice().to_vec(),
+        /// Hole, or centre of the circles, body frame, design units.
+        pub origin: [Number; 2] = g.origin.map(Number),
+        /// The angle of the grid, degrees.
+        pub angle_deg: Number = Number(g.angle_deg),
     }
+    impl From(g: &Grid) {}
 }
 
 impl GridRecord {
