@@ -34,8 +34,8 @@ pub struct BenchOneAnswer {
     pub method: String,
 }
 
-/// The methods that `--method` accepts.
-const METHODS: [&str; 6] = ["auto", "octic", "homotopy", "sylvester", "template", "trilateration"];
+/// The words of `--method`. `auto` names no method, so that the library chooses one.
+pub const METHODS: [&str; 6] = ["auto", "octic", "homotopy", "sylvester", "template", "trilateration"];
 
 /// The runs of several classes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -93,7 +93,7 @@ view! {
                 coefficient: Number(m.coefficients[m.request.leg.get()]),
                 residual: Number(m.residual),
                 exact: m.exact,
-                singular_parameters: (&m.singular).into(),
+                singular_parameters: m.singular.clone(),
             }
         };
     }
@@ -128,26 +128,7 @@ pub struct LegMoveRecord {
     /// Whether the new coordinates are exact.
     pub exact: bool,
     /// First parameters with det A = 0.
-    pub singular_parameters: SingularParametersRecord,
-}
-
-/// First parameters with det A = 0.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum SingularParametersRecord {
-    /// Some values.
-    At(Vec<Number>),
-    /// All values.
-    Everywhere(#[schemars(extend("const" = "everywhere"))] String),
-}
-
-impl From<&SingularParameters> for SingularParametersRecord {
-    fn from(s: &SingularParameters) -> Self {
-        match s {
-            SingularParameters::Everywhere => Self::Everywhere("everywhere".into()),
-            SingularParameters::At(list) => Self::At(list.iter().copied().map(Number).collect()),
-        }
-    }
+    pub singular_parameters: SingularParameters,
 }
 
 view! {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::uncertainty::{CorrelationsWord, in_degrees};
-use super::{AssessAnswer, Number, PoseQuaternionRecord};
+use super::{AssessAnswer, Number, PoseQuaternionRecord, SourceWord};
 use ask::Design;
 use machine::manufacture::{
     ErrorAtPose, ErrorParts, ErrorSpread, Joint, JointBudget, LimitedAllowance, MachineErrors,
@@ -179,17 +179,7 @@ pub struct BudgetPosesRecord {
     /// Number of poses.
     pub count: usize,
     /// Source of the workspace.
-    pub workspace: WorkspaceWord,
-}
-
-/// The source of a workspace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum WorkspaceWord {
-    /// The design.
-    Design,
-    /// A box about home, because the design has none.
-    Default,
+    pub workspace: SourceWord,
 }
 
 view! {

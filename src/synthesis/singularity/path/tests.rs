@@ -36,7 +36,10 @@ fn the_form_of_degree_18_is_the_determinant_times_the_sixth_power_of_the_norm() 
             let norm: f64 = e0.iter().zip(e1).map(|(p, q)| (p * (1.0 - u) + q * u).powi(2)).sum();
             let direct = plucker_matrix(&m, &between(&x, &y, u), m.size()).determinant() * norm.powi(6);
             let own = *factor.get_or_insert(value / direct);
-            assert!(own > 0.0 && (value - own * direct).abs() < 1e-9 * (1.0 + value.abs()), "{value} {direct}");
+            assert!(
+                own > 0.0 && (value - own * direct).abs() < 1e-9 * (1.0 + value.abs()),
+                "{value} {direct}"
+            );
         }
     }
 }

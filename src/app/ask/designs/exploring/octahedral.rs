@@ -172,7 +172,8 @@ fn searched(
     options: &mut ExploreOptions<'_>,
 ) -> Result<(OptimizeReport, OnHoles), NoExploration> {
     let (found, holes) = search_once(design, explains, options)?;
-    let is_last = holes.is_none() || is_met(&holes) || options.watch.flow(ExploreProgress::Searched).is_break();
+    let is_last =
+        holes.is_none() || is_met(&holes) || options.watch.flow(ExploreProgress::Searched).is_break();
     if is_last || found.symmetry() != Some(StartSymmetry::Kept) {
         return Ok((found, holes));
     }

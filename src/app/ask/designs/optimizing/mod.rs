@@ -106,7 +106,7 @@ impl<P> Watch<'_, P> {
     }
 
     /// The same caller for a part of the search.
-    pub(crate) fn of_part<Q>(&mut self, progress: fn(Q) -> P) -> Watch<'_, Q> {
+    pub(crate) fn of_part<Q: 'static>(&mut self, progress: fn(Q) -> P) -> Watch<'_, Q> {
         Watch {
             ends: self.ends,
             cancel: self.cancel.clone(),
