@@ -63,7 +63,7 @@ view! {
         /// Inverse condition number of the Jacobian: 1 at best.
         pub inverse_condition: Option<Number> = found.inverse_condition.map(Number),
         /// Forces that hold each load and `--wrench`, at rest.
-        pub held: Vec<HeldWrenchRecord> = found.held.iter().map(held).collect(),
+        pub held: Vec<HeldWrenchRecord> = found.held.iter().map(HeldWrenchRecord::of).collect(),
         /// Wrench that `--forces` hold; null: none were given.
         pub wrench: Option<WrenchRecord> = found.wrench.as_ref().map(WrenchRecord::new),
         /// Matrix from leg forces to the wrench they hold, force before torque, as in a six-axis load cell; null where
@@ -99,11 +99,6 @@ view! {
         let reach = design.reach(&required);
         let violated = reach.violated(&asked.pose);
         let point = frames.convention.axes().transpose() * asked.point;
-        let held = |held: &HeldWrench| HeldWrenchRecord {
-            load: held.load.clone(),
-            wrench: WrenchRecord::new(&held.wrench),
-            forces: held.efforts.map(|efforts| efforts.map(Number)),
-        };
         let turns = matches!(found.drives, DrivesAt::Angles(_));
     }
 }
@@ -117,16 +112,19 @@ pub struct WrenchRecord {
     pub torque: [Number; 3],
 }
 
-/// A wrench on the platform and what holds it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct HeldWrenchRecord {
-    /// Load; null: the wrench of `--wrench`.
-    pub load: Option<String>,
-    /// The wrench on the platform.
-    pub wrench: WrenchRecord,
-    /// Leg forces, positive where they push the platform, or torques of the cranks about their axes; null at a singular
-    /// pose.
-    pub forces: Option<[Number; 6]>,
+view! {
+    /// A wrench on the platform and what holds it.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct HeldWrenchRecord {
+        /// Load; null: the wrench of `--wrench`.
+        pub load: Option<String> = held.load.clone(),
+        /// The wrench on the platform.
+        pub wrench: WrenchRecord = WrenchRecord::new(&held.wrench),
+        /// Leg forces, positive where they push the platform, or torques of the cranks about their axes; null at a
+        /// singular pose.
+        pub forces: Option<[Number; 6]> = held.efforts.map(|efforts| efforts.map(Number)),
+    }
+    fn of(held: &HeldWrench) {}
 }
 
 view! {

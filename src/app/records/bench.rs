@@ -261,19 +261,15 @@ pub struct NoiseAnswer {
     pub rows: Vec<NoiseRowRecord>,
 }
 
-/// The effect of noise on one class.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct NoiseRowRecord {
-    /// The class.
-    pub class: String,
-    /// The levels of noise, the smallest first.
-    pub levels: Vec<NoiseLevel>,
-}
-
-impl NoiseRowRecord {
-    /// The record of a class.
-    #[must_use]
-    pub fn new(class: Class, levels: &[NoiseLevel]) -> Self {
-        Self { class: class.name().into_owned(), levels: levels.to_vec() }
+view! {
+    /// The effect of noise on one class.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct NoiseRowRecord {
+        /// The class.
+        pub class: String = class.name().into_owned(),
+        /// The levels of noise, the smallest first.
+        pub levels: Vec<NoiseLevel> = levels.to_vec(),
     }
+    /// The record of a class.
+    pub fn new(class: Class, levels: &[NoiseLevel]) {}
 }

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::nearest::short;
 use super::{AssessAnswer, AssessedPosesRecord, LightestDriveRecord, Number};
-use ask::Design;
-use ask::DesignFigures;
+use ask::{CrankFigures, Design, DesignFigures};
 use files::design::AssessedForces;
 
 /// The answer of `compare`.
@@ -64,15 +63,8 @@ view! {
         pub stroke: Number = Number(longest - shortest),
         /// Crank angles, torques and speeds; null: the legs change their lengths.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub cranks: Option<CrankFiguresRecord> = found.cranks.as_ref().map(|cranks| CrankFiguresRecord {
-            least_deg: number(cranks.angles_deg.map(|a| a[0])),
-            greatest_deg: number(cranks.angles_deg.map(|a| a[1])),
-            transmission_deg: number(cranks.transmission_deg),
-            torque: number(cranks.torque),
-            speed_deg: number(cranks.speed_deg),
-            motion_torque: number(found.motion.force),
-            motion_speed_deg: number(found.motion.speed),
-        }),
+        pub cranks: Option<CrankFiguresRecord> =
+            found.cranks.as_ref().map(|cranks| CrankFiguresRecord::of(cranks, found)),
         /// Number of different leg lengths, or rod lengths on cranks; a difference counts above a millionth of the
         /// size.
         pub different_legs: usize = found.different_legs,
@@ -125,23 +117,26 @@ view! {
     }
 }
 
-/// The figures of the cranks over the poses that all rods reach.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CrankFiguresRecord {
-    /// Least crank angle, degrees; null: no pose is reached.
-    pub least_deg: Option<Number>,
-    /// Greatest crank angle, degrees.
-    pub greatest_deg: Option<Number>,
-    /// Least transmission angle, degrees: 0 at a singular crank.
-    pub transmission_deg: Option<Number>,
-    /// Greatest torque under payload and loads, one at a time, force units times design units.
-    pub torque: Option<Number>,
-    /// Greatest crank speed at the required platform speed, degrees per second.
-    pub speed_deg: Option<Number>,
-    /// Greatest torque along the manoeuvres.
-    pub motion_torque: Option<Number>,
-    /// Greatest speed along the manoeuvres, degrees per second.
-    pub motion_speed_deg: Option<Number>,
+view! {
+    /// The figures of the cranks over the poses that all rods reach.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct CrankFiguresRecord {
+        /// Least crank angle, degrees; null: no pose is reached.
+        pub least_deg: Option<Number> = number(cranks.angles_deg.map(|a| a[0])),
+        /// Greatest crank angle, degrees.
+        pub greatest_deg: Option<Number> = number(cranks.angles_deg.map(|a| a[1])),
+        /// Least transmission angle, degrees: 0 at a singular crank.
+        pub transmission_deg: Option<Number> = number(cranks.transmission_deg),
+        /// Greatest torque under payload and loads, one at a time, force units times design units.
+        pub torque: Option<Number> = number(cranks.torque),
+        /// Greatest crank speed at the required platform speed, degrees per second.
+        pub speed_deg: Option<Number> = number(cranks.speed_deg),
+        /// Greatest torque along the manoeuvres.
+        pub motion_torque: Option<Number> = number(found.motion.force),
+        /// Greatest speed along the manoeuvres, degrees per second.
+        pub motion_speed_deg: Option<Number> = number(found.motion.speed),
+    }
+    fn of(cranks: &CrankFigures, found: &DesignFigures) {}
 }
 
 /// A column of the table: a figure of every design.

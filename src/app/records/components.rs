@@ -8,8 +8,8 @@ use super::{Number, leg_number};
 use ask::{ReplaceableFamily, ReplaceableLegs};
 use platform::manipulator::{Leg, LegIndex};
 use synthesis::components::{
-    Component, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair, MovingPoint,
-    NoExactCurve, Parametrisation, PlaneCurve, SampledLeg, flat_name,
+    Component, Components, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair,
+    MovingPoint, NoExactCurve, Parametrisation, PlaneCurve, PlanePair, SampledLeg, SingularPoint, flat_name,
 };
 
 view! {
@@ -42,15 +42,7 @@ view! {
         let ReplaceableLegs { found, families, search } = replaceable;
         let component =
             |f: &ReplaceableFamily| ComponentRecord::new(f.index, &found.components[f.index], &f.samples);
-        let planes = found.planes.iter().map(|p| PlanePairRecord {
-            pair: p.pair + 1,
-            legs: legs(&found.pairs[p.pair].legs),
-            reading: found.pairs[p.pair].reading.name().into(),
-            smooth: p.smooth,
-            base: (&p.base).into(),
-            platform: (&p.platform).into(),
-            equations: bilinear(&p.equations),
-        });
+        let planes = found.planes.iter().map(|p| PlanePairRecord::of(found, p));
     }
 }
 
@@ -125,24 +117,27 @@ view! {
 /// `sum equations[r][p][q] alpha_p beta_q = 0` with `alpha = (1, x, y)` on the base and `beta` on the platform.
 pub type Bilinear = Vec<[[Number; 3]; 3]>;
 
-/// A pair of planes with the curves of points that carry replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PlanePairRecord {
-    /// Number of the pair in `pairs`, from 1.
-    pub pair: usize,
-    /// The legs in the planes, from 1.
-    pub legs: Vec<usize>,
-    /// Whether the flats fit the joints as written, or only within the tolerance.
-    pub reading: String,
-    /// Whether both curves are smooth; null: not decided.
-    pub smooth: Option<bool>,
-    /// The curve of the base.
-    pub base: PlaneCurveRecord,
-    /// The curve of the platform.
-    pub platform: PlaneCurveRecord,
-    /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
-    /// `beta` on the platform.
-    pub equations: Bilinear,
+view! {
+    /// A pair of planes with the curves of points that carry replaceable legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PlanePairRecord {
+        /// Number of the pair in `pairs`, from 1.
+        pub pair: usize = p.pair + 1,
+        /// The legs in the planes, from 1.
+        pub legs: Vec<usize> = legs(&found.pairs[p.pair].legs),
+        /// Whether the flats fit the joints as written, or only within the tolerance.
+        pub reading: String = found.pairs[p.pair].reading.name().into(),
+        /// Whether both curves are smooth; null: not decided.
+        pub smooth: Option<bool> = p.smooth,
+        /// The curve of the base.
+        pub base: PlaneCurveRecord = (&p.base).into(),
+        /// The curve of the platform.
+        pub platform: PlaneCurveRecord = (&p.platform).into(),
+        /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
+        /// `beta` on the platform.
+        pub equations: Bilinear = bilinear(&p.equations),
+    }
+    fn of(found: &Components, p: &PlanePair) {}
 }
 
 view! {
@@ -167,13 +162,7 @@ view! {
         pub singular_points: Vec<SingularPointRecord> = c
             .singular_points
             .iter()
-            .map(|s| SingularPointRecord {
-                point: s.point.as_ref().map(point),
-                coordinates: s.coordinates.map(Number),
-                kind: s.kind.name().into(),
-                gradient: Number(s.gradient),
-                line_of_partners: s.line_of_partners,
-            })
+            .map(SingularPointRecord::of)
             .collect(),
         /// Dimensions and ranks with evidence.
         pub decisions: Vec<DecisionRecord> = decisions(&c.decisions),
@@ -198,20 +187,23 @@ fn monomials(degree: usize) -> Vec<String> {
     (0..=degree).flat_map(|n| (0..=n).map(move |k| term(n - k, k))).collect()
 }
 
-/// A singular point of a plane curve.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct SingularPointRecord {
-    /// The point, body frame; null: at infinity.
-    pub point: Option<[Number; 3]>,
-    /// Homogeneous plane coordinates.
-    pub coordinates: [Number; 3],
-    /// Type.
-    #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
-    pub kind: String,
-    /// Gradient of the equation at the point.
-    pub gradient: Number,
-    /// Whether it corresponds to a whole line of the other plane.
-    pub line_of_partners: bool,
+view! {
+    /// A singular point of a plane curve.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct SingularPointRecord {
+        /// The point, body frame; null: at infinity.
+        pub point: Option<[Number; 3]> = s.point.as_ref().map(point),
+        /// Homogeneous plane coordinates.
+        pub coordinates: [Number; 3] = s.coordinates.map(Number),
+        /// Type.
+        #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
+        pub kind: String = s.kind.name().into(),
+        /// Gradient of the equation at the point.
+        pub gradient: Number = Number(s.gradient),
+        /// Whether it corresponds to a whole line of the other plane.
+        pub line_of_partners: bool = s.line_of_partners,
+    }
+    fn of(s: &SingularPoint) {}
 }
 
 /// Curve for the joints as rational numbers, or the reason why there is none.
@@ -227,23 +219,26 @@ pub enum ExactCurveOutcome {
     },
 }
 
-/// A plane curve with integer coefficients.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ExactCurveRecord {
-    /// Body coordinates used as plane coordinates.
-    pub axes: [String; 2],
-    /// Rank of the equations at a generic point.
-    pub generic_rank: usize,
-    /// The degree of the curve.
-    pub degree: usize,
-    /// Integers as text.
-    pub coefficients: Vec<String>,
-    /// Components over the complex numbers.
-    pub parts: Vec<ExactPart>,
-    /// Whether the curve is smooth; null: not decided.
-    pub smooth: Option<bool>,
-    /// Singular point; null: none is known.
-    pub singular_point: Option<ExactPoint>,
+view! {
+    /// A plane curve with integer coefficients.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ExactCurveRecord {
+        /// Body coordinates used as plane coordinates.
+        pub axes: [String; 2] = curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
+        /// Rank of the equations at a generic point.
+        pub generic_rank: usize = curve.generic_rank,
+        /// The degree of the curve.
+        pub degree: usize = curve.degree,
+        /// Integers as text.
+        pub coefficients: Vec<String> = curve.coefficients.clone(),
+        /// Components over the complex numbers.
+        pub parts: Vec<ExactPart> = curve.parts.clone(),
+        /// Whether the curve is smooth; null: not decided.
+        pub smooth: Option<bool> = curve.smooth,
+        /// Singular point; null: none is known.
+        pub singular_point: Option<ExactPoint> = curve.singular_point.clone(),
+    }
+    fn of(curve: &ExactCurve) {}
 }
 
 impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
@@ -252,15 +247,7 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
             Ok(curve) => curve,
             Err(reason) => return Self::None { reason: reason.to_string() },
         };
-        Self::Curve(ExactCurveRecord {
-            axes: curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
-            generic_rank: curve.generic_rank,
-            degree: curve.degree,
-            coefficients: curve.coefficients.clone(),
-            parts: curve.parts.clone(),
-            smooth: curve.smooth,
-            singular_point: curve.singular_point.clone(),
-        })
+        Self::Curve(ExactCurveRecord::of(curve))
     }
 }
 
@@ -381,19 +368,16 @@ impl From<&CubicPencil> for ParametrisationRecord {
     }
 }
 
-/// The ends of a leg.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct LegEndsRecord {
-    /// The base end, base frame, design units.
-    pub base: [Number; 3],
-    /// The platform end, platform frame, design units.
-    pub platform: [Number; 3],
-}
-
-impl From<&Leg> for LegEndsRecord {
-    fn from(l: &Leg) -> Self {
-        Self { base: point(&l.base), platform: point(&l.platform) }
+view! {
+    /// The ends of a leg.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct LegEndsRecord {
+        /// The base end, base frame, design units.
+        pub base: [Number; 3] = point(&l.base),
+        /// The platform end, platform frame, design units.
+        pub platform: [Number; 3] = point(&l.platform),
     }
+    impl From(l: &Leg) {}
 }
 
 view! {

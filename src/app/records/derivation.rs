@@ -45,44 +45,37 @@ view! {
             value: Number(x.approximate()),
             exact: steps.exact.then(|| x.to_string()),
         };
-        let record = |step: &LegSlide| LegSlideRecord {
-            leg: step.leg + 1,
-            between: step.between.map(|leg| leg + 1),
-            ends: step.ends.map(|j| original.joint_name(j)),
-            moved: original.joint_name(step.moved),
-            fixed: original.joint_name(step.fixed),
-            offset: number(&step.share),
-            rest: number(&step.rest()),
-            square: number(&step.square),
-            squares_to_ends: step.squares_to_ends().each_ref().map(number),
-            constant: number(&step.constant()),
-        };
+        let record = |step: &LegSlide| LegSlideRecord::of(step, original, &number);
     }
 }
 
-/// One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LegSlideRecord {
-    /// Moved leg.
-    pub leg: usize,
-    /// Legs X F and Y F, from 1.
-    pub between: [usize; 2],
-    /// The names of X and Y.
-    pub ends: [String; 2],
-    /// New joint Q: Q = X + t (Y - X).
-    pub moved: String,
-    /// The name of F, the joint that the leg keeps.
-    pub fixed: String,
-    /// The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
-    pub offset: ExactNumberRecord,
-    /// 1 - t.
-    pub rest: ExactNumberRecord,
-    /// Squared edge d^2 = |XY|^2, design units squared.
-    pub square: ExactNumberRecord,
-    /// |XQ|^2 and |YQ|^2, design units squared.
-    pub squares_to_ends: [ExactNumberRecord; 2],
-    /// The entry of c: -t (1 - t) d^2, design units squared.
-    pub constant: ExactNumberRecord,
+view! {
+    /// One leg that moves along the line of two legs with a joint in common. X, Y, Q and F are in one plane at every
+    /// pose.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct LegSlideRecord {
+        /// Moved leg.
+        pub leg: usize = step.leg + 1,
+        /// Legs X F and Y F, from 1.
+        pub between: [usize; 2] = step.between.map(|leg| leg + 1),
+        /// The names of X and Y.
+        pub ends: [String; 2] = step.ends.map(|j| original.joint_name(j)),
+        /// New joint Q: Q = X + t (Y - X).
+        pub moved: String = original.joint_name(step.moved),
+        /// The name of F, the joint that the leg keeps.
+        pub fixed: String = original.joint_name(step.fixed),
+        /// The offset t: s' = (1 - t) s(X F) + t s(Y F) - t (1 - t) d^2.
+        pub offset: ExactNumberRecord = number(&step.share),
+        /// 1 - t.
+        pub rest: ExactNumberRecord = number(&step.rest()),
+        /// Squared edge d^2 = |XY|^2, design units squared.
+        pub square: ExactNumberRecord = number(&step.square),
+        /// |XQ|^2 and |YQ|^2, design units squared.
+        pub squares_to_ends: [ExactNumberRecord; 2] = step.squares_to_ends().each_ref().map(number),
+        /// The entry of c: -t (1 - t) d^2, design units squared.
+        pub constant: ExactNumberRecord = number(&step.constant()),
+    }
+    fn of(step: &LegSlide, original: &Original, number: &dyn Fn(&Algebraic) -> ExactNumberRecord) {}
 }
 
 /// A factor of det A.

@@ -74,61 +74,46 @@ view! {
         /// det A of the step.
         pub det: Number = Number(r.map.determinant),
         /// The moves.
-        pub moves: Vec<LegMoveRecord> = r.moved.iter().enumerate().map(one).collect(),
+        pub moves: Vec<LegMoveRecord> = r.moved.iter().enumerate().map(|moved| LegMoveRecord::of(step, moved)).collect(),
     }
     impl From(step: &MovedAtOnce) {
         let r = &step.relocation;
-        let one = |(k, m): (usize, &MovedLeg)| {
-            let (type_name, name) = &step.families[k];
-            LegMoveRecord {
-                leg: leg_number(m.request.leg),
-                component: m.request.family + 1,
-                type_name: type_name.clone(),
-                along: name.clone(),
-                parameters_written: step.written[k].clone(),
-                parameters: m.request.parameters.iter().copied().map(Number).collect(),
-                from: (&m.from).into(),
-                to: (&m.to).into(),
-                coefficients: m.coefficients.map(Number),
-                coefficient: Number(m.coefficients[m.request.leg.get()]),
-                residual: Number(m.residual),
-                exact: m.exact,
-                singular_parameters: m.singular.clone(),
-            }
-        };
     }
 }
 
-/// One leg moved along a family.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct LegMoveRecord {
-    /// The leg, from 1.
-    pub leg: usize,
-    /// The number of the family, from 1.
-    pub component: usize,
-    /// Family type.
-    #[serde(rename = "type")]
-    pub type_name: String,
-    /// Joints spanning the family.
-    pub along: Option<String>,
-    /// Parameters in the family.
-    pub parameters: Vec<Number>,
-    /// Parameters as written, such as 1/5.
-    pub parameters_written: Vec<String>,
-    /// The leg before.
-    pub from: LegEndsRecord,
-    /// The leg after.
-    pub to: LegEndsRecord,
-    /// Row of A of this leg.
-    pub coefficients: [Number; 6],
-    /// Coefficient of the replaced leg.
-    pub coefficient: Number,
-    /// Residual of the leg vector after subtracting this combination.
-    pub residual: Number,
-    /// Whether the new coordinates are exact.
-    pub exact: bool,
-    /// First parameters with det A = 0.
-    pub singular_parameters: SingularParameters,
+view! {
+    /// One leg moved along a family.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct LegMoveRecord {
+        /// The leg, from 1.
+        pub leg: usize = leg_number(m.request.leg),
+        /// The number of the family, from 1.
+        pub component: usize = m.request.family + 1,
+        /// Family type.
+        #[serde(rename = "type")]
+        pub type_name: String = step.families[k].0.clone(),
+        /// Joints spanning the family.
+        pub along: Option<String> = step.families[k].1.clone(),
+        /// Parameters in the family.
+        pub parameters: Vec<Number> = m.request.parameters.iter().copied().map(Number).collect(),
+        /// Parameters as written, such as 1/5.
+        pub parameters_written: Vec<String> = step.written[k].clone(),
+        /// The leg before.
+        pub from: LegEndsRecord = (&m.from).into(),
+        /// The leg after.
+        pub to: LegEndsRecord = (&m.to).into(),
+        /// Row of A of this leg.
+        pub coefficients: [Number; 6] = m.coefficients.map(Number),
+        /// Coefficient of the replaced leg.
+        pub coefficient: Number = Number(m.coefficients[m.request.leg.get()]),
+        /// Residual of the leg vector after subtracting this combination.
+        pub residual: Number = Number(m.residual),
+        /// Whether the new coordinates are exact.
+        pub exact: bool = m.exact,
+        /// First parameters with det A = 0.
+        pub singular_parameters: SingularParameters = m.singular.clone(),
+    }
+    fn of(step: &MovedAtOnce, (k, m): (usize, &MovedLeg)) {}
 }
 
 view! {
@@ -244,7 +229,8 @@ view! {
         /// Margins of requested properties.
         pub margins: Vec<TargetMargin> = c.margins.clone(),
         /// The origin of each leg.
-        pub moves: Vec<PlacementRecord> = c.placements.iter().zip(&found.sources).map(place).collect(),
+        pub moves: Vec<PlacementRecord> =
+            c.placements.iter().zip(&found.sources).map(|placed| PlacementRecord::of(c, placed)).collect(),
         /// The leg map to the platform.
         #[serde(flatten)]
         pub map: MapRecord = (&found.map).into(),
@@ -254,14 +240,6 @@ view! {
     /// A platform that is equivalent to a design.
     pub fn new(given: &Design, found: &MovedPlatform) {
         let c = &found.candidate;
-        let place = |(p, source): (&Placement, &String)| PlacementRecord {
-            leg: leg_number(p.leg),
-            from: source.clone(),
-            parameters: p.parameters.iter().copied().map(Number).collect(),
-            to: (&c.assembled.legs[p.leg.get()]).into(),
-            coefficient: Number(c.map.closest.a[(p.leg.get(), p.leg.get())]),
-            residual: Number(c.map.residuals[p.leg.get()]),
-        };
         let assessed = found.design.as_ref().zip(found.assessed.as_ref());
         // the name and the requirements come from the given design
         let assessment = assessed.map(|(design, a)| AssessAnswer {
@@ -272,19 +250,22 @@ view! {
     }
 }
 
-/// The origin of one leg of an equivalent platform.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PlacementRecord {
-    /// The leg, from 1.
-    pub leg: usize,
-    /// Origin: leg, family or hole.
-    pub from: String,
-    /// Parameters in the family.
-    pub parameters: Vec<Number>,
-    /// Ends of the leg.
-    pub to: LegEndsRecord,
-    /// The coefficient of the replaced leg.
-    pub coefficient: Number,
-    /// Residual of the leg vector after subtracting this combination.
-    pub residual: Number,
+view! {
+    /// The origin of one leg of an equivalent platform.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PlacementRecord {
+        /// The leg, from 1.
+        pub leg: usize = leg_number(p.leg),
+        /// Origin: leg, family or hole.
+        pub from: String = source.clone(),
+        /// Parameters in the family.
+        pub parameters: Vec<Number> = p.parameters.iter().copied().map(Number).collect(),
+        /// Ends of the leg.
+        pub to: LegEndsRecord = (&c.assembled.legs[p.leg.get()]).into(),
+        /// The coefficient of the replaced leg.
+        pub coefficient: Number = Number(c.map.closest.a[(p.leg.get(), p.leg.get())]),
+        /// Residual of the leg vector after subtracting this combination.
+        pub residual: Number = Number(c.map.residuals[p.leg.get()]),
+    }
+    fn of(c: &search::Candidate, (p, source): (&Placement, &String)) {}
 }

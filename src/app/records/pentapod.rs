@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{ComplexRecord, Number};
-use ask::PentapodReport;
+use ask::{HeldLine, PentapodReport};
 use fk::{LineClass, LinePose};
 use num::exact::nearest;
 use platform::manipulator::Body;
@@ -35,28 +35,7 @@ view! {
         pub no_poses: Option<String> = no_poses,
     }
     impl From(report: &PentapodReport) {
-        let line = report.held.as_ref().map(|held| HeldLineRecord {
-            body: held.line.body,
-            marks: held.line.marks.each_ref().map(|mark| Number(nearest(mark))),
-            length: Number(nearest(&held.line.square()).sqrt()),
-            class: held.class,
-            generic_poses: held.generic_poses,
-            singular_poses: LineLocusRecord {
-                family: held.locus.family(),
-                degree: held.locus.degree,
-                degree_in_position: held.locus.in_position,
-                degree_in_direction: held.locus.in_direction,
-                terms: held
-                    .locus
-                    .polynomial
-                    .iter()
-                    .map(|(exponents, c)| LineTermRecord {
-                        exponents: *exponents,
-                        coefficient: c.to_string(),
-                    })
-                    .collect(),
-            },
-        });
+        let line = report.held.as_ref().map(HeldLineRecord::of);
         let (poses, no_poses) = match &report.poses {
             None => (None, None),
             Some(Err(why)) => (None, Some(why.to_string())),
@@ -74,21 +53,38 @@ view! {
     }
 }
 
-/// A line of a body that five legs hold.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct HeldLineRecord {
-    /// The body.
-    pub body: Body,
-    /// Leg joints along the line, measured from the joint of leg 1 in units of `length`.
-    pub marks: [Number; 5],
-    /// Distance from leg 1 to the farthest joint, design units.
-    pub length: Number,
-    /// Equation that gives the line; null: the legs are dependent.
-    pub class: Option<LineClass>,
-    /// Number of poses of the line, real and complex, for generic lengths; null: not counted.
-    pub generic_poses: Option<usize>,
-    /// Singular poses of the line.
-    pub singular_poses: LineLocusRecord,
+view! {
+    /// A line of a body that five legs hold.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct HeldLineRecord {
+        /// The body.
+        pub body: Body = held.line.body,
+        /// Leg joints along the line, measured from the joint of leg 1 in units of `length`.
+        pub marks: [Number; 5] = held.line.marks.each_ref().map(|mark| Number(nearest(mark))),
+        /// Distance from leg 1 to the farthest joint, design units.
+        pub length: Number = Number(nearest(&held.line.square()).sqrt()),
+        /// Equation that gives the line; null: the legs are dependent.
+        pub class: Option<LineClass> = held.class,
+        /// Number of poses of the line, real and complex, for generic lengths; null: not counted.
+        pub generic_poses: Option<usize> = held.generic_poses,
+        /// Singular poses of the line.
+        pub singular_poses: LineLocusRecord = LineLocusRecord {
+            family: held.locus.family(),
+            degree: held.locus.degree,
+            degree_in_position: held.locus.in_position,
+            degree_in_direction: held.locus.in_direction,
+            terms: held
+                .locus
+                .polynomial
+                .iter()
+                .map(|(exponents, c)| LineTermRecord {
+                    exponents: *exponents,
+                    coefficient: c.to_string(),
+                })
+                .collect(),
+        },
+    }
+    fn of(held: &HeldLine) {}
 }
 
 /// The polynomial `F(p, v)` whose zeros are the singular poses of the line.

@@ -135,6 +135,9 @@ mod tests {
     fn uniform_lengths_are_for_the_classes_of_martyushev() {
         assert_eq!(lengths(None, Class::General).unwrap(), LengthsFrom::Uniform);
         assert_eq!(lengths(None, Class::Octahedral).unwrap(), LengthsFrom::Pose);
-        assert_eq!(lengths(Some(LengthsFrom::Uniform), Class::Hexapod).unwrap_err().code, "bench::needs_pose");
+        assert_eq!(
+            lengths(Some(LengthsFrom::Uniform), Class::Hexapod).unwrap_err().code,
+            "bench::needs_pose"
+        );
     }
 }
