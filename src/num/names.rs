@@ -149,16 +149,16 @@ macro_rules! words {
 /// ```
 #[macro_export]
 macro_rules! setters {
-    ($($(#[$about:meta])* fn $set:ident($given:ident: $kind:ty) $($field:ident)? = $value:expr;)+) => {$(
+    ($($(#[$about:meta])* fn $set:ident($given:ident: $kind:ty) $($($field:ident).+)? = $value:expr;)+) => {$(
         $(#[$about])*
         #[must_use]
         pub fn $set(mut self, $given: $kind) -> Self {
-            $crate::setters!(@field self $set $($field)?) = $value;
+            $crate::setters!(@field self $set $($($field).+)?) = $value;
             self
         }
     )+};
     (@field $options:ident $set:ident) => { $options.$set };
-    (@field $options:ident $set:ident $field:ident) => { $options.$field };
+    (@field $options:ident $set:ident $($field:ident).+) => { $options.$($field).+ };
 }
 
 /// `Display` by a function that gives the words.

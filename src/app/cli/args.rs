@@ -1,6 +1,7 @@
 //! The command line as a whole.
 
 use clap::Parser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::commands::Command;
 use super::context::Global;
@@ -27,4 +28,13 @@ pub(crate) struct Cli {
     pub(crate) licences: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// Reads one of some choices by the words that the library gives them.
+pub(crate) fn choice<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let found = move |word: String| all.iter().copied().find(|x| name(*x) == word).unwrap_or(all[0]);
+    PossibleValuesParser::new(all.iter().map(|x| name(*x))).map(found)
 }

@@ -226,8 +226,11 @@ impl Context {
         read: fn(&str, Format) -> DesignOrViolations,
     ) -> Result<SixOrFive, Failure> {
         let text = files::read_text(path)?;
-        match parse_five_legs(&text, format_of(path, &text)) {
-            None => self.design_of(path, text, read).map(|read| SixOrFive::Six(Box::new(read.design))),
+        let format = format_of(path, &text);
+        let six = read(&text, format);
+        let five = if six.is_err() { parse_five_legs(&text, format) } else { None };
+        match five {
+            None => self.accept(path, text, six).map(|read| SixOrFive::Six(Box::new(read.design))),
             Some(Ok((five, warnings))) => {
                 self.warn(path, &text, warnings);
                 self.designs.push((five.name.clone(), path.display().to_string()));
@@ -252,16 +255,13 @@ impl Context {
         read: fn(&str, Format) -> DesignOrViolations,
     ) -> Result<ReadDesign, Failure> {
         let text = files::read_text(path)?;
-        self.design_of(path, text, read)
+        let read = read(&text, format_of(path, &text));
+        self.accept(path, text, read)
     }
 
-    fn design_of(
-        &mut self,
-        path: &Path,
-        text: String,
-        read: fn(&str, Format) -> DesignOrViolations,
-    ) -> Result<ReadDesign, Failure> {
-        match read(&text, format_of(path, &text)) {
+    /// Keeps the warnings of a design that was read, and the poses that its workspace names.
+    fn accept(&mut self, path: &Path, text: String, read: DesignOrViolations) -> Result<ReadDesign, Failure> {
+        match read {
             Ok((mut design, warnings)) => {
                 self.warn(path, &text, warnings);
                 let mut poses = None;

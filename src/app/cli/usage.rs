@@ -107,7 +107,7 @@ impl<'a> UnderstoodUpTo<'a> {
         if self.path.is_empty() {
             return "`equipod --help` lists the commands by job".into();
         }
-        let names = self.command.get_subcommands().filter(|c| !c.is_hide_set()).map(Command::get_name);
+        let names = self.command.get_subcommands().map(Command::get_name);
         let names: Vec<&str> = names.filter(|n| *n != "help").collect();
         format!("one of: {}", names.join(", "))
     }
@@ -131,8 +131,7 @@ impl<'a> UnderstoodUpTo<'a> {
     /// The suggestions for an unknown option: an option of this command, or of another command.
     fn meant_option(&self, word: &str) -> Option<String> {
         let options = |c: &Command| -> Vec<String> {
-            let shown = c.get_arguments().filter(|a| !a.is_hide_set());
-            shown.filter_map(|a| a.get_long().map(|l| format!("--{l}"))).collect()
+            c.get_arguments().filter_map(|a| a.get_long().map(|l| format!("--{l}"))).collect()
         };
         let own = options(self.command);
         let known = OPTIONS.iter().find(|(other, name)| *other == word && own.iter().any(|o| o == name));

@@ -19,7 +19,7 @@ pub(super) fn record(session: &Session, e: &Equivalent) -> Result<DerivedRecord,
     let (second, _) = session.second(e)?;
     let found = DerivationRecord::compared(original, &e.pattern, &second, &FkOptions::new())
         .map_err(|why| Refusal::new("derivation", why))?;
-    let found = found
+    let (found, _) = found
         .ok_or_else(|| Refusal::new("derivation", "an edge of the octahedral platform has no length"))?;
     let sheet = sheet::answers::derivation(&found, &original.design.name, &second.name);
     Ok(DerivedRecord { html: sheet::shown(&sheet.html()) })

@@ -12,56 +12,95 @@ use machine::requirements::LeastStiffness;
 use platform::geom::Pose;
 use synthesis::singularity::{NearestSingularPose, SingularEvidence};
 
-/// The answer of `at`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct AtPoseAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// The unit of lengths.
-    pub length_unit: String,
-    /// The unit of forces; torques are in this unit times the unit of length.
-    pub force_unit: String,
-    /// Convention in which poses were read, and of `in_frames`.
-    pub frames: PoseConventionRecord,
-    /// The pose.
-    pub pose: PoseQuaternionRecord,
-    /// Pose in the convention of `frames`.
-    pub in_frames: PoseInFrames,
-    /// Reference point, platform frame of `frames`: wrenches, shifts and stiffness are about it.
-    pub point: [Number; 3],
-    /// Body whose axes vectors have: `base` or `platform`.
-    pub axes: String,
-    /// Lengths shown; null: the legs are rods on cranks.
-    pub lengths: Option<[f64; 6]>,
-    /// Crank angles, where a design has some and all rods reach.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub angles_deg: Option<[f64; 6]>,
-    /// First rod that does not reach; nothing else is then known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub out_of_reach: Option<OutOfReachRecord>,
-    /// Whether every requirement is met, and det J has the sign that it has at home.
-    pub allowed: bool,
-    /// Violated requirements, the worst first.
-    pub violated: Vec<LimitRecord>,
-    /// The evidence of a singular pose; null: the pose is regular.
-    pub singular: Option<SingularEvidence>,
-    /// Inverse condition number of the Jacobian: 1 at best.
-    pub inverse_condition: Option<Number>,
-    /// Forces that hold each load and `--wrench`, at rest.
-    pub held: Vec<HeldWrenchRecord>,
-    /// Wrench that `--forces` hold; null: none were given.
-    pub wrench: Option<WrenchRecord>,
-    /// Matrix from leg forces to the wrench they hold, force before torque, as in a six-axis load cell; null where a
-    /// rod does not reach or a crank is singular.
-    pub wrench_matrix: Option<[[Number; 6]; 6]>,
-    /// Stiffness at the point; null: the design states neither `leg_stiffness` nor, for cranks, `stiffness`.
-    pub stiffness: Option<PointStiffnessRecord>,
-    /// Motion of the point by drive steps; null at a singular pose.
-    pub resolution: Option<ResolutionRecord>,
-    /// Remaining motion with the leg of `--leg` stuck, or free; null: no leg was named.
-    pub stuck: Option<StuckLegRecord>,
-    /// The nearest singular pose found; null: it was not asked for, or no way met one.
-    pub nearest_singular: Option<NearestSingularPoseRecord>,
+view! {
+    /// The answer of `at`.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct AtPoseAnswer {
+        /// The name of the design.
+        pub name: String = design.name.clone(),
+        /// The unit of lengths.
+        pub length_unit: String = design.units.clone(),
+        /// The unit of forces; torques are in this unit times the unit of length.
+        pub force_unit: String = design.force_unit().label().into(),
+        /// Convention in which poses were read, and of `in_frames`.
+        pub frames: PoseConventionRecord = (&frames.convention).into(),
+        /// The pose.
+        pub pose: PoseQuaternionRecord = (&asked.pose).into(),
+        /// Pose in the convention of `frames`.
+        pub in_frames: PoseInFrames = (&frames.write(&asked.pose)).into(),
+        /// Reference point, platform frame of `frames`: wrenches, shifts and stiffness are about it.
+        pub point: [Number; 3] = three(&point),
+        /// Body whose axes vectors have: `base` or `platform`.
+        pub axes: String = asked.axes.name().into(),
+        /// Lengths shown; null: the legs are rods on cranks.
+        pub lengths: Option<[f64; 6]> = match found.drives {
+            DrivesAt::Lengths(lengths) => Some(lengths),
+            _ => None,
+        },
+        /// Crank angles, where a design has some and all rods reach.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub angles_deg: Option<[f64; 6]> = match found.drives {
+            DrivesAt::Angles(angles) => Some(angles.map(f64::to_degrees)),
+            _ => None,
+        },
+        /// First rod that does not reach; nothing else is then known.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub out_of_reach: Option<OutOfReachRecord> = match &found.drives {
+            DrivesAt::OutOfReach(missing) => {
+                Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by })
+            }
+            _ => None,
+        },
+        /// Whether every requirement is met, and det J has the sign that it has at home.
+        pub allowed: bool = violated.is_empty(),
+        /// Violated requirements, the worst first.
+        pub violated: Vec<LimitRecord> = violated
+            .iter()
+            .map(|(limit, margin)| LimitRecord::new(design, *limit, *margin))
+            .collect(),
+        /// The evidence of a singular pose; null: the pose is regular.
+        pub singular: Option<SingularEvidence> = found.singular,
+        /// Inverse condition number of the Jacobian: 1 at best.
+        pub inverse_condition: Option<Number> = found.inverse_condition.map(Number),
+        /// Forces that hold each load and `--wrench`, at rest.
+        pub held: Vec<HeldWrenchRecord> = found.held.iter().map(HeldWrenchRecord::of).collect(),
+        /// Wrench that `--forces` hold; null: none were given.
+        pub wrench: Option<WrenchRecord> = found.wrench.as_ref().map(WrenchRecord::new),
+        /// Matrix from leg forces to the wrench they hold, force before torque, as in a six-axis load cell; null where
+        /// a rod does not reach or a crank is singular.
+        pub wrench_matrix: Option<[[Number; 6]; 6]> = found.wrenches.as_ref().map(six_by_six),
+        /// Stiffness at the point; null: the design states neither `leg_stiffness` nor, for cranks, `stiffness`.
+        pub stiffness: Option<PointStiffnessRecord> = found
+            .stiffness
+            .as_ref()
+            .map(|(matrix, least)| PointStiffnessRecord::new(matrix, *least)),
+        /// Motion of the point by drive steps; null at a singular pose.
+        pub resolution: Option<ResolutionRecord> = found.motions.as_ref().map(|motions| {
+            let (by, unit) = if turns { (step.to_radians(), "deg") } else { (step, &*design.units) };
+            ResolutionRecord::new(motions, by, step, unit)
+        }),
+        /// Remaining motion with the leg of `--leg` stuck, or free; null: no leg was named.
+        pub stuck: Option<StuckLegRecord> =
+            found.stuck.as_ref().map(|stuck| StuckLegRecord::new(frames, stuck, turns)),
+        /// The nearest singular pose found; null: it was not asked for, or no way met one.
+        pub nearest_singular: Option<NearestSingularPoseRecord> = found
+            .nearest_singular
+            .as_ref()
+            .map(|near| NearestSingularPoseRecord::new(design, frames, near)),
+    }
+    /// The answer for a pose.
+    pub fn new(
+        design: &Design,
+        frames: &PoseFrames,
+        (asked, step): (&AtPoseOptions, f64),
+        found: &AtPoseReport,
+    ) {
+        let required = design.requirements();
+        let reach = design.reach(&required);
+        let violated = reach.violated(&asked.pose);
+        let point = frames.convention.axes().transpose() * asked.point;
+        let turns = matches!(found.drives, DrivesAt::Angles(_));
+    }
 }
 
 /// A force and a torque.
@@ -73,43 +112,59 @@ pub struct WrenchRecord {
     pub torque: [Number; 3],
 }
 
-/// A wrench on the platform and what holds it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct HeldWrenchRecord {
-    /// Load; null: the wrench of `--wrench`.
-    pub load: Option<String>,
-    /// The wrench on the platform.
-    pub wrench: WrenchRecord,
-    /// Leg forces, positive where they push the platform, or torques of the cranks about their axes; null at a singular
-    /// pose.
-    pub forces: Option<[Number; 6]>,
+view! {
+    /// A wrench on the platform and what holds it.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct HeldWrenchRecord {
+        /// Load; null: the wrench of `--wrench`.
+        pub load: Option<String> = held.load.clone(),
+        /// The wrench on the platform.
+        pub wrench: WrenchRecord = WrenchRecord::new(&held.wrench),
+        /// Leg forces, positive where they push the platform, or torques of the cranks about their axes; null at a
+        /// singular pose.
+        pub forces: Option<[Number; 6]> = held.efforts.map(|efforts| efforts.map(Number)),
+    }
+    fn of(held: &HeldWrench) {}
 }
 
-/// Stiffness at a point of the platform.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PointStiffnessRecord {
-    /// Force and torque for a shift of the point and a small rotation: force units, design units and radians.
-    #[serde(rename = "K")]
-    pub matrix: [[Number; 6]; 6],
-    /// Its inverse; null at a singular pose.
-    pub compliance: Option<[[Number; 6]; 6]>,
-    /// Least stiffness against forces through the point, force units per design unit; 0 at a singular pose.
-    pub linear: Number,
-    /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
-    pub angular: Number,
+view! {
+    /// Stiffness at a point of the platform.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PointStiffnessRecord {
+        /// Force and torque for a shift of the point and a small rotation: force units, design units and radians.
+        #[serde(rename = "K")]
+        pub matrix: [[Number; 6]; 6] = six_by_six(matrix),
+        /// Its inverse; null at a singular pose.
+        pub compliance: Option<[[Number; 6]; 6]> =
+            least.and_then(|_| matrix.try_inverse()).as_ref().map(six_by_six),
+        /// Least stiffness against forces through the point, force units per design unit; 0 at a singular pose.
+        pub linear: Number = of(|s| s.linear),
+        /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+        pub angular: Number = of(|s| s.angular),
+    }
+    fn new(matrix: &Matrix6<f64>, least: Option<LeastStiffness>) {
+        let of = |value: fn(&LeastStiffness) -> f64| Number(least.as_ref().map_or(0.0, value));
+    }
 }
 
-/// The motion of the point for a step of the drives.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ResolutionRecord {
-    /// Step: design units of legs, degrees of cranks.
-    pub step: f64,
-    /// The unit of the step.
-    pub step_unit: String,
-    /// Motion by a step of one drive, in leg order.
-    pub drives: Vec<SmallMotionRecord>,
-    /// Greatest change when every drive is off by a step: sums of the sizes.
-    pub all: SmallMotionRecord,
+view! {
+    /// The motion of the point for a step of the drives.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ResolutionRecord {
+        /// Step: design units of legs, degrees of cranks.
+        pub step: f64 = step,
+        /// The unit of the step.
+        pub step_unit: String = unit.into(),
+        /// Motion by a step of one drive, in leg order.
+        pub drives: Vec<SmallMotionRecord> =
+            (0..6).map(|drive| SmallMotionRecord::new(twist(drive), by)).collect(),
+        /// Greatest change when every drive is off by a step: sums of the sizes.
+        pub all: SmallMotionRecord = SmallMotionRecord::new(sum, by),
+    }
+    fn new(motions: &Matrix6<f64>, by: f64, step: f64, unit: &str) {
+        let twist = |drive: usize| std::array::from_fn(|k| motions[(k, drive)]);
+        let sum = std::array::from_fn(|k| motions.row(k).iter().map(|x| x.abs()).sum());
+    }
 }
 
 /// A small motion.
@@ -121,21 +176,40 @@ pub struct SmallMotionRecord {
     pub turn_deg: [Number; 3],
 }
 
-/// The remaining motion with a leg stuck, or free.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct StuckLegRecord {
-    /// The leg, from 1.
-    pub leg: usize,
-    /// Travel of its drive per coordinate of the pose: design units of legs, degrees of cranks, per design unit and per
-    /// `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still be changed alone; five
-    /// independent changes are left.
-    pub rates: [Number; 6],
-    /// Motion that is lost, and the only one left when the leg is free and the others hold; null at a singular pose.
-    pub screw: Option<ScrewRecord>,
-    /// Poses with a shorter leg, up to its limit, a tenth of its length, or the first singular pose; none for cranks.
-    pub shorter: Vec<LegPathPoseRecord>,
-    /// Poses with a longer leg.
-    pub longer: Vec<LegPathPoseRecord>,
+view! {
+    /// The remaining motion with a leg stuck, or free.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct StuckLegRecord {
+        /// The leg, from 1.
+        pub leg: usize = stuck.leg + 1,
+        /// Travel of its drive per coordinate of the pose: design units of legs, degrees of cranks, per design unit and
+        /// per `deg` or `rad` of `frames`. With the drive stuck only a number with 0 can still be changed alone; five
+        /// independent changes are left.
+        pub rates: [Number; 6] =
+            std::array::from_fn(|k| Number(of_drive(stuck.rates[k]) / if k < 3 { 1.0 } else { unit })),
+        /// Motion that is lost, and the only one left when the leg is free and the others hold; null at a singular
+        /// pose.
+        pub screw: Option<ScrewRecord> = stuck.screw.map(|screw| ScrewRecord {
+            direction: three(&screw.direction),
+            point: three(&screw.point),
+            pitch: screw.pitch.map(Number),
+        }),
+        /// Poses with a shorter leg, up to its limit, a tenth of its length, or the first singular pose; none for
+        /// cranks.
+        pub shorter: Vec<LegPathPoseRecord> = shorter,
+        /// Poses with a longer leg.
+        pub longer: Vec<LegPathPoseRecord> = longer,
+    }
+    fn new(frames: &PoseFrames, stuck: &StuckLeg, turns: bool) {
+        // of an angle a unit is a degree or a radian
+        let unit = frames.convention.angle_unit().of_radians(1.0);
+        let of_drive = |x: f64| if turns { x.to_degrees() } else { x };
+        let way = |(length, pose): &(f64, Pose)| LegPathPoseRecord {
+            length: *length,
+            in_frames: (&frames.write(pose)).into(),
+        };
+        let [shorter, longer] = stuck.ways.each_ref().map(|way_of| way_of.iter().map(way).collect());
+    }
 }
 
 /// A turn about an axis with a shift along it.
@@ -158,21 +232,24 @@ pub struct LegPathPoseRecord {
     pub in_frames: PoseInFrames,
 }
 
-/// A singular pose near the one asked about.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct NearestSingularPoseRecord {
-    /// The pose.
-    pub pose: PoseQuaternionRecord,
-    /// Pose in the convention of `frames`.
-    pub in_frames: PoseInFrames,
-    /// `sqrt(|p - p'|^2 + (L angle)^2)`, design units.
-    pub distance: f64,
-    /// Length `L` of `distance`, design units per radian.
-    pub characteristic_length: f64,
-    /// Whether no small step on singular poses leads nearer: then it is locally nearest.
-    pub stationary: bool,
-    /// Distance within which a singular pose is proved; null: not proved.
-    pub proved_within: Option<f64>,
+view! {
+    /// A singular pose near the one asked about.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct NearestSingularPoseRecord {
+        /// The pose.
+        pub pose: PoseQuaternionRecord = (&found.pose).into(),
+        /// Pose in the convention of `frames`.
+        pub in_frames: PoseInFrames = (&frames.write(&found.pose)).into(),
+        /// `sqrt(|p - p'|^2 + (L angle)^2)`, design units.
+        pub distance: f64 = found.distance,
+        /// Length `L` of `distance`, design units per radian.
+        pub characteristic_length: f64 = design.characteristic_length(),
+        /// Whether no small step on singular poses leads nearer: then it is locally nearest.
+        pub stationary: bool = found.is_stationary,
+        /// Distance within which a singular pose is proved; null: not proved.
+        pub proved_within: Option<f64> = found.proved_within,
+    }
+    fn new(design: &Design, frames: &PoseFrames, found: &NearestSingularPose) {}
 }
 
 fn three(v: &Vector3<f64>) -> [Number; 3] {
@@ -198,138 +275,9 @@ impl SmallMotionRecord {
 }
 
 impl AtPoseAnswer {
-    /// The answer for a pose.
-    #[must_use]
-    pub fn new(
-        design: &Design,
-        frames: &PoseFrames,
-        (asked, step): (&AtPoseOptions, f64),
-        found: &AtPoseReport,
-    ) -> Self {
-        let required = design.requirements();
-        let reach = design.reach(&required);
-        let violated = reach.violated(&asked.pose);
-        let point = frames.convention.axes().transpose() * asked.point;
-        let held = |held: &HeldWrench| HeldWrenchRecord {
-            load: held.load.clone(),
-            wrench: WrenchRecord::new(&held.wrench),
-            forces: held.efforts.map(|efforts| efforts.map(Number)),
-        };
-        let turns = matches!(found.drives, DrivesAt::Angles(_));
-        Self {
-            name: design.name.clone(),
-            length_unit: design.units.clone(),
-            force_unit: design.force_unit().label().into(),
-            frames: (&frames.convention).into(),
-            pose: (&asked.pose).into(),
-            in_frames: (&frames.write(&asked.pose)).into(),
-            point: three(&point),
-            axes: asked.axes.name().into(),
-            lengths: match found.drives {
-                DrivesAt::Lengths(lengths) => Some(lengths),
-                _ => None,
-            },
-            angles_deg: match found.drives {
-                DrivesAt::Angles(angles) => Some(angles.map(f64::to_degrees)),
-                _ => None,
-            },
-            out_of_reach: match &found.drives {
-                DrivesAt::OutOfReach(missing) => {
-                    Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by })
-                }
-                _ => None,
-            },
-            allowed: violated.is_empty(),
-            violated: violated
-                .iter()
-                .map(|(limit, margin)| LimitRecord::new(design, *limit, *margin))
-                .collect(),
-            singular: found.singular,
-            inverse_condition: found.inverse_condition.map(Number),
-            held: found.held.iter().map(held).collect(),
-            wrench: found.wrench.as_ref().map(WrenchRecord::new),
-            wrench_matrix: found.wrenches.as_ref().map(six_by_six),
-            stiffness: found
-                .stiffness
-                .as_ref()
-                .map(|(matrix, least)| PointStiffnessRecord::new(matrix, *least)),
-            resolution: found.motions.as_ref().map(|motions| {
-                let (by, unit) = if turns { (step.to_radians(), "deg") } else { (step, &*design.units) };
-                ResolutionRecord::new(motions, by, step, unit)
-            }),
-            stuck: found.stuck.as_ref().map(|stuck| StuckLegRecord::new(frames, stuck, turns)),
-            nearest_singular: found
-                .nearest_singular
-                .as_ref()
-                .map(|near| NearestSingularPoseRecord::new(design, frames, near)),
-        }
-    }
-
     /// Whether the drives hold the platform at the pose.
     #[must_use]
     pub fn is_held(&self) -> bool {
         self.singular.is_none() && self.out_of_reach.is_none() && self.resolution.is_some()
-    }
-}
-
-impl PointStiffnessRecord {
-    fn new(matrix: &Matrix6<f64>, least: Option<LeastStiffness>) -> Self {
-        let of = |value: fn(&LeastStiffness) -> f64| Number(least.as_ref().map_or(0.0, value));
-        Self {
-            matrix: six_by_six(matrix),
-            compliance: least.and_then(|_| matrix.try_inverse()).as_ref().map(six_by_six),
-            linear: of(|s| s.linear),
-            angular: of(|s| s.angular),
-        }
-    }
-}
-
-impl ResolutionRecord {
-    fn new(motions: &Matrix6<f64>, by: f64, step: f64, unit: &str) -> Self {
-        let twist = |drive: usize| std::array::from_fn(|k| motions[(k, drive)]);
-        let sum = std::array::from_fn(|k| motions.row(k).iter().map(|x| x.abs()).sum());
-        Self {
-            step,
-            step_unit: unit.into(),
-            drives: (0..6).map(|drive| SmallMotionRecord::new(twist(drive), by)).collect(),
-            all: SmallMotionRecord::new(sum, by),
-        }
-    }
-}
-
-impl StuckLegRecord {
-    fn new(frames: &PoseFrames, stuck: &StuckLeg, turns: bool) -> Self {
-        // of an angle a unit is a degree or a radian
-        let unit = frames.convention.angle_unit().of_radians(1.0);
-        let of_drive = |x: f64| if turns { x.to_degrees() } else { x };
-        let way = |(length, pose): &(f64, Pose)| LegPathPoseRecord {
-            length: *length,
-            in_frames: (&frames.write(pose)).into(),
-        };
-        let [shorter, longer] = stuck.ways.each_ref().map(|way_of| way_of.iter().map(way).collect());
-        Self {
-            leg: stuck.leg + 1,
-            rates: std::array::from_fn(|k| Number(of_drive(stuck.rates[k]) / if k < 3 { 1.0 } else { unit })),
-            screw: stuck.screw.map(|screw| ScrewRecord {
-                direction: three(&screw.direction),
-                point: three(&screw.point),
-                pitch: screw.pitch.map(Number),
-            }),
-            shorter,
-            longer,
-        }
-    }
-}
-
-impl NearestSingularPoseRecord {
-    fn new(design: &Design, frames: &PoseFrames, found: &NearestSingularPose) -> Self {
-        Self {
-            pose: (&found.pose).into(),
-            in_frames: (&frames.write(&found.pose)).into(),
-            distance: found.distance,
-            characteristic_length: design.characteristic_length(),
-            stationary: found.is_stationary,
-            proved_within: found.proved_within,
-        }
     }
 }

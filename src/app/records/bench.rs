@@ -34,8 +34,8 @@ pub struct BenchOneAnswer {
     pub method: String,
 }
 
-/// The methods that `--method` accepts.
-const METHODS: [&str; 6] = ["auto", "octic", "homotopy", "sylvester", "template", "trilateration"];
+/// The words of `--method`. `auto` names no method, so that the library chooses one.
+pub const METHODS: [&str; 6] = ["auto", "octic", "homotopy", "sylvester", "template", "trilateration"];
 
 /// The runs of several classes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -65,50 +65,37 @@ impl BenchAnswer {
     }
 }
 
-/// Problems counted and timed.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct BenchCountsRecord {
-    /// Class, or argument for several.
-    pub class: String,
-    /// Number of problems.
-    pub count: u64,
-    /// Number of problems with all roots correct.
-    pub complete: u64,
-    /// Number of problems with every root certified.
-    pub certified: u64,
-    /// Number of true roots not found.
-    pub missed_roots: u64,
-    /// Number of claimed roots that are wrong or repeated.
-    pub spurious_roots: u64,
-    /// Number of wrong certificates, of roots or of completeness.
-    pub false_certificates: u64,
-    /// Median time of a solver call, microseconds.
-    pub median_us: Number,
-    /// 99th percentile of the time of a solver call, microseconds.
-    pub p99_us: Number,
-    /// Largest residual of a claimed root, evaluated in twice the precision.
-    pub worst_residual: Number,
-    /// Two reference timings on this machine, microseconds.
-    pub reference_us: ReferenceTimes,
+view! {
+    /// Problems counted and timed.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct BenchCountsRecord {
+        /// Class, or argument for several.
+        pub class: String = r.plan.class.name().into_owned(),
+        /// Number of problems.
+        pub count: u64 = r.plan.count,
+        /// Number of problems with all roots correct.
+        pub complete: u64 = r.complete,
+        /// Number of problems with every root certified.
+        pub certified: u64 = r.certified,
+        /// Number of true roots not found.
+        pub missed_roots: u64 = r.missed_roots,
+        /// Number of claimed roots that are wrong or repeated.
+        pub spurious_roots: u64 = r.spurious_roots,
+        /// Number of wrong certificates, of roots or of completeness.
+        pub false_certificates: u64 = r.false_certificates,
+        /// Median time of a solver call, microseconds.
+        pub median_us: Number = Number(r.median_us),
+        /// 99th percentile of the time of a solver call, microseconds.
+        pub p99_us: Number = Number(r.p99_us),
+        /// Largest residual of a claimed root, evaluated in twice the precision.
+        pub worst_residual: Number = Number(r.worst_residual),
+        /// Two reference timings on this machine, microseconds.
+        pub reference_us: ReferenceTimes = *references,
+    }
+    fn new(r: &BenchReport, references: &ReferenceTimes) {}
 }
 
 impl BenchCountsRecord {
-    fn new(r: &BenchReport, references: &ReferenceTimes) -> Self {
-        Self {
-            class: r.plan.class.name().into_owned(),
-            count: r.plan.count,
-            complete: r.complete,
-            certified: r.certified,
-            missed_roots: r.missed_roots,
-            spurious_roots: r.spurious_roots,
-            false_certificates: r.false_certificates,
-            median_us: Number(r.median_us),
-            p99_us: Number(r.p99_us),
-            worst_residual: Number(r.worst_residual),
-            reference_us: *references,
-        }
-    }
-
     fn sums(asked: &str, rows: &[BenchClassRecord], references: &ReferenceTimes) -> Self {
         let sum = |of: fn(&Self) -> u64| rows.iter().map(|r| of(&r.counts)).sum();
         let worst =
@@ -129,93 +116,66 @@ impl BenchCountsRecord {
     }
 }
 
-/// Random problems of a class, solved and validated.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct BenchClassRecord {
-    /// Counts and times.
-    #[serde(flatten)]
-    pub counts: BenchCountsRecord,
-    /// Median time over each reference time.
-    pub ratio_to_reference: ReferenceTimes,
-    /// Index of the first problem, from 0.
-    pub first: u64,
-    /// Number of threads; each problem is solved on one thread.
-    pub threads: usize,
-    /// The source of the leg lengths: a random pose or random numbers.
-    pub lengths_from: LengthsFrom,
-    /// The decimals of the rounded joints, with `--decimals`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decimals: Option<u32>,
-    /// Poses of the class, without rounding.
-    pub expected_count: usize,
-    /// Problems by number of correct finite roots.
-    pub finite_counts: Histogram,
-    /// Problems by number of correct real roots.
-    pub real_counts: Histogram,
-    /// Number of claimed roots.
-    pub roots: u64,
-    /// Number of certified roots.
-    pub certified_roots: u64,
-    /// Number of problems with proved completeness.
-    pub proved: u64,
-    /// Problems with all real poses proved to be listed.
-    pub proved_bounded: u64,
-    /// Number of problems with a warning of the solver about missing roots.
-    pub doubted: u64,
-    /// Number of problems with missing roots and no warning.
-    pub silent_failures: u64,
-    /// Number of problems solved again from two other starts.
-    pub rechecked: u64,
-    /// Mean time of a solver call, microseconds.
-    pub mean_us: Number,
-    /// Median times of parts of a call, microseconds.
-    pub split_us: TimeSplit,
-    /// Time of the whole run, seconds.
-    pub total_s: Number,
-    /// Error of the listed roots, decimal logarithm (Martyushev, eq. 19).
-    pub epsilon: ErrorStatistics,
-    /// Candidates before refinement, with the methods `sylvester` and `template`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub raw: Option<RawReport>,
-    /// Wrong answers.
-    pub failures: Vec<BenchFailureRecord>,
-    /// Problems without proved completeness.
-    pub open: Vec<BenchOpenRecord>,
-}
-
-impl BenchClassRecord {
-    /// The record of a run, with the times of the references on the same machine.
-    #[must_use]
-    pub fn new(r: &BenchReport, references: &ReferenceTimes) -> Self {
-        Self {
-            counts: BenchCountsRecord::new(r, references),
-            ratio_to_reference: ReferenceTimes {
-                qz69: r.median_us / references.qz69,
-                eig40: r.median_us / references.eig40,
-            },
-            first: r.plan.first,
-            threads: r.plan.threads,
-            lengths_from: r.plan.lengths,
-            decimals: r.plan.decimals,
-            expected_count: r.expected,
-            finite_counts: Histogram(r.finite_counts.clone()),
-            real_counts: Histogram(r.real_counts.clone()),
-            roots: r.roots,
-            certified_roots: r.certified_roots,
-            proved: r.proved,
-            proved_bounded: r.proved_bounded,
-            doubted: r.doubted,
-            silent_failures: r.silent_failures,
-            rechecked: r.rechecked,
-            mean_us: Number(r.mean_us),
-            split_us: r.split,
-            total_s: Number(r.seconds),
-            epsilon: r.epsilon,
-            raw: r.raw.clone(),
-            failures: r.failures.iter().map(|f| BenchFailureRecord::new(&r.plan, f)).collect(),
-            open: r.open.iter().map(BenchOpenRecord::new).collect(),
-        }
+view! {
+    /// Random problems of a class, solved and validated.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct BenchClassRecord {
+        /// Counts and times.
+        #[serde(flatten)]
+        pub counts: BenchCountsRecord = BenchCountsRecord::new(r, references),
+        /// Median time over each reference time.
+        pub ratio_to_reference: ReferenceTimes = ReferenceTimes {
+            qz69: r.median_us / references.qz69,
+            eig40: r.median_us / references.eig40,
+        },
+        /// Index of the first problem, from 0.
+        pub first: u64 = r.plan.first,
+        /// Number of threads; each problem is solved on one thread.
+        pub threads: usize = r.plan.threads,
+        /// The source of the leg lengths: a random pose or random numbers.
+        pub lengths_from: LengthsFrom = r.plan.lengths,
+        /// The decimals of the rounded joints, with `--decimals`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub decimals: Option<u32> = r.plan.decimals,
+        /// Poses of the class, without rounding.
+        pub expected_count: usize = r.expected,
+        /// Problems by number of correct finite roots.
+        pub finite_counts: Histogram = Histogram(r.finite_counts.clone()),
+        /// Problems by number of correct real roots.
+        pub real_counts: Histogram = Histogram(r.real_counts.clone()),
+        /// Number of claimed roots.
+        pub roots: u64 = r.roots,
+        /// Number of certified roots.
+        pub certified_roots: u64 = r.certified_roots,
+        /// Number of problems with proved completeness.
+        pub proved: u64 = r.proved,
+        /// Problems with all real poses proved to be listed.
+        pub proved_bounded: u64 = r.proved_bounded,
+        /// Number of problems with a warning of the solver about missing roots.
+        pub doubted: u64 = r.doubted,
+        /// Number of problems with missing roots and no warning.
+        pub silent_failures: u64 = r.silent_failures,
+        /// Number of problems solved again from two other starts.
+        pub rechecked: u64 = r.rechecked,
+        /// Mean time of a solver call, microseconds.
+        pub mean_us: Number = Number(r.mean_us),
+        /// Median times of parts of a call, microseconds.
+        pub split_us: TimeSplit = r.split,
+        /// Time of the whole run, seconds.
+        pub total_s: Number = Number(r.seconds),
+        /// Error of the listed roots, decimal logarithm (Martyushev, eq. 19).
+        pub epsilon: ErrorStatistics = r.epsilon,
+        /// Candidates before refinement, with the methods `sylvester` and `template`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub raw: Option<RawReport> = r.raw.clone(),
+        /// Wrong answers.
+        pub failures: Vec<BenchFailureRecord> =
+            r.failures.iter().map(|f| BenchFailureRecord::new(&r.plan, f)).collect(),
+        /// Problems without proved completeness.
+        pub open: Vec<BenchOpenRecord> = r.open.iter().map(BenchOpenRecord::new).collect(),
     }
+    /// The record of a run, with the times of the references on the same machine.
+    pub fn new(r: &BenchReport, references: &ReferenceTimes) {}
 }
 
 /// Number of problems for each number of poses.
@@ -239,47 +199,37 @@ impl JsonSchema for Histogram {
     }
 }
 
-/// A problem with a wrong answer, written out so that another program can solve it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct BenchFailureRecord {
-    /// Problem index.
-    pub problem: u64,
-    /// Number of missing roots.
-    pub missed: usize,
-    /// Number of claims without root.
-    pub spurious: usize,
-    /// Number of wrong certificates.
-    pub false_certificates: usize,
-    /// Number of distinct correct roots.
-    pub found: usize,
-    /// Statement of the solver.
-    pub solver: String,
-    /// Base ends in leg order, base frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub base: Option<[[Number; 3]; 6]>,
-    /// Platform ends in leg order, platform frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub platform: Option<[[Number; 3]; 6]>,
-    /// Squared leg lengths.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub squared_lengths: Option<[Number; 6]>,
-}
-
-impl BenchFailureRecord {
-    fn new(plan: &Plan, f: &WrongAnswer) -> Self {
+view! {
+    /// A problem with a wrong answer, written out so that another program can solve it.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct BenchFailureRecord {
+        /// Problem index.
+        pub problem: u64 = f.k,
+        /// Number of missing roots.
+        pub missed: usize = f.missed,
+        /// Number of claims without root.
+        pub spurious: usize = f.spurious,
+        /// Number of wrong certificates.
+        pub false_certificates: usize = f.false_certificates,
+        /// Number of distinct correct roots.
+        pub found: usize = f.found,
+        /// Statement of the solver.
+        pub solver: String = f.solver.clone(),
+        /// Base ends in leg order, base frame.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub base: Option<[[Number; 3]; 6]> =
+            drawn.as_ref().map(|d| d.manipulator.legs().map(|l| point(l.base))),
+        /// Platform ends in leg order, platform frame.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub platform: Option<[[Number; 3]; 6]> =
+            drawn.as_ref().map(|d| d.manipulator.legs().map(|l| point(l.platform))),
+        /// Squared leg lengths.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub squared_lengths: Option<[Number; 6]> = drawn.map(|d| d.squares.get().map(Number)),
+    }
+    fn new(plan: &Plan, f: &WrongAnswer) {
         let drawn = plan.problem(f.k).ok();
         let point = |p: nalgebra::Point3<f64>| [p.x, p.y, p.z].map(Number);
-        Self {
-            problem: f.k,
-            missed: f.missed,
-            spurious: f.spurious,
-            false_certificates: f.false_certificates,
-            found: f.found,
-            solver: f.solver.clone(),
-            base: drawn.as_ref().map(|d| d.manipulator.legs().map(|l| point(l.base))),
-            platform: drawn.as_ref().map(|d| d.manipulator.legs().map(|l| point(l.platform))),
-            squared_lengths: drawn.map(|d| d.squares.get().map(Number)),
-        }
     }
 }
 
@@ -311,19 +261,15 @@ pub struct NoiseAnswer {
     pub rows: Vec<NoiseRowRecord>,
 }
 
-/// The effect of noise on one class.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct NoiseRowRecord {
-    /// The class.
-    pub class: String,
-    /// The levels of noise, the smallest first.
-    pub levels: Vec<NoiseLevel>,
-}
-
-impl NoiseRowRecord {
-    /// The record of a class.
-    #[must_use]
-    pub fn new(class: Class, levels: &[NoiseLevel]) -> Self {
-        Self { class: class.name().into_owned(), levels: levels.to_vec() }
+view! {
+    /// The effect of noise on one class.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct NoiseRowRecord {
+        /// The class.
+        pub class: String = class.name().into_owned(),
+        /// The levels of noise, the smallest first.
+        pub levels: Vec<NoiseLevel> = levels.to_vec(),
     }
+    /// The record of a class.
+    pub fn new(class: Class, levels: &[NoiseLevel]) {}
 }

@@ -63,53 +63,81 @@ impl From<CalibrationStatus> for CalibrateOutcome {
     }
 }
 
-/// The calibrated machine with its residuals and deviations.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct CalibrationRecord {
-    /// Number of measured poses.
-    pub poses: usize,
-    /// Number of unknowns.
-    pub unknowns: usize,
-    /// The frames of joints, deviations and covariance.
-    pub frames: CalibrationFrames,
-    /// Motions from measurement frames to design frames; null: joints are given in the frames of the measurements.
-    pub motions: Option<CarriedFrames>,
-    /// Standard deviations of measurements.
-    pub noise: NoiseRecord,
-    /// Loss function.
-    pub loss: LossRecord,
-    /// Start of the fit.
-    pub start: Starts,
-    /// Whether the fit converged.
-    pub converged: bool,
-    /// Number of steps in all.
-    pub steps: usize,
-    /// The calibrated joints: all joints that carry legs.
-    pub joints: Vec<CalibratedJointRecord>,
-    /// Offsets of the legs: shown length minus distance of the joints, design units.
-    pub offsets: Vec<CalibratedOffsetRecord>,
-    /// Covariance of the unknowns, squared design units; directions that are not identified contribute no variance.
-    pub covariance: CovarianceRecord,
-    /// Uncertainty of computed poses; null: not all unknowns are identified, or the design has no pose to evaluate.
-    pub computed_poses: Option<ComputedPosesRecord>,
-    /// Observability of the machine's parameters.
-    pub observability: ObservabilityRecord,
-    /// Residuals before calibration.
-    pub before: ResidualsRecord,
-    /// Residuals after calibration, without outliers.
-    pub after: ResidualsRecord,
-    /// First-order leave-one-out residuals, without outliers: each pose against the machine fitted to the other poses.
-    pub leave_one_out: ResidualsRecord,
-    /// Residuals of `--check`; null: there are none.
-    pub check: Option<ResidualsRecord>,
-    /// Indispensable measurements, by line: without one of them, the unknowns are not determined.
-    pub indispensable: Vec<usize>,
-    /// Test of residuals against noise.
-    pub chi_square: ChiSquare,
-    /// Contradicting measurements, the farthest first.
-    pub outliers: Vec<OutlierRecord>,
-    /// Legs with lengths probably exchanged, from 1: swapped, they are five times nearer to the design. Null: none.
-    pub exchanged_legs: Option<[usize; 2]>,
+view! {
+    /// The calibrated machine with its residuals and deviations.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct CalibrationRecord {
+        /// Number of measured poses.
+        pub poses: usize = found.weights.len(),
+        /// Number of unknowns.
+        pub unknowns: usize = found.unknowns.count(),
+        /// The frames of joints, deviations and covariance.
+        pub frames: CalibrationFrames =
+            if frames.is_some() { CalibrationFrames::Design } else { CalibrationFrames::Measured },
+        /// Motions from measurement frames to design frames; null: joints are given in the frames of the measurements.
+        pub motions: Option<CarriedFrames> = frames.cloned(),
+        /// Standard deviations of measurements.
+        pub noise: NoiseRecord = NoiseRecord::new(&found.noise, found.noise_source),
+        /// Loss function.
+        pub loss: LossRecord = LossRecord { loss, of },
+        /// Start of the fit.
+        pub start: Starts = found.starts,
+        /// Whether the fit converged.
+        pub converged: bool = found.converged,
+        /// Number of steps in all.
+        pub steps: usize = found.steps,
+        /// The calibrated joints: all joints that carry legs.
+        pub joints: Vec<CalibratedJointRecord> = joints(design, found, &model, &deviation),
+        /// Offsets of the legs: shown length minus distance of the joints, design units.
+        pub offsets: Vec<CalibratedOffsetRecord> = (0..6)
+            .map(|leg| CalibratedOffsetRecord {
+                leg: leg + 1,
+                offset: Number(model.offsets[leg]),
+                deviation: found.unknowns.offset(leg).map(&deviation),
+            })
+            .collect(),
+        /// Covariance of the unknowns, squared design units; directions that are not identified contribute no variance.
+        pub covariance: CovarianceRecord = CovarianceRecord {
+            unknowns: unknown_names(design, &found.unknowns),
+            matrix: covariance.row_iter().map(|row| row.iter().map(|x| Number(*x)).collect()).collect(),
+        },
+        /// Uncertainty of computed poses; null: not all unknowns are identified, or the design has no pose to evaluate.
+        pub computed_poses: Option<ComputedPosesRecord> = None,
+        /// Observability of the machine's parameters.
+        pub observability: ObservabilityRecord = ObservabilityRecord::new(design, &found.observability),
+        /// Residuals before calibration.
+        pub before: ResidualsRecord = residuals(&found.before),
+        /// Residuals after calibration, without outliers.
+        pub after: ResidualsRecord = residuals(&found.after),
+        /// First-order leave-one-out residuals, without outliers: each pose against the machine fitted to the other
+        /// poses.
+        pub leave_one_out: ResidualsRecord = residuals(&found.left_out),
+        /// Residuals of `--check`; null: there are none.
+        pub check: Option<ResidualsRecord> = None,
+        /// Indispensable measurements, by line: without one of them, the unknowns are not determined.
+        pub indispensable: Vec<usize> = found.indispensable.iter().map(|k| line(lines, *k)).collect(),
+        /// Test of residuals against noise.
+        pub chi_square: ChiSquare = found.chi_square,
+        /// Contradicting measurements, the farthest first.
+        pub outliers: Vec<OutlierRecord> =
+            found.outliers.iter().map(|o| OutlierRecord::new(o, lines)).collect(),
+        /// Legs with lengths probably exchanged, from 1: swapped, they are five times nearer to the design. Null: none.
+        pub exchanged_legs: Option<[usize; 2]> = found.exchanged.map(|legs| legs.map(|leg| leg + 1)),
+    }
+    /// The record of a calibration from measurements on these lines, carried to the design frames if `frames` holds the
+    /// motions.
+    pub fn new(
+        design: &Design,
+        found: &Calibration,
+        (loss, of): (Loss, LossUnit),
+        frames: Option<&CarriedFrames>,
+        lines: &[usize],
+    ) {
+        let (model, root) = carried(found, frames);
+        let deviation = |column: usize| Number(root.row(column).norm());
+        let covariance = &root * root.transpose();
+        let residuals = |spread: &ResidualSpread| ResidualsRecord::new(spread, lines);
+    }
 }
 
 /// The frames of calibrated joints.
@@ -122,28 +150,20 @@ pub enum CalibrationFrames {
     Design,
 }
 
-/// Standard deviations of measurements.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct NoiseRecord {
-    /// Source of values.
-    pub source: NoiseSource,
-    /// Standard deviation of a length, design units.
-    pub length: Number,
-    /// Standard deviation of a platform origin coordinate, design units.
-    pub position: Number,
-    /// Standard deviation of a rotation vector component, degrees.
-    pub rotation_deg: Number,
-}
-
-impl NoiseRecord {
-    fn new(noise: &MeasurementNoise, source: NoiseSource) -> Self {
-        Self {
-            source,
-            length: Number(noise.length),
-            position: Number(noise.position),
-            rotation_deg: Number(noise.rotation.to_degrees()),
-        }
+view! {
+    /// Standard deviations of measurements.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct NoiseRecord {
+        /// Source of values.
+        pub source: NoiseSource = source,
+        /// Standard deviation of a length, design units.
+        pub length: Number = Number(noise.length),
+        /// Standard deviation of a platform origin coordinate, design units.
+        pub position: Number = Number(noise.position),
+        /// Standard deviation of a rotation vector component, degrees.
+        pub rotation_deg: Number = Number(noise.rotation.to_degrees()),
     }
+    fn new(noise: &MeasurementNoise, source: NoiseSource) {}
 }
 
 /// The loss function of the fit, which limits the weight of outliers.
@@ -190,27 +210,25 @@ pub struct CovarianceRecord {
     pub matrix: Vec<Vec<Number>>,
 }
 
-/// Standard deviations of poses computed from lengths, caused by the errors of the calibration with all correlations.
-/// The noise of the lengths adds to them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct ComputedPosesRecord {
-    /// Number of poses evaluated: the poses of the workspace at which the requirements of the design are met.
-    pub poses: usize,
-    /// Median RMS error of the measured platform origin, design units.
-    pub position_median: Number,
-    /// Greatest RMS error of the measured platform origin, design units.
-    pub position_greatest: Number,
-    /// Median RMS error of the orientation.
-    pub rotation_deg_median: Number,
-    /// Greatest RMS error of the orientation.
-    pub rotation_deg_greatest: Number,
-    /// Pose with the greatest position error.
-    pub pose: PoseQuaternionRecord,
-}
-
-impl ComputedPosesRecord {
+view! {
+    /// Standard deviations of poses computed from lengths, caused by the errors of the calibration with all
+    /// correlations. The noise of the lengths adds to them.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct ComputedPosesRecord {
+        /// Number of poses evaluated: the poses of the workspace at which the requirements of the design are met.
+        pub poses: usize = all.len(),
+        /// Median RMS error of the measured platform origin, design units.
+        pub position_median: Number = Number(position.0),
+        /// Greatest RMS error of the measured platform origin, design units.
+        pub position_greatest: Number = Number(position.1),
+        /// Median RMS error of the orientation.
+        pub rotation_deg_median: Number = Number(rotation.0),
+        /// Greatest RMS error of the orientation.
+        pub rotation_deg_greatest: Number = Number(rotation.1),
+        /// Pose with the greatest position error.
+        pub pose: PoseQuaternionRecord = (&worst.0).into(),
+    }
     /// The deviations of a machine at poses in the frames of its measurements; `None` if all poses are singular.
-    #[must_use]
     pub fn new(found: &Calibration, poses: &[Pose]) -> Option<Self> {
         let at =
             |pose: &Pose| Some((*pose, pose_deviation(&found.model, &found.unknowns, &found.root, pose)?));
@@ -222,37 +240,33 @@ impl ComputedPosesRecord {
             (values[(values.len() - 1) / 2], values[values.len() - 1])
         };
         let (position, rotation) = (sorted(|d| d.position), sorted(|d| d.rotation.to_degrees()));
-        Some(Self {
-            poses: all.len(),
-            position_median: Number(position.0),
-            position_greatest: Number(position.1),
-            rotation_deg_median: Number(rotation.0),
-            rotation_deg_greatest: Number(rotation.1),
-            pose: (&worst.0).into(),
-        })
     }
 }
 
-/// Observability of the machine's parameters by the measurements.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ObservabilityRecord {
-    /// Number of identified directions.
-    pub rank: usize,
-    /// Singular values of the identification matrix, whitened and multiplied by the deviation of a length, largest
-    /// first; no unit.
-    pub singular_values: Vec<Number>,
-    /// Singular values below are not identified.
-    pub tolerance: Number,
-    /// `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
-    pub volume_index: Number,
-    /// `s_m / s_1` (Driels, Pathre 1990).
-    pub inverse_condition: Number,
-    /// `s_m^2 / s_1` (Nahvi, Hollerbach 1996).
-    pub noise_amplification: Number,
-    /// `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
-    pub harmonic_index: Number,
-    /// Unidentified changes of the machine, each normalised to 1 over all unknowns.
-    pub unobservable: Vec<UnobservableRecord>,
+view! {
+    /// Observability of the machine's parameters by the measurements.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ObservabilityRecord {
+        /// Number of identified directions.
+        pub rank: usize = found.rank,
+        /// Singular values of the identification matrix, whitened and multiplied by the deviation of a length, largest
+        /// first; no unit.
+        pub singular_values: Vec<Number> = found.singular_values.iter().map(|s| Number(*s)).collect(),
+        /// Singular values below are not identified.
+        pub tolerance: Number = Number(found.tolerance),
+        /// `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
+        pub volume_index: Number = Number(found.volume_index()),
+        /// `s_m / s_1` (Driels, Pathre 1990).
+        pub inverse_condition: Number = Number(found.inverse_condition()),
+        /// `s_m^2 / s_1` (Nahvi, Hollerbach 1996).
+        pub noise_amplification: Number = Number(found.noise_amplification()),
+        /// `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
+        pub harmonic_index: Number = Number(found.harmonic_index()),
+        /// Unidentified changes of the machine, each normalised to 1 over all unknowns.
+        pub unobservable: Vec<UnobservableRecord> =
+            found.unobservable.iter().map(|c| UnobservableRecord::new(design, c)).collect(),
+    }
+    fn new(design: &Design, found: &Observability) {}
 }
 
 /// A change of joints and offsets that leaves all measured lengths almost unchanged.
@@ -311,17 +325,25 @@ impl UnobservableRecord {
     }
 }
 
-/// Statistics of residuals, design units.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ResidualsRecord {
-    /// RMS residual.
-    pub rms: Number,
-    /// RMS residual by leg.
-    pub legs: [Number; 6],
-    /// Greatest residual; null: none was counted.
-    pub greatest: Option<GreatestResidualRecord>,
-    /// Number of lengths counted.
-    pub count: usize,
+view! {
+    /// Statistics of residuals, design units.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ResidualsRecord {
+        /// RMS residual.
+        pub rms: Number = Number(spread.rms),
+        /// RMS residual by leg.
+        pub legs: [Number; 6] = spread.legs.map(Number),
+        /// Greatest residual; null: none was counted.
+        pub greatest: Option<GreatestResidualRecord> = spread.greatest.map(|g| GreatestResidualRecord {
+            line: line(lines, g.measurement),
+            leg: g.leg + 1,
+            value: Number(g.value),
+        }),
+        /// Number of lengths counted.
+        pub count: usize = spread.count,
+    }
+    /// The statistics of measurements that stand on these lines.
+    pub fn new(spread: &ResidualSpread, lines: &[usize]) {}
 }
 
 /// The residual of greatest size.
@@ -335,53 +357,28 @@ pub struct GreatestResidualRecord {
     pub value: Number,
 }
 
-impl ResidualsRecord {
-    /// The statistics of measurements that stand on these lines.
-    #[must_use]
-    pub fn new(spread: &ResidualSpread, lines: &[usize]) -> Self {
-        Self {
-            rms: Number(spread.rms),
-            legs: spread.legs.map(Number),
-            greatest: spread.greatest.map(|g| GreatestResidualRecord {
-                line: line(lines, g.measurement),
-                leg: g.leg + 1,
-                value: Number(g.value),
-            }),
-            count: spread.count,
-        }
-    }
-}
-
 /// The line of a measurement, or its index if the lines are unknown.
 fn line(lines: &[usize], measurement: usize) -> usize {
     lines.get(measurement).copied().unwrap_or(measurement + 1)
 }
 
-/// A measurement that contradicts the others.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct OutlierRecord {
-    /// Line of the table.
-    pub line: usize,
-    /// The leg, from 1; null: the whole pose.
-    pub leg: Option<usize>,
-    /// Distance from the model, standard deviations.
-    pub distance: Number,
-    /// The rejection threshold, standard deviations: correct measurements all stay below it with a probability of 99 %.
-    pub threshold: Number,
-    /// Weight in the fit.
-    pub weight: Number,
-}
-
-impl OutlierRecord {
-    fn new(outlier: &Outlier, lines: &[usize]) -> Self {
-        Self {
-            line: line(lines, outlier.measurement),
-            leg: outlier.leg.map(|leg| leg + 1),
-            distance: Number(outlier.distance),
-            threshold: Number(outlier.threshold),
-            weight: Number(outlier.weight),
-        }
+view! {
+    /// A measurement that contradicts the others.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct OutlierRecord {
+        /// Line of the table.
+        pub line: usize = line(lines, outlier.measurement),
+        /// The leg, from 1; null: the whole pose.
+        pub leg: Option<usize> = outlier.leg.map(|leg| leg + 1),
+        /// Distance from the model, standard deviations.
+        pub distance: Number = Number(outlier.distance),
+        /// The rejection threshold, standard deviations: correct measurements all stay below it with a probability of
+        /// 99 %.
+        pub threshold: Number = Number(outlier.threshold),
+        /// Weight in the fit.
+        pub weight: Number = Number(outlier.weight),
     }
+    fn new(outlier: &Outlier, lines: &[usize]) {}
 }
 
 /// A pose to measure next.
@@ -398,57 +395,6 @@ pub struct NextPoseRecord {
     pub shrinks: Number,
     /// Greatest standard deviation after all poses up to this one, design units.
     pub greatest_deviation: Number,
-}
-
-impl CalibrationRecord {
-    /// The record of a calibration from measurements on these lines, carried to the design frames if `frames` holds the
-    /// motions.
-    #[must_use]
-    pub fn new(
-        design: &Design,
-        found: &Calibration,
-        (loss, of): (Loss, LossUnit),
-        frames: Option<&CarriedFrames>,
-        lines: &[usize],
-    ) -> Self {
-        let (model, root) = carried(found, frames);
-        let deviation = |column: usize| Number(root.row(column).norm());
-        let covariance = &root * root.transpose();
-        let residuals = |spread: &ResidualSpread| ResidualsRecord::new(spread, lines);
-        Self {
-            poses: found.weights.len(),
-            unknowns: found.unknowns.count(),
-            frames: if frames.is_some() { CalibrationFrames::Design } else { CalibrationFrames::Measured },
-            motions: frames.cloned(),
-            noise: NoiseRecord::new(&found.noise, found.noise_source),
-            loss: LossRecord { loss, of },
-            start: found.starts,
-            converged: found.converged,
-            steps: found.steps,
-            joints: joints(design, found, &model, &deviation),
-            offsets: (0..6)
-                .map(|leg| CalibratedOffsetRecord {
-                    leg: leg + 1,
-                    offset: Number(model.offsets[leg]),
-                    deviation: found.unknowns.offset(leg).map(&deviation),
-                })
-                .collect(),
-            covariance: CovarianceRecord {
-                unknowns: unknown_names(design, &found.unknowns),
-                matrix: covariance.row_iter().map(|row| row.iter().map(|x| Number(*x)).collect()).collect(),
-            },
-            computed_poses: None,
-            observability: ObservabilityRecord::new(design, &found.observability),
-            before: residuals(&found.before),
-            after: residuals(&found.after),
-            leave_one_out: residuals(&found.left_out),
-            check: None,
-            indispensable: found.indispensable.iter().map(|k| line(lines, *k)).collect(),
-            chi_square: found.chi_square,
-            outliers: found.outliers.iter().map(|o| OutlierRecord::new(o, lines)).collect(),
-            exchanged_legs: found.exchanged.map(|legs| legs.map(|leg| leg + 1)),
-        }
-    }
 }
 
 fn joints(
@@ -475,19 +421,4 @@ fn joints(
         }
     }
     out
-}
-
-impl ObservabilityRecord {
-    fn new(design: &Design, found: &Observability) -> Self {
-        Self {
-            rank: found.rank,
-            singular_values: found.singular_values.iter().map(|s| Number(*s)).collect(),
-            tolerance: Number(found.tolerance),
-            volume_index: Number(found.volume_index()),
-            inverse_condition: Number(found.inverse_condition()),
-            noise_amplification: Number(found.noise_amplification()),
-            harmonic_index: Number(found.harmonic_index()),
-            unobservable: found.unobservable.iter().map(|c| UnobservableRecord::new(design, c)).collect(),
-        }
-    }
 }

@@ -18,70 +18,84 @@ use synthesis::singularity::{
     RationalPose, SingularEvidence,
 };
 
-/// The answer of `check`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CheckAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// Verdict in words, with the name.
-    pub headline: String,
-    /// The unit of lengths.
-    pub units: String,
-    /// The size of the design, in its units: what distances are compared with.
-    pub size: Number,
-    /// The exactness of the design's joints.
-    pub joints: JointsRecord,
-    /// Whether every pose is singular. Null: undecided, since a singular design lies within rounding or the digits
-    /// given, or some joints are known only between bounds.
-    pub architecturally_singular: Option<bool>,
-    /// The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
-    pub level: Option<Level>,
-    /// Exact decision for the joints as numbers; null: some joints are known only between bounds.
-    pub singular_as_written: Option<bool>,
-    /// Evidence that home is singular; null: it is regular, or the design states none.
-    pub singular_home: Option<SingularEvidence>,
-    /// Short code; null: regular.
-    pub reason: Option<String>,
-    /// Verdict in words.
-    pub explanation: String,
-    /// Proof for the joints as written.
-    pub proof: ProofWord,
-    /// Proof in words.
-    pub proof_explanation: String,
-    /// Rank of the leg vectors.
-    pub leg_rank: usize,
-    /// Generic Jacobian rank: the rank of the leg lines at almost every pose.
-    pub jacobian_rank: usize,
-    /// Pose with this rank.
-    pub witness: WitnessRecord,
-    /// First dependency of the leg vectors; null: there is none.
-    pub dependency: Option<DependencyRecord>,
-    /// All dependencies of the leg vectors.
-    pub dependencies: Vec<DependencyRecord>,
-    /// Legs of the first known case, from 1.
-    pub dependent_legs: Option<Vec<usize>>,
-    /// Known cases, the most specific first.
-    pub cases: Vec<CaseRecord>,
-    /// The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
-    pub griffis_duffy: Option<GriffisDuffyRecord>,
-    /// The nearest singular design found; null: the design itself is singular.
-    pub nearest_singular: Option<NearestSingularRecord>,
-    /// Finite poses, real and complex, for generic leg lengths.
-    pub pose_count: PoseCountRecord,
-    /// Common points of six leg equations for generic lengths, by kind. Null: the poses are not isolated, or not
-    /// counted.
-    pub common_points: Option<CommonPoints>,
-    /// Upper bound on isolated finite poses, by a theorem.
-    pub pose_bound: PoseBoundRecord,
-    /// Steps that compute the poses: by quadratic equations alone, or with one part of the platform first.
-    pub solvability: Solvability,
-    /// Best line through the joints by body, base first. A body whose joints all lie on one line can rotate about it. A
-    /// body with all joints at one point has no line.
-    pub best_lines: Vec<BestLineRecord>,
-    /// Singular values of the normalised leg vectors.
-    pub singular_values: [Number; 6],
-    /// Inverse condition number of the Jacobian at random poses.
-    pub jacobian_inverse_condition: Conditioning,
+view! {
+    /// The answer of `check`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct CheckAnswer {
+        /// The name of the design.
+        pub name: String = c.design.name.clone(),
+        /// Verdict in words, with the name.
+        pub headline: String = headline(c),
+        /// The unit of lengths.
+        pub units: String = c.design.units.clone(),
+        /// The size of the design, in its units: what distances are compared with.
+        pub size: Number = Number(c.design.manipulator().size()),
+        /// The exactness of the design's joints.
+        pub joints: JointsRecord = (&c.design.exactness()).into(),
+        /// Whether every pose is singular. Null: undecided, since a singular design lies within rounding or the digits
+        /// given, or some joints are known only between bounds.
+        pub architecturally_singular: Option<bool> = c.is_singular(),
+        /// The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
+        pub level: Option<Level> = c.verdict.level(),
+        /// Exact decision for the joints as numbers; null: some joints are known only between bounds.
+        pub singular_as_written: Option<bool> = a.is_singular(),
+        /// Evidence that home is singular; null: it is regular, or the design states none.
+        pub singular_home: Option<SingularEvidence> = c.singular_home.map(|home| home.evidence),
+        /// Short code; null: regular.
+        pub reason: Option<String> = c.verdict.reason().map(str::to_owned),
+        /// Verdict in words.
+        pub explanation: String = explanation(c),
+        /// Proof for the joints as written.
+        pub proof: ProofWord = proof(a),
+        /// Proof in words.
+        pub proof_explanation: String = proof_explanation(a),
+        /// Rank of the leg vectors.
+        pub leg_rank: usize = a.leg_rank,
+        /// Generic Jacobian rank: the rank of the leg lines at almost every pose.
+        pub jacobian_rank: usize = a.jacobian.rank,
+        /// Pose with this rank.
+        pub witness: WitnessRecord = (&a.jacobian.witness).into(),
+        /// First dependency of the leg vectors; null: there is none.
+        pub dependency: Option<DependencyRecord> = dependencies.first().cloned(),
+        /// All dependencies of the leg vectors.
+        pub dependencies: Vec<DependencyRecord> = dependencies,
+        /// Legs of the first known case, from 1.
+        pub dependent_legs: Option<Vec<usize>> = a.findings.first().map(|f| leg_numbers(&f.legs)),
+        /// Known cases, the most specific first.
+        pub cases: Vec<CaseRecord> = a.findings.iter().map(CaseRecord::from).collect(),
+        /// The Griffis-Duffy type; null: the joints do not lie on the sides of two triangles.
+        pub griffis_duffy: Option<GriffisDuffyRecord> = a
+            .griffis_duffy
+            .as_ref()
+            .map(|g| GriffisDuffyRecord::new(g, &c.design, c.assembly.as_ref())),
+        /// The nearest singular design found; null: the design itself is singular.
+        pub nearest_singular: Option<NearestSingularRecord> = c
+            .nearest
+            .as_ref()
+            .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
+        /// Finite poses, real and complex, for generic leg lengths.
+        pub pose_count: PoseCountRecord = (&c.pose_count).into(),
+        /// Common points of six leg equations for generic lengths, by kind. Null: the poses are not isolated, or not
+        /// counted.
+        pub common_points: Option<CommonPoints> = c.common_points,
+        /// Upper bound on isolated finite poses, by a theorem.
+        pub pose_bound: PoseBoundRecord = c.pose_bound.into(),
+        /// Steps that compute the poses: by quadratic equations alone, or with one part of the platform first.
+        pub solvability: Solvability = c.solvability.clone(),
+        /// Best line through the joints by body, base first. A body whose joints all lie on one line can rotate about
+        /// it. A body with all joints at one point has no line.
+        pub best_lines: Vec<BestLineRecord> =
+            Body::BOTH.into_iter().zip(c.best_lines).filter_map(BestLineRecord::of).collect(),
+        /// Singular values of the normalised leg vectors.
+        pub singular_values: [Number; 6] = c.conditioning.leg_vectors.map(Number),
+        /// Inverse condition number of the Jacobian at random poses.
+        pub jacobian_inverse_condition: Conditioning = c.conditioning,
+    }
+    impl From(c: &CheckReport) {
+        let a = &c.verdict.architecture;
+        let lengths = c.design.lengths.as_ref();
+        let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
+    }
 }
 
 /// A line that joints of a body lie nearly on, body frame, design units.
@@ -106,51 +120,6 @@ impl BestLineRecord {
         let numbers = |x: [f64; 3]| x.map(Number);
         let (distance, reach) = (Number(distance), Number(reach));
         Some(Self { body, point: numbers(point), direction: numbers(direction), distance, reach })
-    }
-}
-
-impl From<&CheckReport> for CheckAnswer {
-    fn from(c: &CheckReport) -> Self {
-        let a = &c.verdict.architecture;
-        let lengths = c.design.lengths.as_ref();
-        let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
-        Self {
-            name: c.design.name.clone(),
-            headline: headline(c),
-            units: c.design.units.clone(),
-            size: Number(c.design.manipulator().size()),
-            joints: (&c.design.exactness()).into(),
-            architecturally_singular: c.is_singular(),
-            level: c.verdict.level(),
-            singular_as_written: a.is_singular(),
-            singular_home: c.singular_home.map(|home| home.evidence),
-            reason: c.verdict.reason().map(str::to_owned),
-            explanation: explanation(c),
-            proof: proof(a),
-            proof_explanation: proof_explanation(a),
-            leg_rank: a.leg_rank,
-            jacobian_rank: a.jacobian.rank,
-            witness: (&a.jacobian.witness).into(),
-            dependency: dependencies.first().cloned(),
-            dependencies,
-            dependent_legs: a.findings.first().map(|f| leg_numbers(&f.legs)),
-            cases: a.findings.iter().map(CaseRecord::from).collect(),
-            griffis_duffy: a
-                .griffis_duffy
-                .as_ref()
-                .map(|g| GriffisDuffyRecord::new(g, &c.design, c.assembly.as_ref())),
-            nearest_singular: c
-                .nearest
-                .as_ref()
-                .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
-            pose_count: (&c.pose_count).into(),
-            common_points: c.common_points,
-            pose_bound: c.pose_bound.into(),
-            solvability: c.solvability.clone(),
-            best_lines: Body::BOTH.into_iter().zip(c.best_lines).filter_map(BestLineRecord::of).collect(),
-            singular_values: c.conditioning.leg_vectors.map(Number),
-            jacobian_inverse_condition: c.conditioning,
-        }
     }
 }
 
@@ -239,36 +208,27 @@ fn proof_explanation(a: &Architecture) -> String {
     }
 }
 
-/// The exactness of all joints of a design together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct JointsRecord {
-    /// Exactness of the least exact joint.
-    pub exactness: ExactnessWord,
-    /// Integers with square roots in the coordinate field, beside the cosines of `divisions`; empty for fractions.
-    pub radicands: Vec<u64>,
-    /// Numbers `n` with `cos(360 / n)` degrees in the coordinate field: some of 9, 16, 20 and 32.
-    pub divisions: Vec<u32>,
-    /// Joints between bounds, with their bodies: `base.A2`.
-    pub enclosed: Vec<String>,
-    /// The exactness in words.
-    pub explanation: String,
-}
-
-impl From<&DesignExactness> for JointsRecord {
-    fn from(e: &DesignExactness) -> Self {
-        Self {
-            exactness: match e.exactness {
-                None => ExactnessWord::Doubles,
-                Some(Exactness::Rational) => ExactnessWord::Rational,
-                Some(Exactness::Field) => ExactnessWord::Field,
-                Some(Exactness::Interval) => ExactnessWord::Interval,
-            },
-            radicands: e.radicands.clone(),
-            divisions: e.divisions.clone(),
-            enclosed: e.enclosed.clone(),
-            explanation: e.to_string(),
-        }
+view! {
+    /// The exactness of all joints of a design together.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct JointsRecord {
+        /// Exactness of the least exact joint.
+        pub exactness: ExactnessWord = match e.exactness {
+            None => ExactnessWord::Doubles,
+            Some(Exactness::Rational) => ExactnessWord::Rational,
+            Some(Exactness::Field) => ExactnessWord::Field,
+            Some(Exactness::Interval) => ExactnessWord::Interval,
+        },
+        /// Integers with square roots in the coordinate field, beside the cosines of `divisions`; empty for fractions.
+        pub radicands: Vec<u64> = e.radicands.clone(),
+        /// Numbers `n` with `cos(360 / n)` degrees in the coordinate field: some of 9, 16, 20 and 32.
+        pub divisions: Vec<u32> = e.divisions.clone(),
+        /// Joints between bounds, with their bodies: `base.A2`.
+        pub enclosed: Vec<String> = e.enclosed.clone(),
+        /// The exactness in words.
+        pub explanation: String = e.to_string(),
     }
+    impl From(e: &DesignExactness) {}
 }
 
 /// The exactness of joint coordinates.
@@ -315,149 +275,101 @@ impl From<&RationalPose> for WitnessRecord {
     }
 }
 
-/// A linear dependency of leg vectors: `sum c_i v_i = 0`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DependencyRecord {
-    /// Legs with nonzero coefficients, from 1.
-    pub legs: Vec<usize>,
-    /// The numbers `c_i`.
-    pub coefficients: [Number; 6],
-    /// `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
-    pub constant: Number,
-    /// Dimension spanned by the base ends.
-    pub base_dimension: usize,
-    /// Dimension spanned by the platform ends.
-    pub platform_dimension: usize,
-    /// Relative difference of `sum c_i s_i` at the design lengths from `constant`; null without lengths.
-    pub lengths_defect: Option<Number>,
-}
-
-impl DependencyRecord {
-    fn new(d: &Dependency, lengths: Option<&LegLengths>) -> Self {
-        Self {
-            legs: leg_numbers(&d.legs),
-            coefficients: d.coefficients.map(Number),
-            constant: Number(d.constant),
-            base_dimension: d.base_dimension,
-            platform_dimension: d.platform_dimension,
-            lengths_defect: lengths.map(|l| Number(d.defect(&l.squared()))),
-        }
+view! {
+    /// A linear dependency of leg vectors: `sum c_i v_i = 0`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct DependencyRecord {
+        /// Legs with nonzero coefficients, from 1.
+        pub legs: Vec<usize> = leg_numbers(&d.legs),
+        /// The numbers `c_i`.
+        pub coefficients: [Number; 6] = d.coefficients.map(Number),
+        /// `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
+        pub constant: Number = Number(d.constant),
+        /// Dimension spanned by the base ends.
+        pub base_dimension: usize = d.base_dimension,
+        /// Dimension spanned by the platform ends.
+        pub platform_dimension: usize = d.platform_dimension,
+        /// Relative difference of `sum c_i s_i` at the design lengths from `constant`; null without lengths.
+        pub lengths_defect: Option<Number> = lengths.map(|l| Number(d.defect(&l.squared()))),
     }
+    fn new(d: &Dependency, lengths: Option<&LegLengths>) {}
 }
 
-/// A known kind of singular design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CaseRecord {
-    /// Name of the case.
-    pub case: String,
-    /// Short code.
-    pub reason: String,
-    /// Legs, from 1.
-    pub legs: Vec<usize>,
-    /// Case in words.
-    pub explanation: String,
-}
-
-impl From<&Finding> for CaseRecord {
-    fn from(f: &Finding) -> Self {
-        Self {
-            case: f.case.name().into(),
-            reason: f.case.reason().into(),
-            legs: leg_numbers(&f.legs),
-            explanation: f.case.sentence(),
-        }
+view! {
+    /// A known kind of singular design.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct CaseRecord {
+        /// Name of the case.
+        pub case: String = f.case.name().into(),
+        /// Short code.
+        pub reason: String = f.case.reason().into(),
+        /// Legs, from 1.
+        pub legs: Vec<usize> = leg_numbers(&f.legs),
+        /// Case in words.
+        pub explanation: String = f.case.sentence(),
     }
+    impl From(f: &Finding) {}
 }
 
-/// Joints on the sides of two triangles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GriffisDuffyRecord {
-    /// Legs around the hexagon, from 1.
-    pub order: Vec<usize>,
-    /// Positions of joints on their sides, as a fraction from 0 to 1.
-    pub t: [Number; 6],
-    /// Lengths of the sides, design units.
-    pub side_lengths: [Number; 6],
-    /// `prod (1 - t) - prod t`; zero means singular.
-    pub det: Number,
-    /// Whether it is zero exactly.
-    pub exactly_singular: bool,
-    /// Greatest distance of a joint from its side, relative to the size.
-    pub deviation: Number,
-    /// Greatest `deviation` for this type.
-    pub deviation_limit: Number,
-    /// Dependency of the legs for `det = 0`.
-    pub coefficients: [Number; 6],
-    /// `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
-    pub constant: Number,
-    /// Relative difference of `sum c_i s_i` at the design lengths from `constant`; null without lengths.
-    pub lengths_defect: Option<Number>,
-    /// Assembly with the lengths of the design.
-    pub assembly: Option<Assembly>,
-}
-
-impl GriffisDuffyRecord {
-    fn new(g: &GriffisDuffy, design: &Design, assembly: Option<&Assembly>) -> Self {
-        Self {
-            order: leg_numbers(&g.order),
-            t: g.t.map(Number),
-            side_lengths: g.sides.map(Number),
-            det: Number(g.determinant()),
-            exactly_singular: g.is_exactly_singular(),
-            deviation: Number(g.deviation),
-            deviation_limit: Number(GriffisDuffy::limit(design.manipulator())),
-            coefficients: g.coefficients().map(Number),
-            constant: Number(g.constant()),
-            lengths_defect: design.lengths.map(|l| Number(g.assembly_defect(&l.squared()))),
-            assembly: assembly.copied(),
-        }
+view! {
+    /// Joints on the sides of two triangles.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct GriffisDuffyRecord {
+        /// Legs around the hexagon, from 1.
+        pub order: Vec<usize> = leg_numbers(&g.order),
+        /// Positions of joints on their sides, as a fraction from 0 to 1.
+        pub t: [Number; 6] = g.t.map(Number),
+        /// Lengths of the sides, design units.
+        pub side_lengths: [Number; 6] = g.sides.map(Number),
+        /// `prod (1 - t) - prod t`; zero means singular.
+        pub det: Number = Number(g.determinant()),
+        /// Whether it is zero exactly.
+        pub exactly_singular: bool = g.is_exactly_singular(),
+        /// Greatest distance of a joint from its side, relative to the size.
+        pub deviation: Number = Number(g.deviation),
+        /// Greatest `deviation` for this type.
+        pub deviation_limit: Number = Number(GriffisDuffy::limit(design.manipulator())),
+        /// Dependency of the legs for `det = 0`.
+        pub coefficients: [Number; 6] = g.coefficients().map(Number),
+        /// `sum c_i s_i` at every pose, with the squared lengths `s_i`; design units squared.
+        pub constant: Number = Number(g.constant()),
+        /// Relative difference of `sum c_i s_i` at the design lengths from `constant`; null without lengths.
+        pub lengths_defect: Option<Number> = design.lengths.map(|l| Number(g.assembly_defect(&l.squared()))),
+        /// Assembly with the lengths of the design.
+        pub assembly: Option<Assembly> = assembly.copied(),
     }
+    fn new(g: &GriffisDuffy, design: &Design, assembly: Option<&Assembly>) {}
 }
 
-/// The nearest singular design found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct NearestSingularRecord {
-    /// Norm of the change of all joints, design units.
-    pub distance: Number,
-    /// Always `upper`: an upper bound of the least distance.
-    #[schemars(extend("const" = "upper"))]
-    pub bound: String,
-    /// A lower bound: no singular design is nearer, design units.
-    pub distance_at_least: Number,
-    /// The kind of singularity.
-    pub kind: String,
-    /// Dependent legs.
-    pub legs: Vec<usize>,
-    /// Dependency of the leg vectors.
-    pub coefficients: Option<[Number; 6]>,
-    /// Residual of the dependency.
-    pub residual: Number,
-    /// Whether the designs differ by rounding only.
-    pub within_rounding: bool,
-    /// Half a unit of the last digit, design units; null: some coordinate differs by more.
-    pub within_digits: Option<Number>,
-    /// Base joints by name, base frame.
-    pub base: NamedPoints,
-    /// Platform joints by name, platform frame.
-    pub platform: NamedPoints,
-}
-
-impl NearestSingularRecord {
-    fn new(n: &NearestSingular, at_least: f64, design: &Design) -> Self {
-        Self {
-            distance: Number(n.distance),
-            bound: "upper".into(),
-            distance_at_least: Number(at_least),
-            kind: n.kind.to_string(),
-            legs: leg_numbers(&n.legs),
-            coefficients: n.coefficients.map(|c| c.map(Number)),
-            residual: Number(n.residual),
-            within_rounding: n.within_rounding,
-            within_digits: n.within_digits.map(Number),
-            base: NamedPoints::new(design.base_names(), &n.base),
-            platform: NamedPoints::new(design.platform_names(), &n.platform),
-        }
+view! {
+    /// The nearest singular design found.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct NearestSingularRecord {
+        /// Norm of the change of all joints, design units.
+        pub distance: Number = Number(n.distance),
+        /// Always `upper`: an upper bound of the least distance.
+        #[schemars(extend("const" = "upper"))]
+        pub bound: String = "upper".into(),
+        /// A lower bound: no singular design is nearer, design units.
+        pub distance_at_least: Number = Number(at_least),
+        /// The kind of singularity.
+        pub kind: String = n.kind.to_string(),
+        /// Dependent legs.
+        pub legs: Vec<usize> = leg_numbers(&n.legs),
+        /// Dependency of the leg vectors.
+        pub coefficients: Option<[Number; 6]> = n.coefficients.map(|c| c.map(Number)),
+        /// Residual of the dependency.
+        pub residual: Number = Number(n.residual),
+        /// Whether the designs differ by rounding only.
+        pub within_rounding: bool = n.within_rounding,
+        /// Half a unit of the last digit, design units; null: some coordinate differs by more.
+        pub within_digits: Option<Number> = n.within_digits.map(Number),
+        /// Base joints by name, base frame.
+        pub base: NamedPoints = NamedPoints::new(design.base_names(), &n.base),
+        /// Platform joints by name, platform frame.
+        pub platform: NamedPoints = NamedPoints::new(design.platform_names(), &n.platform),
     }
+    fn new(n: &NearestSingular, at_least: f64, design: &Design) {}
 }
 
 fn triple(v: &nalgebra::Vector3<f64>) -> String {

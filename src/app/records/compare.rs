@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::nearest::short;
 use super::{AssessAnswer, AssessedPosesRecord, LightestDriveRecord, Number};
-use ask::Design;
-use ask::DesignFigures;
+use ask::{CrankFigures, Design, DesignFigures};
 use files::design::AssessedForces;
 
 /// The answer of `compare`.
@@ -37,90 +36,76 @@ pub struct AccuracyRecord {
     pub rotation_deg: f64,
 }
 
-/// The figures of a design over the poses of its workspace, or at home if it states none. Null: the design does not
-/// specify the quantity, or the value is infinite.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FiguresRecord {
-    /// Name of the design.
-    pub name: String,
-    /// The design file.
-    pub path: String,
-    /// The result of `assess`; null: the design has no requirements.
-    pub assessment: Option<AssessAnswer>,
-    /// Lightest drive that meets the requirements, from the table that the design names; null: it names none.
-    pub lightest_drive: Option<LightestDriveRecord>,
-    /// Poses of all figures.
-    pub assessed_poses: AssessedPosesRecord,
-    /// Number of poses evaluated; the assessment and the conditioning use poses of their own.
-    pub poses: usize,
-    /// Least leg length; null: the legs are rods on cranks.
-    pub shortest: Number,
-    /// Greatest leg length; null: the legs are rods on cranks.
-    pub longest: Number,
-    /// Greatest minus least leg length.
-    pub stroke: Number,
-    /// Crank angles, torques and speeds; null: the legs change their lengths.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cranks: Option<CrankFiguresRecord>,
-    /// Number of different leg lengths, or rod lengths on cranks; a difference counts above a millionth of the size.
-    pub different_legs: usize,
-    /// Greatest leg force under weight and each load, one at a time.
-    pub force: Option<Number>,
-    /// Greatest leg speed at the required platform speed.
-    pub speed: Option<Number>,
-    /// Greatest leg force along the manoeuvres.
-    pub motion_force: Option<Number>,
-    /// Greatest leg speed along the manoeuvres.
-    pub motion_speed: Option<Number>,
-    /// Greatest drive power along the manoeuvres, watts.
-    pub motion_power_w: Option<Number>,
-    /// Worst conditioning of `assess`: the least inverse condition number.
-    pub conditioning: Number,
-    /// Least stiffness against forces through the platform origin, force units per design unit.
-    pub stiffness: Option<Number>,
-    /// Lowest natural frequency, hertz.
-    pub frequency_hz: Option<Number>,
-    /// Least distance of base joint centres, design units.
-    pub base_spacing: Option<Number>,
-    /// Least distance of platform joint centres, design units.
-    pub platform_spacing: Option<Number>,
-    /// Least leg clearance, design units.
-    pub clearance: Option<Number>,
-    /// Greatest distance of base joints from their centroid, design units.
-    pub base_radius: Number,
-    /// Greatest distance of platform joints from their centroid, design units.
-    pub platform_radius: Number,
-    /// Greatest error of all joints that keeps the accuracy, design units.
-    pub joint_tolerance: Option<Number>,
-    /// Reason for no tolerance; null: there is one, or none was requested.
-    pub no_tolerance: Option<String>,
-    /// Assumptions about masses, one sentence each. Empty: no figure is a force, a torque or a natural frequency.
-    pub assumptions: Vec<String>,
-}
-
-/// The figures of the cranks over the poses that all rods reach.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CrankFiguresRecord {
-    /// Least crank angle, degrees; null: no pose is reached.
-    pub least_deg: Option<Number>,
-    /// Greatest crank angle, degrees.
-    pub greatest_deg: Option<Number>,
-    /// Least transmission angle, degrees: 0 at a singular crank.
-    pub transmission_deg: Option<Number>,
-    /// Greatest torque under payload and loads, one at a time, force units times design units.
-    pub torque: Option<Number>,
-    /// Greatest crank speed at the required platform speed, degrees per second.
-    pub speed_deg: Option<Number>,
-    /// Greatest torque along the manoeuvres.
-    pub motion_torque: Option<Number>,
-    /// Greatest speed along the manoeuvres, degrees per second.
-    pub motion_speed_deg: Option<Number>,
-}
-
-impl FiguresRecord {
+view! {
+    /// The figures of a design over the poses of its workspace, or at home if it states none. Null: the design does not
+    /// specify the quantity, or the value is infinite.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct FiguresRecord {
+        /// Name of the design.
+        pub name: String = design.name.clone(),
+        /// The design file.
+        pub path: String = path,
+        /// The result of `assess`; null: the design has no requirements.
+        pub assessment: Option<AssessAnswer> = found.assessment.as_ref().map(|report| {
+            AssessAnswer::beside(design, report, characteristic_length).without_assumptions()
+        }),
+        /// Lightest drive that meets the requirements, from the table that the design names; null: it names none.
+        pub lightest_drive: Option<LightestDriveRecord> = None,
+        /// Poses of all figures.
+        pub assessed_poses: AssessedPosesRecord = design.assessed_poses().into(),
+        /// Number of poses evaluated; the assessment and the conditioning use poses of their own.
+        pub poses: usize = found.poses,
+        /// Least leg length; null: the legs are rods on cranks.
+        pub shortest: Number = Number(shortest),
+        /// Greatest leg length; null: the legs are rods on cranks.
+        pub longest: Number = Number(longest),
+        /// Greatest minus least leg length.
+        pub stroke: Number = Number(longest - shortest),
+        /// Crank angles, torques and speeds; null: the legs change their lengths.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub cranks: Option<CrankFiguresRecord> =
+            found.cranks.as_ref().map(|cranks| CrankFiguresRecord::of(cranks, found)),
+        /// Number of different leg lengths, or rod lengths on cranks; a difference counts above a millionth of the
+        /// size.
+        pub different_legs: usize = found.different_legs,
+        /// Greatest leg force under weight and each load, one at a time.
+        pub force: Option<Number> = number(found.force),
+        /// Greatest leg speed at the required platform speed.
+        pub speed: Option<Number> = number(found.speed),
+        /// Greatest leg force along the manoeuvres.
+        pub motion_force: Option<Number> = number(found.motion.force).filter(|_| !turns),
+        /// Greatest leg speed along the manoeuvres.
+        pub motion_speed: Option<Number> = number(found.motion.speed).filter(|_| !turns),
+        /// Greatest drive power along the manoeuvres, watts.
+        pub motion_power_w: Option<Number> = number(found.motion.power),
+        /// Worst conditioning of `assess`: the least inverse condition number.
+        pub conditioning: Number = Number(found.conditioning),
+        /// Least stiffness against forces through the platform origin, force units per design unit.
+        pub stiffness: Option<Number> = number(found.stiffness),
+        /// Lowest natural frequency, hertz.
+        pub frequency_hz: Option<Number> = number(found.frequency),
+        /// Least distance of base joint centres, design units.
+        pub base_spacing: Option<Number> = number(found.spacing[0]),
+        /// Least distance of platform joint centres, design units.
+        pub platform_spacing: Option<Number> = number(found.spacing[1]),
+        /// Least leg clearance, design units.
+        pub clearance: Option<Number> = number(found.clearance),
+        /// Greatest distance of base joints from their centroid, design units.
+        pub base_radius: Number = Number(found.radius[0]),
+        /// Greatest distance of platform joints from their centroid, design units.
+        pub platform_radius: Number = Number(found.radius[1]),
+        /// Greatest error of all joints that keeps the accuracy, design units.
+        pub joint_tolerance: Option<Number> = number(tolerance),
+        /// Reason for no tolerance; null: there is one, or none was requested.
+        pub no_tolerance: Option<String> = no_tolerance,
+        /// Assumptions about masses, one sentence each. Empty: no figure is a force, a torque or a natural frequency.
+        pub assumptions: Vec<String> = design.assumptions_of(AssessedForces {
+            at_rest: found.force.is_some() || found.cranks.is_some_and(|cranks| cranks.torque.is_some()),
+            in_motion: found.motion.speed.is_some() || found.frequency.is_some(),
+        }),
+    }
     /// The figures of a design.
-    #[must_use]
-    pub fn new(design: &Design, path: String, found: &DesignFigures, characteristic_length: f64) -> Self {
+    pub fn new(design: &Design, path: String, found: &DesignFigures, characteristic_length: f64) {
         let number = |x: Option<f64>| x.map(Number);
         let [shortest, longest] = found.lengths;
         let turns = found.cranks.is_some();
@@ -129,49 +114,29 @@ impl FiguresRecord {
             Some(Ok(value)) => (Some(*value), None),
             Some(Err(why)) => (None, Some(why.to_string())),
         };
-        Self {
-            name: design.name.clone(),
-            path,
-            assessment: found.assessment.as_ref().map(|report| {
-                AssessAnswer::beside(design, report, characteristic_length).without_assumptions()
-            }),
-            assessed_poses: design.assessed_poses().into(),
-            lightest_drive: None,
-            poses: found.poses,
-            shortest: Number(shortest),
-            longest: Number(longest),
-            stroke: Number(longest - shortest),
-            different_legs: found.different_legs,
-            force: number(found.force),
-            speed: number(found.speed),
-            motion_force: number(found.motion.force).filter(|_| !turns),
-            motion_speed: number(found.motion.speed).filter(|_| !turns),
-            cranks: found.cranks.as_ref().map(|cranks| CrankFiguresRecord {
-                least_deg: number(cranks.angles_deg.map(|a| a[0])),
-                greatest_deg: number(cranks.angles_deg.map(|a| a[1])),
-                transmission_deg: number(cranks.transmission_deg),
-                torque: number(cranks.torque),
-                speed_deg: number(cranks.speed_deg),
-                motion_torque: number(found.motion.force),
-                motion_speed_deg: number(found.motion.speed),
-            }),
-            motion_power_w: number(found.motion.power),
-            conditioning: Number(found.conditioning),
-            stiffness: number(found.stiffness),
-            frequency_hz: number(found.frequency),
-            base_spacing: number(found.spacing[0]),
-            platform_spacing: number(found.spacing[1]),
-            clearance: number(found.clearance),
-            base_radius: Number(found.radius[0]),
-            platform_radius: Number(found.radius[1]),
-            joint_tolerance: number(tolerance),
-            no_tolerance,
-            assumptions: design.assumptions_of(AssessedForces {
-                at_rest: found.force.is_some() || found.cranks.is_some_and(|cranks| cranks.torque.is_some()),
-                in_motion: found.motion.speed.is_some() || found.frequency.is_some(),
-            }),
-        }
     }
+}
+
+view! {
+    /// The figures of the cranks over the poses that all rods reach.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct CrankFiguresRecord {
+        /// Least crank angle, degrees; null: no pose is reached.
+        pub least_deg: Option<Number> = number(cranks.angles_deg.map(|a| a[0])),
+        /// Greatest crank angle, degrees.
+        pub greatest_deg: Option<Number> = number(cranks.angles_deg.map(|a| a[1])),
+        /// Least transmission angle, degrees: 0 at a singular crank.
+        pub transmission_deg: Option<Number> = number(cranks.transmission_deg),
+        /// Greatest torque under payload and loads, one at a time, force units times design units.
+        pub torque: Option<Number> = number(cranks.torque),
+        /// Greatest crank speed at the required platform speed, degrees per second.
+        pub speed_deg: Option<Number> = number(cranks.speed_deg),
+        /// Greatest torque along the manoeuvres.
+        pub motion_torque: Option<Number> = number(found.motion.force),
+        /// Greatest speed along the manoeuvres, degrees per second.
+        pub motion_speed_deg: Option<Number> = number(found.motion.speed),
+    }
+    fn of(cranks: &CrankFigures, found: &DesignFigures) {}
 }
 
 /// A column of the table: a figure of every design.

@@ -8,73 +8,70 @@ use super::{Number, leg_number};
 use ask::{ReplaceableFamily, ReplaceableLegs};
 use platform::manipulator::{Leg, LegIndex};
 use synthesis::components::{
-    Component, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair, MovingPoint,
-    NoExactCurve, Parametrisation, PlaneCurve, SampledLeg, flat_name,
+    Component, Components, CubicPencil, CurvePart, Decision, ExactCurve, ExactPart, ExactPoint, FlatPair,
+    MovingPoint, NoExactCurve, Parametrisation, PlaneCurve, PlanePair, SampledLeg, SingularPoint, flat_name,
 };
 
-/// The answer of `equivalents components`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ComponentsAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// The threshold for zero, relative to the size of the body.
-    pub tolerance: f64,
-    /// Rank of the leg vectors.
-    pub leg_rank: usize,
-    /// The decision about this rank.
-    pub leg_rank_decision: DecisionRecord,
-    /// Number of families.
-    pub count: usize,
-    /// Whether the list of families is complete.
-    pub complete: bool,
-    /// Doubts that the list is complete.
-    pub doubts: Vec<String>,
-    /// Pairs of flats spanned by legs.
-    pub pairs: Vec<FlatPairRecord>,
-    /// Pairs of planes with curves of replaceable joints.
-    pub planes: Vec<PlanePairRecord>,
-    /// The families.
-    pub components: Vec<ComponentRecord>,
-}
-
-/// A dimension or rank, with the evidence for its value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct DecisionRecord {
-    /// The quantity decided.
-    #[schemars(extend("enum" = [
-        "base_dimension", "platform_dimension", "leg_rank", "rank_over_base", "rank_over_platform", "common_factor", "line_factor",
-        "conic_rank", "singular_point"
-    ]))]
-    pub question: String,
-    /// The value used.
-    pub value: usize,
-    /// The value by the tolerance.
-    pub numerical: usize,
-    /// The value in exact arithmetic; null: not computed.
-    pub exact: Option<usize>,
-    /// Whether exact arithmetic confirms the value; null: not computed.
-    pub agrees: Option<bool>,
-    /// Smallest number taken as nonzero.
-    pub above: Option<Number>,
-    /// Largest number taken as zero.
-    pub below: Option<Number>,
-    /// The threshold between these two numbers.
-    pub tolerance: Number,
-}
-
-impl From<&Decision> for DecisionRecord {
-    fn from(d: &Decision) -> Self {
-        Self {
-            question: d.question.name().into(),
-            value: d.value,
-            numerical: d.numerical,
-            exact: d.exact,
-            agrees: d.agrees(),
-            above: d.above.map(Number),
-            below: d.below.map(Number),
-            tolerance: Number(d.tolerance),
-        }
+view! {
+    /// The answer of `equivalents components`.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ComponentsAnswer {
+        /// The name of the design.
+        pub name: String = name.to_owned(),
+        /// The threshold for zero, relative to the size of the body.
+        pub tolerance: f64 = search.tolerance,
+        /// Rank of the leg vectors.
+        pub leg_rank: usize = found.leg_rank.value,
+        /// The decision about this rank.
+        pub leg_rank_decision: DecisionRecord = (&found.leg_rank).into(),
+        /// Number of families.
+        pub count: usize = found.components.len(),
+        /// Whether the list of families is complete.
+        pub complete: bool = found.doubts.is_empty(),
+        /// Doubts that the list is complete.
+        pub doubts: Vec<String> = found.doubts.clone(),
+        /// Pairs of flats spanned by legs.
+        pub pairs: Vec<FlatPairRecord> = found.pairs.iter().map(FlatPairRecord::from).collect(),
+        /// Pairs of planes with curves of replaceable joints.
+        pub planes: Vec<PlanePairRecord> = planes.collect(),
+        /// The families.
+        pub components: Vec<ComponentRecord> = families.iter().map(component).collect(),
     }
+    /// The answer about the design of this name: all results, and the requested families.
+    pub fn new(name: &str, replaceable: &ReplaceableLegs) {
+        let ReplaceableLegs { found, families, search } = replaceable;
+        let component =
+            |f: &ReplaceableFamily| ComponentRecord::new(f.index, &found.components[f.index], &f.samples);
+        let planes = found.planes.iter().map(|p| PlanePairRecord::of(found, p));
+    }
+}
+
+view! {
+    /// A dimension or rank, with the evidence for its value.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct DecisionRecord {
+        /// The quantity decided.
+        #[schemars(extend("enum" = [
+            "base_dimension", "platform_dimension", "leg_rank", "rank_over_base", "rank_over_platform", "common_factor", "line_factor",
+            "conic_rank", "singular_point"
+        ]))]
+        pub question: String = d.question.name().into(),
+        /// The value used.
+        pub value: usize = d.value,
+        /// The value by the tolerance.
+        pub numerical: usize = d.numerical,
+        /// The value in exact arithmetic; null: not computed.
+        pub exact: Option<usize> = d.exact,
+        /// Whether exact arithmetic confirms the value; null: not computed.
+        pub agrees: Option<bool> = d.agrees(),
+        /// Smallest number taken as nonzero.
+        pub above: Option<Number> = d.above.map(Number),
+        /// Largest number taken as zero.
+        pub below: Option<Number> = d.below.map(Number),
+        /// The threshold between these two numbers.
+        pub tolerance: Number = Number(d.tolerance),
+    }
+    impl From(d: &Decision) {}
 }
 
 fn decisions(list: &[Decision]) -> Vec<DecisionRecord> {
@@ -93,115 +90,86 @@ fn point(p: &Point3<f64>) -> [Number; 3] {
     [p.x, p.y, p.z].map(Number)
 }
 
-/// A pair of flats spanned by its legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct FlatPairRecord {
-    /// The legs, from 1.
-    pub legs: Vec<usize>,
-    /// The flat of the base: point, line, plane or space.
-    pub base: String,
-    /// The flat of the platform: point, line, plane or space.
-    pub platform: String,
-    /// Rank of their leg vectors.
-    pub rank: usize,
-    /// Dimension expected by counting equations; may be negative.
-    pub expected_dimension: isize,
-    /// Dimension found.
-    pub dimension: usize,
-    /// Whether the flats fit the joints as written, or only within the tolerance.
-    pub reading: String,
-    /// Dimensions and ranks with evidence.
-    pub decisions: Vec<DecisionRecord>,
-}
-
-impl From<&FlatPair> for FlatPairRecord {
-    fn from(p: &FlatPair) -> Self {
-        Self {
-            legs: legs(&p.legs),
-            base: flat_name(p.base).into(),
-            platform: flat_name(p.platform).into(),
-            rank: p.rank,
-            expected_dimension: p.expected_dimension,
-            dimension: p.dimension,
-            reading: p.reading.name().into(),
-            decisions: decisions(&p.decisions),
-        }
+view! {
+    /// A pair of flats spanned by its legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct FlatPairRecord {
+        /// The legs, from 1.
+        pub legs: Vec<usize> = legs(&p.legs),
+        /// The flat of the base: point, line, plane or space.
+        pub base: String = flat_name(p.base).into(),
+        /// The flat of the platform: point, line, plane or space.
+        pub platform: String = flat_name(p.platform).into(),
+        /// Rank of their leg vectors.
+        pub rank: usize = p.rank,
+        /// Dimension expected by counting equations; may be negative.
+        pub expected_dimension: isize = p.expected_dimension,
+        /// Dimension found.
+        pub dimension: usize = p.dimension,
+        /// Whether the flats fit the joints as written, or only within the tolerance.
+        pub reading: String = p.reading.name().into(),
+        /// Dimensions and ranks with evidence.
+        pub decisions: Vec<DecisionRecord> = decisions(&p.decisions),
     }
+    impl From(p: &FlatPair) {}
 }
 
 /// `sum equations[r][p][q] alpha_p beta_q = 0` with `alpha = (1, x, y)` on the base and `beta` on the platform.
 pub type Bilinear = Vec<[[Number; 3]; 3]>;
 
-/// A pair of planes with the curves of points that carry replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PlanePairRecord {
-    /// Number of the pair in `pairs`, from 1.
-    pub pair: usize,
-    /// The legs in the planes, from 1.
-    pub legs: Vec<usize>,
-    /// Whether the flats fit the joints as written, or only within the tolerance.
-    pub reading: String,
-    /// Whether both curves are smooth; null: not decided.
-    pub smooth: Option<bool>,
-    /// The curve of the base.
-    pub base: PlaneCurveRecord,
-    /// The curve of the platform.
-    pub platform: PlaneCurveRecord,
-    /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
-    /// `beta` on the platform.
-    pub equations: Bilinear,
-}
-
-/// A plane curve of points that carry replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PlaneCurveRecord {
-    /// The origin of plane coordinates, body frame.
-    pub origin: [Number; 3],
-    /// Point `(x, y)` is `origin + x axes[0] + y axes[1]`.
-    pub axes: [[Number; 3]; 2],
-    /// The degree of the curve.
-    pub degree: usize,
-    /// Coefficients in monomial order.
-    pub coefficients: Vec<Number>,
-    /// Monomials.
-    pub monomials: Vec<String>,
-    /// Rank of the equations at a generic point.
-    pub generic_rank: usize,
-    /// Components of the curve.
-    pub parts: Vec<CurvePart>,
-    /// Singular points.
-    pub singular_points: Vec<SingularPointRecord>,
-    /// Dimensions and ranks with evidence.
-    pub decisions: Vec<DecisionRecord>,
-    /// Curve for the joints as rational numbers, or the reason why there is none.
-    pub exact: ExactCurveOutcome,
-}
-
-impl From<&PlaneCurve> for PlaneCurveRecord {
-    fn from(c: &PlaneCurve) -> Self {
-        Self {
-            origin: point(&c.origin),
-            axes: c.axes.map(|a| [a.x, a.y, a.z].map(Number)),
-            degree: c.degree,
-            coefficients: numbers(&c.coefficients),
-            monomials: monomials(c.degree),
-            generic_rank: c.generic_rank,
-            parts: c.parts.clone(),
-            singular_points: c
-                .singular_points
-                .iter()
-                .map(|s| SingularPointRecord {
-                    point: s.point.as_ref().map(point),
-                    coordinates: s.coordinates.map(Number),
-                    kind: s.kind.name().into(),
-                    gradient: Number(s.gradient),
-                    line_of_partners: s.line_of_partners,
-                })
-                .collect(),
-            decisions: decisions(&c.decisions),
-            exact: (&c.exact).into(),
-        }
+view! {
+    /// A pair of planes with the curves of points that carry replaceable legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PlanePairRecord {
+        /// Number of the pair in `pairs`, from 1.
+        pub pair: usize = p.pair + 1,
+        /// The legs in the planes, from 1.
+        pub legs: Vec<usize> = legs(&found.pairs[p.pair].legs),
+        /// Whether the flats fit the joints as written, or only within the tolerance.
+        pub reading: String = found.pairs[p.pair].reading.name().into(),
+        /// Whether both curves are smooth; null: not decided.
+        pub smooth: Option<bool> = p.smooth,
+        /// The curve of the base.
+        pub base: PlaneCurveRecord = (&p.base).into(),
+        /// The curve of the platform.
+        pub platform: PlaneCurveRecord = (&p.platform).into(),
+        /// The correspondence of points: `sum equations[r][p][q] alpha_p beta_q = 0`, `alpha = (1, x, y)` on the base,
+        /// `beta` on the platform.
+        pub equations: Bilinear = bilinear(&p.equations),
     }
+    fn of(found: &Components, p: &PlanePair) {}
+}
+
+view! {
+    /// A plane curve of points that carry replaceable legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PlaneCurveRecord {
+        /// The origin of plane coordinates, body frame.
+        pub origin: [Number; 3] = point(&c.origin),
+        /// Point `(x, y)` is `origin + x axes[0] + y axes[1]`.
+        pub axes: [[Number; 3]; 2] = c.axes.map(|a| [a.x, a.y, a.z].map(Number)),
+        /// The degree of the curve.
+        pub degree: usize = c.degree,
+        /// Coefficients in monomial order.
+        pub coefficients: Vec<Number> = numbers(&c.coefficients),
+        /// Monomials.
+        pub monomials: Vec<String> = monomials(c.degree),
+        /// Rank of the equations at a generic point.
+        pub generic_rank: usize = c.generic_rank,
+        /// Components of the curve.
+        pub parts: Vec<CurvePart> = c.parts.clone(),
+        /// Singular points.
+        pub singular_points: Vec<SingularPointRecord> = c
+            .singular_points
+            .iter()
+            .map(SingularPointRecord::of)
+            .collect(),
+        /// Dimensions and ranks with evidence.
+        pub decisions: Vec<DecisionRecord> = decisions(&c.decisions),
+        /// Curve for the joints as rational numbers, or the reason why there is none.
+        pub exact: ExactCurveOutcome = (&c.exact).into(),
+    }
+    impl From(c: &PlaneCurve) {}
 }
 
 /// Names of the monomials of a plane curve in the order of its coefficients.
@@ -219,20 +187,23 @@ fn monomials(degree: usize) -> Vec<String> {
     (0..=degree).flat_map(|n| (0..=n).map(move |k| term(n - k, k))).collect()
 }
 
-/// A singular point of a plane curve.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct SingularPointRecord {
-    /// The point, body frame; null: at infinity.
-    pub point: Option<[Number; 3]>,
-    /// Homogeneous plane coordinates.
-    pub coordinates: [Number; 3],
-    /// Type.
-    #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
-    pub kind: String,
-    /// Gradient of the equation at the point.
-    pub gradient: Number,
-    /// Whether it corresponds to a whole line of the other plane.
-    pub line_of_partners: bool,
+view! {
+    /// A singular point of a plane curve.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct SingularPointRecord {
+        /// The point, body frame; null: at infinity.
+        pub point: Option<[Number; 3]> = s.point.as_ref().map(point),
+        /// Homogeneous plane coordinates.
+        pub coordinates: [Number; 3] = s.coordinates.map(Number),
+        /// Type.
+        #[schemars(extend("enum" = ["crossing", "isolated", "cusp", "triple"]))]
+        pub kind: String = s.kind.name().into(),
+        /// Gradient of the equation at the point.
+        pub gradient: Number = Number(s.gradient),
+        /// Whether it corresponds to a whole line of the other plane.
+        pub line_of_partners: bool = s.line_of_partners,
+    }
+    fn of(s: &SingularPoint) {}
 }
 
 /// Curve for the joints as rational numbers, or the reason why there is none.
@@ -248,23 +219,26 @@ pub enum ExactCurveOutcome {
     },
 }
 
-/// A plane curve with integer coefficients.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ExactCurveRecord {
-    /// Body coordinates used as plane coordinates.
-    pub axes: [String; 2],
-    /// Rank of the equations at a generic point.
-    pub generic_rank: usize,
-    /// The degree of the curve.
-    pub degree: usize,
-    /// Integers as text.
-    pub coefficients: Vec<String>,
-    /// Components over the complex numbers.
-    pub parts: Vec<ExactPart>,
-    /// Whether the curve is smooth; null: not decided.
-    pub smooth: Option<bool>,
-    /// Singular point; null: none is known.
-    pub singular_point: Option<ExactPoint>,
+view! {
+    /// A plane curve with integer coefficients.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ExactCurveRecord {
+        /// Body coordinates used as plane coordinates.
+        pub axes: [String; 2] = curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
+        /// Rank of the equations at a generic point.
+        pub generic_rank: usize = curve.generic_rank,
+        /// The degree of the curve.
+        pub degree: usize = curve.degree,
+        /// Integers as text.
+        pub coefficients: Vec<String> = curve.coefficients.clone(),
+        /// Components over the complex numbers.
+        pub parts: Vec<ExactPart> = curve.parts.clone(),
+        /// Whether the curve is smooth; null: not decided.
+        pub smooth: Option<bool> = curve.smooth,
+        /// Singular point; null: none is known.
+        pub singular_point: Option<ExactPoint> = curve.singular_point.clone(),
+    }
+    fn of(curve: &ExactCurve) {}
 }
 
 impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
@@ -273,51 +247,47 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
             Ok(curve) => curve,
             Err(reason) => return Self::None { reason: reason.to_string() },
         };
-        Self::Curve(ExactCurveRecord {
-            axes: curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
-            generic_rank: curve.generic_rank,
-            degree: curve.degree,
-            coefficients: curve.coefficients.clone(),
-            parts: curve.parts.clone(),
-            smooth: curve.smooth,
-            singular_point: curve.singular_point.clone(),
-        })
+        Self::Curve(ExactCurveRecord::of(curve))
     }
 }
 
-/// A family of replaceable legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ComponentRecord {
-    /// The number of the family, from 1.
-    pub component: usize,
-    /// Type such as point-line.
-    #[serde(rename = "type")]
-    pub type_name: String,
-    /// The set that its legs form.
-    #[schemars(extend("enum" = ["all_pairs", "over_line", "over_conic", "over_plane", "over_cubic"]))]
-    pub kind: String,
-    /// Flat of its base ends.
-    pub base: String,
-    /// Flat of its platform ends.
-    pub platform: String,
-    /// The dimension of the family.
-    pub dimension: usize,
-    /// Legs of the design in it, from 1.
-    pub legs: Vec<usize>,
-    /// Legs of the design, from 1; every leg vector of the family is a combination of theirs.
-    pub support: Vec<usize>,
-    /// Whether it is exact. False: it exists only within the tolerance; null: not decided exactly.
-    pub exact: Option<bool>,
-    /// Larger families that contain it, from 1.
-    pub contained_in: Vec<usize>,
-    /// Formulas of its legs.
-    pub parametrisation: ParametrisationRecord,
-    /// Parameter values without finite leg.
-    pub at_infinity: Vec<Number>,
-    /// Dimensions and ranks with evidence.
-    pub decisions: Vec<DecisionRecord>,
-    /// Random legs.
-    pub samples: Vec<SampledLegRecord>,
+view! {
+    /// A family of replaceable legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ComponentRecord {
+        /// The number of the family, from 1.
+        pub component: usize = k + 1,
+        /// Type such as point-line.
+        #[serde(rename = "type")]
+        pub type_name: String = c.type_name(),
+        /// The set that its legs form.
+        #[schemars(extend("enum" = ["all_pairs", "over_line", "over_conic", "over_plane", "over_cubic"]))]
+        pub kind: String = c.kind.name().into(),
+        /// Flat of its base ends.
+        pub base: String = flat_name(c.base_span).into(),
+        /// Flat of its platform ends.
+        pub platform: String = flat_name(c.platform_span).into(),
+        /// The dimension of the family.
+        pub dimension: usize = c.dimension,
+        /// Legs of the design in it, from 1.
+        pub legs: Vec<usize> = legs(&c.legs),
+        /// Legs of the design, from 1; every leg vector of the family is a combination of theirs.
+        pub support: Vec<usize> = legs(&c.support),
+        /// Whether it is exact. False: it exists only within the tolerance; null: not decided exactly.
+        pub exact: Option<bool> = c.exact,
+        /// Larger families that contain it, from 1.
+        pub contained_in: Vec<usize> = c.contained_in.iter().map(|l| l + 1).collect(),
+        /// Formulas of its legs.
+        pub parametrisation: ParametrisationRecord = (&c.parametrisation).into(),
+        /// Parameter values without finite leg.
+        pub at_infinity: Vec<Number> = numbers(&c.at_infinity),
+        /// Dimensions and ranks with evidence.
+        pub decisions: Vec<DecisionRecord> = decisions(&c.decisions),
+        /// Random legs.
+        pub samples: Vec<SampledLegRecord> = samples.iter().map(SampledLegRecord::from).collect(),
+    }
+    /// The record of family `k` (from 0) with legs drawn from it.
+    pub fn new(k: usize, c: &Component, samples: &[SampledLeg]) {}
 }
 
 /// Formulas of the legs of a family.
@@ -398,96 +368,31 @@ impl From<&CubicPencil> for ParametrisationRecord {
     }
 }
 
-/// The ends of a leg.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct LegEndsRecord {
-    /// The base end, base frame, design units.
-    pub base: [Number; 3],
-    /// The platform end, platform frame, design units.
-    pub platform: [Number; 3],
-}
-
-impl From<&Leg> for LegEndsRecord {
-    fn from(l: &Leg) -> Self {
-        Self { base: point(&l.base), platform: point(&l.platform) }
+view! {
+    /// The ends of a leg.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct LegEndsRecord {
+        /// The base end, base frame, design units.
+        pub base: [Number; 3] = point(&l.base),
+        /// The platform end, platform frame, design units.
+        pub platform: [Number; 3] = point(&l.platform),
     }
+    impl From(l: &Leg) {}
 }
 
-/// A leg drawn from a family.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct SampledLegRecord {
-    /// The parameters of the leg.
-    pub parameters: Vec<Number>,
-    /// Ends of the leg.
-    #[serde(flatten)]
-    pub ends: LegEndsRecord,
-    /// Coefficients of the six squared leg lengths.
-    pub coefficients: [Number; 6],
-    /// Residual of the leg vector after subtracting this combination.
-    pub residual: Number,
-}
-
-impl From<&SampledLeg> for SampledLegRecord {
-    fn from(s: &SampledLeg) -> Self {
-        Self {
-            parameters: numbers(&s.parameters),
-            ends: (&s.leg).into(),
-            coefficients: s.coefficients.map(Number),
-            residual: Number(s.residual),
-        }
+view! {
+    /// A leg drawn from a family.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct SampledLegRecord {
+        /// The parameters of the leg.
+        pub parameters: Vec<Number> = numbers(&s.parameters),
+        /// Ends of the leg.
+        #[serde(flatten)]
+        pub ends: LegEndsRecord = (&s.leg).into(),
+        /// Coefficients of the six squared leg lengths.
+        pub coefficients: [Number; 6] = s.coefficients.map(Number),
+        /// Residual of the leg vector after subtracting this combination.
+        pub residual: Number = Number(s.residual),
     }
-}
-
-impl ComponentRecord {
-    /// The record of family `k` (from 0) with legs drawn from it.
-    #[must_use]
-    pub fn new(k: usize, c: &Component, samples: &[SampledLeg]) -> Self {
-        Self {
-            component: k + 1,
-            type_name: c.type_name(),
-            kind: c.kind.name().into(),
-            base: flat_name(c.base_span).into(),
-            platform: flat_name(c.platform_span).into(),
-            dimension: c.dimension,
-            legs: legs(&c.legs),
-            support: legs(&c.support),
-            exact: c.exact,
-            contained_in: c.contained_in.iter().map(|l| l + 1).collect(),
-            parametrisation: (&c.parametrisation).into(),
-            at_infinity: numbers(&c.at_infinity),
-            decisions: decisions(&c.decisions),
-            samples: samples.iter().map(SampledLegRecord::from).collect(),
-        }
-    }
-}
-
-impl ComponentsAnswer {
-    /// The answer about the design of this name: all results, and the requested families.
-    #[must_use]
-    pub fn new(name: &str, replaceable: &ReplaceableLegs) -> Self {
-        let ReplaceableLegs { found, families, search } = replaceable;
-        let component =
-            |f: &ReplaceableFamily| ComponentRecord::new(f.index, &found.components[f.index], &f.samples);
-        let planes = found.planes.iter().map(|p| PlanePairRecord {
-            pair: p.pair + 1,
-            legs: legs(&found.pairs[p.pair].legs),
-            reading: found.pairs[p.pair].reading.name().into(),
-            smooth: p.smooth,
-            base: (&p.base).into(),
-            platform: (&p.platform).into(),
-            equations: bilinear(&p.equations),
-        });
-        Self {
-            name: name.to_owned(),
-            tolerance: search.tolerance,
-            leg_rank: found.leg_rank.value,
-            leg_rank_decision: (&found.leg_rank).into(),
-            count: found.components.len(),
-            complete: found.doubts.is_empty(),
-            doubts: found.doubts.clone(),
-            pairs: found.pairs.iter().map(FlatPairRecord::from).collect(),
-            planes: planes.collect(),
-            components: families.iter().map(component).collect(),
-        }
-    }
+    impl From(s: &SampledLeg) {}
 }

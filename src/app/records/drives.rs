@@ -34,84 +34,65 @@ pub struct DrivesAnswer {
     pub output: Option<String>,
 }
 
-/// A drive of the table, in the units of the design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DriveRecord {
-    /// The name of the drive.
-    pub name: String,
-    /// Line of the table, from 1.
-    pub line: usize,
-    /// Whether it fits: true and false are proved; null: undecided.
-    pub fits: Option<bool>,
-    /// Whether all safety margins are kept too: true and false are proved; null: undecided.
-    pub safety_margin_kept: Option<bool>,
-    /// The travel, design units.
-    pub stroke: Number,
-    /// Least and greatest joint distance, design units.
-    pub leg_length: [Number; 2],
-    /// Greatest force; null: not in the table.
-    pub force: Option<Number>,
-    /// Greatest speed; null: not in the table.
-    pub speed: Option<Number>,
-    /// Mass; null: not in the table.
-    pub mass: Option<Number>,
-    /// Stiffness along the drive; null: not in the table.
-    pub stiffness: Option<Number>,
-    /// Price; null: not in the table.
-    pub price: Option<Number>,
-    /// Source of its numbers; null: not in the table.
-    pub source: Option<String>,
-    /// Result of `assess`.
-    pub assessment: AssessAnswer,
-    /// Results along requested motions.
-    pub motions: Vec<MotionRunRecord>,
-}
-
-impl DriveRecord {
+view! {
+    /// A drive of the table, in the units of the design.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct DriveRecord {
+        /// The name of the drive.
+        pub name: String = drive.name.clone(),
+        /// Line of the table, from 1.
+        pub line: usize = drive.line,
+        /// Whether it fits: true and false are proved; null: undecided.
+        pub fits: Option<bool> = fit.fits(),
+        /// Whether all safety margins are kept too: true and false are proved; null: undecided.
+        pub safety_margin_kept: Option<bool> = fit.keeps_safety_margin(),
+        /// The travel, design units.
+        pub stroke: Number = Number(drive.stroke),
+        /// Least and greatest joint distance, design units.
+        pub leg_length: [Number; 2] = [Number(least), Number(greatest)],
+        /// Greatest force; null: not in the table.
+        pub force: Option<Number> = drive.force.map(Number),
+        /// Greatest speed; null: not in the table.
+        pub speed: Option<Number> = drive.speed.map(Number),
+        /// Mass; null: not in the table.
+        pub mass: Option<Number> = drive.mass.map(Number),
+        /// Stiffness along the drive; null: not in the table.
+        pub stiffness: Option<Number> = drive.stiffness.map(Number),
+        /// Price; null: not in the table.
+        pub price: Option<Number> = drive.price.map(Number),
+        /// Source of its numbers; null: not in the table.
+        pub source: Option<String> = drive.source.clone(),
+        /// Result of `assess`.
+        pub assessment: AssessAnswer = AssessAnswer::new(design, &fit.assessed).without_assumptions(),
+        /// Results along requested motions.
+        pub motions: Vec<MotionRunRecord> =
+            along.map(|(name, found)| MotionRunRecord::new(design, name.clone(), found)).collect(),
+    }
     /// The record of a drive; `motions` are the names of the motions.
-    #[must_use]
-    pub fn new(fit: &DriveFit, motions: &[String]) -> Self {
+    pub fn new(fit: &DriveFit, motions: &[String]) {
         let (drive, design) = (&fit.drive, &fit.design);
         let (least, greatest) = drive.lengths.range();
         let along = motions.iter().zip(&fit.motions);
-        Self {
-            name: drive.name.clone(),
-            line: drive.line,
-            fits: fit.fits(),
-            safety_margin_kept: fit.keeps_safety_margin(),
-            stroke: Number(drive.stroke),
-            leg_length: [Number(least), Number(greatest)],
-            force: drive.force.map(Number),
-            speed: drive.speed.map(Number),
-            mass: drive.mass.map(Number),
-            stiffness: drive.stiffness.map(Number),
-            price: drive.price.map(Number),
-            source: drive.source.clone(),
-            assessment: AssessAnswer::new(design, &fit.assessed).without_assumptions(),
-            motions: along.map(|(name, found)| MotionRunRecord::new(design, name.clone(), found)).collect(),
-        }
     }
 }
 
-/// The lightest drive of the table with which the requirements of a design are met.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LightestDriveRecord {
-    /// The name of the drive; null: no drive is proved to suffice.
-    pub name: Option<String>,
-    /// Drive mass; null: the table has none, or no drive is proved to suffice.
-    pub mass: Option<Number>,
-    /// The unit of the mass.
-    pub mass_unit: String,
-    /// Undecided lighter drives; all undecided drives if none is proved to suffice.
-    pub undecided: Vec<String>,
-    /// Result in words.
-    pub message: String,
-}
-
-impl LightestDriveRecord {
+view! {
+    /// The lightest drive of the table with which the requirements of a design are met.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct LightestDriveRecord {
+        /// The name of the drive; null: no drive is proved to suffice.
+        pub name: Option<String> = found.drive.map(|d| d.name.clone()),
+        /// Drive mass; null: the table has none, or no drive is proved to suffice.
+        pub mass: Option<Number> = found.drive.and_then(|d| d.mass).map(Number),
+        /// The unit of the mass.
+        pub mass_unit: String = mass_unit.to_owned(),
+        /// Undecided lighter drives; all undecided drives if none is proved to suffice.
+        pub undecided: Vec<String> = undecided,
+        /// Result in words.
+        pub message: String = message,
+    }
     /// The record of the lightest drive.
-    #[must_use]
-    pub fn new(found: &LightestDrive<'_>, mass_unit: &str) -> Self {
+    pub fn new(found: &LightestDrive<'_>, mass_unit: &str) {
         let undecided: Vec<String> = found.undecided.iter().map(|d| d.name.clone()).collect();
         let message = match (found.drive, found.rest) {
             (_, Some(false)) => {
@@ -128,12 +109,5 @@ impl LightestDriveRecord {
             (None, _) if undecided.is_empty() => "no drive of the table suffices".to_owned(),
             (None, _) => "no drive of the table is proved to suffice".to_owned(),
         };
-        Self {
-            name: found.drive.map(|d| d.name.clone()),
-            mass: found.drive.and_then(|d| d.mass).map(Number),
-            mass_unit: mass_unit.to_owned(),
-            undecided,
-            message,
-        }
     }
 }

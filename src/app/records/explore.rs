@@ -163,27 +163,25 @@ pub struct ExploreOctahedralAnswer {
     pub fk: PoseTotalsRecord,
 }
 
-/// Figures of a design and of the platform with separate joints made from it, in this order.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PriceRecord {
-    /// Worst conditioning over the workspace; both use the characteristic length of the design.
-    pub conditioning: [Number; 2],
-    /// Least distance of base ends, design units; 0 for a shared joint.
-    pub base_spacing: [Number; 2],
-    /// Least distance of platform ends, design units; 0 for a shared joint.
-    pub platform_spacing: [Number; 2],
-    /// Greatest distance of base joints from their centre, design units.
-    pub base_radius: [Number; 2],
-    /// Greatest distance of platform joints from their centre, design units.
-    pub platform_radius: [Number; 2],
-    /// Comparison in words.
-    pub message: String,
-}
-
-impl PriceRecord {
+view! {
+    /// Figures of a design and of the platform with separate joints made from it, in this order.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PriceRecord {
+        /// Worst conditioning over the workspace; both use the characteristic length of the design.
+        pub conditioning: [Number; 2] = s.conditioning.map(Number),
+        /// Least distance of base ends, design units; 0 for a shared joint.
+        pub base_spacing: [Number; 2] = s.spacing[0].map(Number),
+        /// Least distance of platform ends, design units; 0 for a shared joint.
+        pub platform_spacing: [Number; 2] = s.spacing[1].map(Number),
+        /// Greatest distance of base joints from their centre, design units.
+        pub base_radius: [Number; 2] = base.map(Number),
+        /// Greatest distance of platform joints from their centre, design units.
+        pub platform_radius: [Number; 2] = platform.map(Number),
+        /// Comparison in words.
+        pub message: String = message,
+    }
     /// The record of figures in this unit of length.
-    #[must_use]
-    pub fn new(s: &Separation, unit: &str) -> Self {
+    pub fn new(s: &Separation, unit: &str) {
         let pair = |[a, b]: [f64; 2]| format!("{} -> {}", short(a), short(b));
         let times = |[a, b]: [f64; 2]| short(b / a);
         let [base, platform] = s.radius;
@@ -197,14 +195,6 @@ impl PriceRecord {
             pair(platform),
             times(platform),
         );
-        Self {
-            conditioning: s.conditioning.map(Number),
-            base_spacing: s.spacing[0].map(Number),
-            platform_spacing: s.spacing[1].map(Number),
-            base_radius: base.map(Number),
-            platform_radius: platform.map(Number),
-            message,
-        }
     }
 }
 
@@ -236,25 +226,24 @@ impl DefaultSafetyMarginRecord {
     }
 }
 
-/// A summary of a platform with its joints on the holes that its design states.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct OnHolesRecord {
-    /// The rounding chosen; null: there is none.
-    pub variant: Option<RoundingWay>,
-    /// Whether rotations by 120 degrees keep both bodies.
-    pub three_fold: bool,
-    /// Largest displacement to a hole, design units.
-    pub largest_displacement: Option<Number>,
-    /// Variables optimised again.
-    pub refitted: Vec<String>,
-    /// Number of passes of search and rounding.
-    pub passes: usize,
-    /// Reason for no rounding; null: there is one.
-    pub error: Option<NoRoundingError>,
-}
-
-impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
-    fn from(found: &Result<DesignOnHoles, NoRounding>) -> Self {
+view! {
+    /// A summary of a platform with its joints on the holes that its design states.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct OnHolesRecord {
+        /// The rounding chosen; null: there is none.
+        pub variant: Option<RoundingWay> = Some(*way),
+        /// Whether rotations by 120 degrees keep both bodies.
+        pub three_fold: bool = three_fold,
+        /// Largest displacement to a hole, design units.
+        pub largest_displacement: Option<Number> = joints.ok().map(farthest).map(Number),
+        /// Variables optimised again.
+        pub refitted: Vec<String> = on.refitted.iter().map(|kind| kind.code().to_owned()).collect(),
+        /// Number of passes of search and rounding.
+        pub passes: usize = on.passes,
+        /// Reason for no rounding; null: there is one.
+        pub error: Option<NoRoundingError> = None,
+    }
+    impl From(found: &Result<DesignOnHoles, NoRounding>) {
         let none = Self {
             variant: None,
             three_fold: false,
@@ -277,14 +266,6 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
             RoundingWay::Nearest => (nearest.map(|n| &n.joints), nearest.is_ok_and(|n| n.three_fold)),
         };
         let farthest = |list: &Vec<RoundedJoint>| list.iter().map(|j| j.moved.norm()).fold(0.0, f64::max);
-        Self {
-            variant: Some(*way),
-            three_fold,
-            largest_displacement: joints.ok().map(farthest).map(Number),
-            refitted: on.refitted.iter().map(|kind| kind.code().to_owned()).collect(),
-            passes: on.passes,
-            error: None,
-        }
     }
 }
 
@@ -297,96 +278,67 @@ pub struct FamilySizeRecord {
     pub topologies: usize,
 }
 
-/// A summary of the platform: the main fields of the answer of `optimize`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct OptimizedRecord {
-    /// The status of the search.
-    pub status: OptimizeStatus,
-    /// The evidence of optimality; null: none.
-    pub optimality: Option<OptimalityWord>,
-    /// First objective.
-    pub objective: Option<Number>,
-    /// The chosen variables, without axes.
-    pub variables: Vec<ChosenVariable>,
-    /// The offsets `t_i` in cyclic order; null: no offsets were chosen.
-    pub offsets: Option<[Number; 6]>,
-    /// The displacements `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
-    pub shifts: Option<[Number; 6]>,
-    /// det A of the leg map; null: the variables leave the equivalence class of the design.
-    pub det: Option<Number>,
-    /// Active bounds; null: none.
-    pub active_bounds: Option<ActiveBoundsRecord>,
-}
-
-impl OptimizedRecord {
+view! {
+    /// A summary of the platform: the main fields of the answer of `optimize`.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct OptimizedRecord {
+        /// The status of the search.
+        pub status: OptimizeStatus = a.status,
+        /// The evidence of optimality; null: none.
+        pub optimality: Option<OptimalityWord> = a.optimality,
+        /// First objective.
+        pub objective: Option<Number> = p.objective,
+        /// The chosen variables, without axes.
+        pub variables: Vec<ChosenVariable> = p.variables.clone()?,
+        /// The offsets `t_i` in cyclic order; null: no offsets were chosen.
+        pub offsets: Option<[Number; 6]> = p.offsets,
+        /// The displacements `t_i d_i`, design units; null: no offsets were chosen, or the triangles were chosen too.
+        pub shifts: Option<[Number; 6]> = p.shifts,
+        /// det A of the leg map; null: the variables leave the equivalence class of the design.
+        pub det: Option<Number> = p.det,
+        /// Active bounds; null: none.
+        pub active_bounds: Option<ActiveBoundsRecord> = p.active_bounds.clone(),
+    }
     /// A summary of an answer of `optimize`; `None` if it has no platform.
-    #[must_use]
     pub fn new(a: &OptimizeAnswer) -> Option<Self> {
         let p = &a.platform;
-        Some(Self {
-            status: a.status,
-            optimality: a.optimality,
-            objective: p.objective,
-            variables: p.variables.clone()?,
-            offsets: p.offsets,
-            shifts: p.shifts,
-            det: p.det,
-            active_bounds: p.active_bounds.clone(),
-        })
     }
 }
 
-/// A summary of a verification.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct ComparedRecord {
-    /// Number of length sets; both designs were solved at each.
-    pub sample_count: usize,
-    /// The largest distance of matched poses.
-    pub worst_distance: Number,
-    /// The residual of the affine map.
-    pub residual: Number,
-    /// The determinant of the affine map.
-    pub det: Number,
-}
-
-impl From<&Verification> for ComparedRecord {
-    fn from(v: &Verification) -> Self {
-        Self {
-            sample_count: v.samples.len(),
-            worst_distance: Number(v.worst_distance()),
-            residual: Number(v.map.residual),
-            det: Number(v.map.determinant),
-        }
+view! {
+    /// A summary of a verification.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct ComparedRecord {
+        /// Number of length sets; both designs were solved at each.
+        pub sample_count: usize = v.samples.len(),
+        /// The largest distance of matched poses.
+        pub worst_distance: Number = Number(v.worst_distance()),
+        /// The residual of the affine map.
+        pub residual: Number = Number(v.map.residual),
+        /// The determinant of the affine map.
+        pub det: Number = Number(v.map.determinant),
     }
+    impl From(v: &Verification) {}
 }
 
-/// Numbers of poses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct PoseTotalsRecord {
-    /// The source of the lengths.
-    pub lengths_from: LengthsOrigin,
-    /// Number of finite poses, real and complex.
-    pub finite_count: usize,
-    /// Number of real poses.
-    pub real_count: usize,
-    /// Number of poses with a certificate.
-    pub certified_count: usize,
-    /// Whether every path is accounted for; false: poses may be missing.
-    pub all_paths_accounted: bool,
-}
-
-impl PoseTotalsRecord {
+view! {
+    /// Numbers of poses.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+    pub struct PoseTotalsRecord {
+        /// The source of the lengths.
+        pub lengths_from: LengthsOrigin = poses.origin,
+        /// Number of finite poses, real and complex.
+        pub finite_count: usize = s.roots.len(),
+        /// Number of real poses.
+        pub real_count: usize = s.assembly_modes().count(),
+        /// Number of poses with a certificate.
+        pub certified_count: usize = s.roots.iter().filter(|r| r.certified()).count(),
+        /// Whether every path is accounted for; false: poses may be missing.
+        pub all_paths_accounted: bool = s.all_accounted(),
+    }
     /// Counts of the poses of a design.
-    #[must_use]
-    pub fn new(poses: &OwnPoses) -> Self {
+    pub fn new(poses: &OwnPoses) {
         let s = &poses.solutions;
-        Self {
-            lengths_from: poses.origin,
-            finite_count: s.roots.len(),
-            real_count: s.assembly_modes().count(),
-            certified_count: s.roots.iter().filter(|r| r.certified()).count(),
-            all_paths_accounted: s.all_accounted(),
-        }
     }
 }
 

@@ -6,45 +6,33 @@ use serde::Serialize;
 use super::AssessAnswer;
 use files::export::{Export, ExportFormat, LengthUnit, SizeChoice};
 
-/// The answer of `export`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ExportAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// The output folder.
-    pub output: String,
-    /// Result of `assess`; null: it has no requirements.
-    pub assessment: Option<AssessAnswer>,
-    /// Length of one design unit.
-    pub design_unit: LengthUnit,
-    /// Formats.
-    pub formats: Vec<FormatRecord>,
-    /// Dimensions chosen.
-    pub sizes: Vec<SizeChoice>,
-    /// Assumptions of the simulator model about masses and units; empty: no model was written.
-    pub assumptions: Vec<String>,
-}
-
-impl ExportAnswer {
+view! {
+    /// The answer of `export`.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct ExportAnswer {
+        /// The name of the design.
+        pub name: String = export.name.clone(),
+        /// The output folder.
+        pub output: String = output,
+        /// Result of `assess`; null: it has no requirements.
+        pub assessment: Option<AssessAnswer> = assessment,
+        /// Length of one design unit.
+        pub design_unit: LengthUnit = export.unit,
+        /// Formats.
+        pub formats: Vec<FormatRecord> = formats,
+        /// Dimensions chosen.
+        pub sizes: Vec<SizeChoice> = export.choices.clone(),
+        /// Assumptions of the simulator model about masses and units; empty: no model was written.
+        pub assumptions: Vec<String> = assumptions,
+    }
     /// The answer of a model whose files stand in a folder.
-    #[must_use]
     pub fn new(
         export: &Export,
         assessment: Option<AssessAnswer>,
         output: String,
         formats: Vec<FormatRecord>,
         assumptions: Vec<String>,
-    ) -> Self {
-        Self {
-            name: export.name.clone(),
-            output,
-            assessment,
-            design_unit: export.unit,
-            formats,
-            sizes: export.choices.clone(),
-            assumptions,
-        }
-    }
+    ) {}
 }
 
 /// The files of a format.

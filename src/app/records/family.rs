@@ -13,77 +13,93 @@ use synthesis::{
     edge_lengths,
 };
 
-/// The answer of `equivalents family`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FamilyAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// Legs along the hexagon, from 1.
-    pub cyclic_order: Vec<usize>,
-    /// Edges of the hexagon, design units.
-    pub edge_lengths: Vec<Number>,
-    /// Numbers of patterns and topologies.
-    pub counts: FamilyCounts,
-    /// Patterns, or the requested one.
-    pub patterns: Vec<PatternRecord>,
-    /// Ways to share joints.
-    pub topologies: Vec<FamilyTopologyRecord>,
-    /// Platform at the offsets given, with `--offsets`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub instance: Option<InstanceRecord>,
-    /// Derivation of the leg map from coplanar joints, with `--explain`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub derivation: Option<DerivationRecord>,
-}
-
-impl FamilyAnswer {
+view! {
+    /// The answer of `equivalents family`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct FamilyAnswer {
+        /// The name of the design.
+        pub name: String = name.into(),
+        /// Legs along the hexagon, from 1.
+        pub cyclic_order: Vec<usize> = o.order().map(leg_number).to_vec(),
+        /// Edges of the hexagon, design units.
+        pub edge_lengths: Vec<Number> = edge_lengths(o).map(Number).to_vec(),
+        /// Numbers of patterns and topologies.
+        pub counts: FamilyCounts = family.counts(),
+        /// Patterns, or the requested one.
+        pub patterns: Vec<PatternRecord> = members.iter().map(|m| PatternRecord::new(m, original)).collect(),
+        /// Ways to share joints.
+        pub topologies: Vec<FamilyTopologyRecord> =
+            family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),
+        /// Platform at the offsets given, with `--offsets`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub instance: Option<InstanceRecord> = None,
+        /// Derivation of the leg map from coplanar joints, with `--explain`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub derivation: Option<DerivationRecord> = None,
+    }
     /// The answer about a design, its original octahedral platform and these members of the class.
-    #[must_use]
-    pub fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) -> Self {
+    pub fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) {
         let o = &original.octahedral;
-        Self {
-            name: name.into(),
-            cyclic_order: o.order().map(leg_number).to_vec(),
-            edge_lengths: edge_lengths(o).map(Number).to_vec(),
-            counts: family.counts(),
-            patterns: members.iter().map(|m| PatternRecord::new(m, original)).collect(),
-            topologies: family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),
-            instance: None,
-            derivation: None,
-        }
     }
 }
 
-/// A pattern: the kept legs, and the moved legs with their edges.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct PatternRecord {
-    /// Name of the pattern: V and the vertices kept, S and the sides of the moved ones.
-    pub id: String,
-    /// Class up to symmetry, from 1.
-    pub class: usize,
-    /// Class up to all symmetries, from 1.
-    pub class_exchange: usize,
-    /// Topology of the pattern, from 1.
-    pub topology: usize,
-    /// Whether offsets one at a time lead to it.
-    pub sequential: bool,
-    /// Legs of the design in order.
-    pub legs: Vec<PatternLegRecord>,
-    /// Offset names.
-    pub offsets: Vec<String>,
-    /// Joints of several legs.
-    pub shared_joints: Vec<SharedJointRecord>,
-    /// Collinear joints.
-    pub alignments: Vec<Vec<String>>,
-    /// Formulas of A, with legs in the order of the design.
-    #[serde(rename = "A")]
-    pub matrix: [[String; 6]; 6],
-    /// Formula of det A.
-    #[serde(rename = "det")]
-    pub determinant: String,
-    /// Equations of the zeros of det A.
-    #[serde(rename = "det_zero")]
-    pub zeros: Vec<String>,
+view! {
+    /// A pattern: the kept legs, and the moved legs with their edges.
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+    pub struct PatternRecord {
+        /// Name of the pattern: V and the vertices kept, S and the sides of the moved ones.
+        pub id: String = p.to_string(),
+        /// Class up to symmetry, from 1.
+        pub class: usize = member.class + 1,
+        /// Class up to all symmetries, from 1.
+        pub class_exchange: usize = member.class_exchange + 1,
+        /// Topology of the pattern, from 1.
+        pub topology: usize = member.topology + 1,
+        /// Whether offsets one at a time lead to it.
+        pub sequential: bool = member.sequential,
+        /// Legs of the design in order.
+        pub legs: Vec<PatternLegRecord> = legs.into_iter().map(|(_, leg)| leg).collect(),
+        /// Offset names.
+        pub offsets: Vec<String> = p.offsets().iter().map(ToString::to_string).collect(),
+        /// Joints of several legs.
+        pub shared_joints: Vec<SharedJointRecord> = shared.collect(),
+        /// Collinear joints.
+        pub alignments: Vec<Vec<String>> =
+            p.alignments().iter().map(|l| l.iter().map(|j| name(*j)).collect()).collect(),
+        /// Formulas of A, with legs in the order of the design.
+        #[serde(rename = "A")]
+        pub matrix: [[String; 6]; 6] = p.matrix_formulas(o),
+        /// Formula of det A.
+        #[serde(rename = "det")]
+        pub determinant: String = p.determinant_formula(),
+        /// Equations of the zeros of det A.
+        #[serde(rename = "det_zero")]
+        pub zeros: Vec<String> = p.factors().iter().map(|f| f.zero()).collect(),
+    }
+    fn new(member: &FamilyMember, original: &Original) {
+        let (p, o) = (&member.pattern, &original.octahedral);
+        let order = o.order();
+        let name = |j: JointLabel| original.joint_name(j);
+        let mut legs: Vec<(usize, PatternLegRecord)> = Vec::with_capacity(6);
+        for (slot, point) in order.iter().zip(p.legs()) {
+            let [base, platform] = point.joints().map(name);
+            let place = match point {
+                HexagonPoint::Vertex(_) => PatternPlace::Vertex {},
+                HexagonPoint::Inner(t) => PatternPlace::Inner {
+                    side: t.side + 1,
+                    offset: t.to_string(),
+                    between: [order[t.side], order[(t.side + 1) % 6]].map(leg_number),
+                },
+            };
+            legs.push((slot.get(), PatternLegRecord { base, platform, place }));
+        }
+        legs.sort_by_key(|(slot, _)| *slot);
+        let shared = p.shared_joints().into_iter().map(|(body, joint, legs)| {
+            let mut legs: Vec<usize> = legs.iter().map(|i| leg_number(order[*i])).collect();
+            legs.sort_unstable();
+            SharedJointRecord { body, joint: name(joint), legs }
+        });
+    }
 }
 
 /// One leg of a pattern.
@@ -124,47 +140,6 @@ pub struct SharedJointRecord {
     pub joint: String,
     /// The legs, from 1.
     pub legs: Vec<usize>,
-}
-
-impl PatternRecord {
-    fn new(member: &FamilyMember, original: &Original) -> Self {
-        let (p, o) = (&member.pattern, &original.octahedral);
-        let order = o.order();
-        let name = |j: JointLabel| original.joint_name(j);
-        let mut legs: Vec<(usize, PatternLegRecord)> = Vec::with_capacity(6);
-        for (slot, point) in order.iter().zip(p.legs()) {
-            let [base, platform] = point.joints().map(name);
-            let place = match point {
-                HexagonPoint::Vertex(_) => PatternPlace::Vertex {},
-                HexagonPoint::Inner(t) => PatternPlace::Inner {
-                    side: t.side + 1,
-                    offset: t.to_string(),
-                    between: [order[t.side], order[(t.side + 1) % 6]].map(leg_number),
-                },
-            };
-            legs.push((slot.get(), PatternLegRecord { base, platform, place }));
-        }
-        legs.sort_by_key(|(slot, _)| *slot);
-        let shared = p.shared_joints().into_iter().map(|(body, joint, legs)| {
-            let mut legs: Vec<usize> = legs.iter().map(|i| leg_number(order[*i])).collect();
-            legs.sort_unstable();
-            SharedJointRecord { body, joint: name(joint), legs }
-        });
-        Self {
-            id: p.to_string(),
-            class: member.class + 1,
-            class_exchange: member.class_exchange + 1,
-            topology: member.topology + 1,
-            sequential: member.sequential,
-            legs: legs.into_iter().map(|(_, leg)| leg).collect(),
-            offsets: p.offsets().iter().map(ToString::to_string).collect(),
-            shared_joints: shared.collect(),
-            alignments: p.alignments().iter().map(|l| l.iter().map(|j| name(*j)).collect()).collect(),
-            matrix: p.matrix_formulas(o),
-            determinant: p.determinant_formula(),
-            zeros: p.factors().iter().map(|f| f.zero()).collect(),
-        }
-    }
 }
 
 /// A way in which the legs of equivalent platforms share joints.

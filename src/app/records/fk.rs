@@ -95,42 +95,45 @@ pub struct RowFailure {
     pub error: FailureRecord,
 }
 
-/// The poses with one set of lengths, and further results on request.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct FkOneAnswer {
-    /// The convention of `in_frames`; of a row of a table that of the whole answer.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frames: Option<PoseConventionRecord>,
-    /// The poses.
-    #[serde(flatten)]
-    pub solved: SolvedRecord,
-    /// Crank angles, if given. The legs are then the rods from the crank tips, rounded to doubles, and certificates
-    /// hold for these tips.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub angles_deg: Option<[f64; 6]>,
-    /// Whether all angles are within their limits, ends included; null: no angles, or no limits.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub within_limits: Option<bool>,
-    /// Legs with cranks beyond their limits, from 1.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub outside: Vec<usize>,
-    /// Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and platform
-    /// joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the tips alone decides on
-    /// further poses, which are far away.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub symmetric_finite: Option<usize>,
-    /// Tracking, with `--near`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub near: Option<NearRecord>,
-    /// Iteration for non-ideal joints. The given lengths are then drive lengths, and no root gets a certificate.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drives: Option<DriveSolutionRecord>,
-    /// The closure polynomial, with `--method trilateration` or `--between`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub closure: Option<ClosureRecord>,
-    /// Polynomial in the Cayley parameter c3, with `--polynomial`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub polynomial: Option<RotationPolynomialRecord>,
+view! {
+    /// The poses with one set of lengths, and further results on request.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct FkOneAnswer {
+        /// The convention of `in_frames`; of a row of a table that of the whole answer.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub frames: Option<PoseConventionRecord> = None,
+        /// The poses.
+        #[serde(flatten)]
+        pub solved: SolvedRecord = solved,
+        /// Crank angles, if given. The legs are then the rods from the crank tips, rounded to doubles, and certificates
+        /// hold for these tips.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub angles_deg: Option<[f64; 6]> = None,
+        /// Whether all angles are within their limits, ends included; null: no angles, or no limits.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub within_limits: Option<bool> = None,
+        /// Legs with cranks beyond their limits, from 1.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub outside: Vec<usize> = Vec::new(),
+        /// Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and platform
+        /// joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the tips alone
+        /// decides on further poses, which are far away.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub symmetric_finite: Option<usize> = None,
+        /// Tracking, with `--near`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub near: Option<NearRecord> = None,
+        /// Iteration for non-ideal joints. The given lengths are then drive lengths, and no root gets a certificate.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub drives: Option<DriveSolutionRecord> = None,
+        /// The closure polynomial, with `--method trilateration` or `--between`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub closure: Option<ClosureRecord> = None,
+        /// Polynomial in the Cayley parameter c3, with `--polynomial`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub polynomial: Option<RotationPolynomialRecord> = None,
+    }
+    impl From(solved: SolvedRecord) {}
 }
 
 impl FkAnswer {
@@ -148,23 +151,6 @@ impl FkAnswer {
             }
         }
         self
-    }
-}
-
-impl From<SolvedRecord> for FkOneAnswer {
-    fn from(solved: SolvedRecord) -> Self {
-        Self {
-            frames: None,
-            solved,
-            angles_deg: None,
-            within_limits: None,
-            outside: Vec::new(),
-            symmetric_finite: None,
-            near: None,
-            drives: None,
-            closure: None,
-            polynomial: None,
-        }
     }
 }
 
@@ -450,49 +436,36 @@ pub enum SideWord {
     Below,
 }
 
-/// One pose with its evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct SolutionRecord {
-    /// The pose.
-    #[serde(flatten)]
-    pub pose: ComplexPoseRecord,
-    /// Whether the pose is real; null: undecided.
-    pub real: Option<bool>,
-    /// Real pose; null: it is not real.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub real_pose: Option<RealPoseRecord>,
-    /// Whether it has a certificate.
-    pub certified: bool,
-    /// The proof; null: there is none.
-    pub certificate: Option<CertificateRecord>,
-    /// Number of paths, or roots of a polynomial, that end here.
-    pub multiplicity: u32,
-    /// Largest leg equation error over squared size.
-    pub residual: Number,
-    /// Estimated condition number.
-    pub condition: Number,
-    /// The dual quaternion (e, g): scalar part of e first, g = p e in design units, `max |e_k| = 1`.
-    pub dual_quaternion: Option<ComplexRecord<[Number; 8]>>,
-}
-
-impl From<&FkRoot> for SolutionRecord {
-    fn from(r: &FkRoot) -> Self {
-        Self {
-            pose: (&r.pose).into(),
-            real: match r.reality {
-                Reality::Real => Some(true),
-                Reality::NonReal => Some(false),
-                Reality::Undecided => None,
-            },
-            real_pose: None,
-            certified: r.certified(),
-            certificate: r.certificate.as_ref().map(CertificateRecord::from),
-            multiplicity: r.multiplicity,
-            residual: Number(r.residual),
-            condition: Number(r.condition),
-            dual_quaternion: r.dual_quaternion.map(ComplexRecord::from),
-        }
+view! {
+    /// One pose with its evidence.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct SolutionRecord {
+        /// The pose.
+        #[serde(flatten)]
+        pub pose: ComplexPoseRecord = (&r.pose).into(),
+        /// Whether the pose is real; null: undecided.
+        pub real: Option<bool> = match r.reality {
+            Reality::Real => Some(true),
+            Reality::NonReal => Some(false),
+            Reality::Undecided => None,
+        },
+        /// Real pose; null: it is not real.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub real_pose: Option<RealPoseRecord> = None,
+        /// Whether it has a certificate.
+        pub certified: bool = r.certified(),
+        /// The proof; null: there is none.
+        pub certificate: Option<CertificateRecord> = r.certificate.as_ref().map(CertificateRecord::from),
+        /// Number of paths, or roots of a polynomial, that end here.
+        pub multiplicity: u32 = r.multiplicity,
+        /// Largest leg equation error over squared size.
+        pub residual: Number = Number(r.residual),
+        /// Estimated condition number.
+        pub condition: Number = Number(r.condition),
+        /// The dual quaternion (e, g): scalar part of e first, g = p e in design units, `max |e_k| = 1`.
+        pub dual_quaternion: Option<ComplexRecord<[Number; 8]>> = r.dual_quaternion.map(ComplexRecord::from),
     }
+    impl From(r: &FkRoot) {}
 }
 
 impl SolutionRecord {

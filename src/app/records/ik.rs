@@ -52,66 +52,97 @@ pub struct IkRowsAnswer {
     pub rows: Vec<IkRecord>,
 }
 
-/// The lengths at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct IkRecord {
-    /// The line of the table, from 1; null: no table.
-    pub line: Option<usize>,
-    /// The time of the row, if the table has a column of times.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub time: Option<f64>,
-    /// Convention in which poses were read, and of `in_frames`; of several poses that of the whole answer.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frames: Option<PoseConventionRecord>,
-    /// The pose.
-    pub pose: PoseRecord,
-    /// Pose in the convention of `frames`.
-    pub in_frames: PoseInFrames,
-    /// Lengths shown, in leg order, design units: joint distances plus the offsets of a calibration. For joints that
-    /// are not ideal, the joint distances alone.
-    pub lengths: [f64; 6],
-    /// The drive lengths, for joints that are not ideal. In this case `within_limits`, `outside`, `J` and the angles
-    /// refer to drives and real axes, and there are no margins.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drives: Option<DriveLengthsRecord>,
-    /// Whether all lengths are within `leg_length`, ends included; null: the design limits none.
-    pub within_limits: Option<bool>,
-    /// Legs outside `leg_length`, from 1.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub outside: Vec<usize>,
-    /// Joint angles.
-    pub joints: JointAnglesRecord,
-    /// Jacobian, rows `[u, (R b) x u]`, base frame. It gives leg speeds from the velocity of the platform origin and
-    /// the angular velocity in radians. Null: a leg of length zero.
-    #[serde(rename = "J")]
-    pub jacobian: [[Number; 6]; 6],
-    /// Inverse condition number of the Jacobian, moments divided by the characteristic length of the design: 1 at best,
-    /// 0 at a singular pose.
-    pub inverse_condition: Number,
-    /// Wrench of bent flexures on the platform, if the design has flexures.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flexures: Option<FlexureRecord>,
-    /// Uncertainty of the pose computed from the lengths. Present for ideal joints and a design with standard
-    /// deviations of a calibration.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub uncertainty: Option<PoseUncertaintyRecord>,
-    /// Least margin by kind of requirement.
-    pub margins: Vec<PoseMarginRecord>,
+view! {
+    /// The lengths at a pose.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct IkRecord {
+        /// The line of the table, from 1; null: no table.
+        pub line: Option<usize> = None,
+        /// The time of the row, if the table has a column of times.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub time: Option<f64> = None,
+        /// Convention in which poses were read, and of `in_frames`; of several poses that of the whole answer.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub frames: Option<PoseConventionRecord> = None,
+        /// The pose.
+        pub pose: PoseRecord = pose.into(),
+        /// Pose in the convention of `frames`.
+        pub in_frames: PoseInFrames = (&frames.write(pose)).into(),
+        /// Lengths shown, in leg order, design units: joint distances plus the offsets of a calibration. For joints
+        /// that are not ideal, the joint distances alone.
+        pub lengths: [f64; 6] = std::array::from_fn(|i| distances[i] + offsets[i]),
+        /// The drive lengths, for joints that are not ideal. In this case `within_limits`, `outside`, `J` and the
+        /// angles refer to drives and real axes, and there are no margins.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub drives: Option<DriveLengthsRecord> = None,
+        /// Whether all lengths are within `leg_length`, ends included; null: the design limits none.
+        pub within_limits: Option<bool> = limits.map(|_| outside.is_empty()),
+        /// Legs outside `leg_length`, from 1.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub outside: Vec<usize> = outside,
+        /// Joint angles.
+        pub joints: JointAnglesRecord = JointAnglesRecord::new(&terms.joint_angles(pose)),
+        /// Jacobian, rows `[u, (R b) x u]`, base frame. It gives leg speeds from the velocity of the platform origin
+        /// and the angular velocity in radians. Null: a leg of length zero.
+        #[serde(rename = "J")]
+        pub jacobian: [[Number; 6]; 6] =
+            std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))),
+        /// Inverse condition number of the Jacobian, moments divided by the characteristic length of the design: 1 at
+        /// best, 0 at a singular pose.
+        pub inverse_condition: Number = Number(inverse_condition(&scaled)),
+        /// Wrench of bent flexures on the platform, if the design has flexures.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub flexures: Option<FlexureRecord> = terms.flexure_wrench(pose).map(|wrench| {
+            let three = |v: &nalgebra::Vector3<f64>| [v.x, v.y, v.z].map(Number);
+            FlexureRecord { force: three(&wrench.force), torque: three(&wrench.torque) }
+        }),
+        /// Uncertainty of the pose computed from the lengths. Present for ideal joints and a design with standard
+        /// deviations of a calibration.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub uncertainty: Option<PoseUncertaintyRecord> = None,
+        /// Least margin by kind of requirement.
+        pub margins: Vec<PoseMarginRecord> = PoseMarginRecord::all(design, terms, pose),
+    }
+    /// The record of a pose with these joint distances; `terms` are the requirements of the design.
+    pub fn new(
+        design: &Design,
+        terms: &Terms<'_>,
+        (pose, frames): (&Pose, &PoseFrames),
+        distances: [f64; 6],
+    ) {
+        let m = design.manipulator();
+        let limits = design.hardware.leg_length.map(|limits| limits.range());
+        let outside: Vec<usize> = match limits {
+            Some((least, greatest)) => {
+                (1..=6).filter(|leg| !(least..=greatest).contains(&distances[leg - 1])).collect()
+            }
+            None => Vec::new(),
+        };
+        let offsets = design.leg_offsets();
+        let rows = jacobian(m, pose, 1.0);
+        let scaled = jacobian(m, pose, design.characteristic_length());
+    }
 }
 
-/// Joint angles in leg order, measured from the joint axes: `base_axes` and `platform_axes` of the design, else the
-/// legs at home.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct JointAnglesRecord {
-    /// Joint angles (cone angles) at the base: between each leg and its joint axis, degrees.
-    pub base_cone_angle_deg: [Number; 6],
-    /// Joint angles (cone angles) at the platform: between each leg and its joint axis, degrees.
-    pub platform_cone_angle_deg: [Number; 6],
-    /// Universal joint angles at the base, degrees: `u = Rx(first) Ry(second) n` in the joint frame, with z along its
-    /// axis n and x across it.
-    pub base_universal_deg: [[Number; 2]; 6],
-    /// Universal joint angles at the platform, degrees, in its frame, for the direction from base to platform.
-    pub platform_universal_deg: [[Number; 2]; 6],
+view! {
+    /// Joint angles in leg order, measured from the joint axes: `base_axes` and `platform_axes` of the design, else the
+    /// legs at home.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct JointAnglesRecord {
+        /// Joint angles (cone angles) at the base: between each leg and its joint axis, degrees.
+        pub base_cone_angle_deg: [Number; 6] = cone_angle(base),
+        /// Joint angles (cone angles) at the platform: between each leg and its joint axis, degrees.
+        pub platform_cone_angle_deg: [Number; 6] = cone_angle(platform),
+        /// Universal joint angles at the base, degrees: `u = Rx(first) Ry(second) n` in the joint frame, with z along
+        /// its axis n and x across it.
+        pub base_universal_deg: [[Number; 2]; 6] = universal(base),
+        /// Universal joint angles at the platform, degrees, in its frame, for the direction from base to platform.
+        pub platform_universal_deg: [[Number; 2]; 6] = universal(platform),
+    }
+    fn new([base, platform]: &[[JointAngles; 6]; 2]) {
+        let cone_angle = |all: &[JointAngles; 6]| all.map(|j| Number(j.cone_angle_deg));
+        let universal = |all: &[JointAngles; 6]| all.map(|j| j.universal_deg.map(Number));
+    }
 }
 
 /// The force and torque of the flexures on the platform about its origin, base frame.
@@ -138,61 +169,7 @@ pub struct PoseMarginRecord {
     pub legs: Vec<usize>,
 }
 
-impl JointAnglesRecord {
-    fn new([base, platform]: &[[JointAngles; 6]; 2]) -> Self {
-        let cone_angle = |all: &[JointAngles; 6]| all.map(|j| Number(j.cone_angle_deg));
-        let universal = |all: &[JointAngles; 6]| all.map(|j| j.universal_deg.map(Number));
-        Self {
-            base_cone_angle_deg: cone_angle(base),
-            platform_cone_angle_deg: cone_angle(platform),
-            base_universal_deg: universal(base),
-            platform_universal_deg: universal(platform),
-        }
-    }
-}
-
 impl IkRecord {
-    /// The record of a pose with these joint distances; `terms` are the requirements of the design.
-    #[must_use]
-    pub fn new(
-        design: &Design,
-        terms: &Terms<'_>,
-        (pose, frames): (&Pose, &PoseFrames),
-        distances: [f64; 6],
-    ) -> Self {
-        let m = design.manipulator();
-        let limits = design.hardware.leg_length.map(|limits| limits.range());
-        let outside: Vec<usize> = match limits {
-            Some((least, greatest)) => {
-                (1..=6).filter(|leg| !(least..=greatest).contains(&distances[leg - 1])).collect()
-            }
-            None => Vec::new(),
-        };
-        let offsets = design.leg_offsets();
-        let rows = jacobian(m, pose, 1.0);
-        let scaled = jacobian(m, pose, design.characteristic_length());
-        Self {
-            line: None,
-            time: None,
-            frames: None,
-            pose: pose.into(),
-            in_frames: (&frames.write(pose)).into(),
-            lengths: std::array::from_fn(|i| distances[i] + offsets[i]),
-            drives: None,
-            within_limits: limits.map(|_| outside.is_empty()),
-            outside,
-            joints: JointAnglesRecord::new(&terms.joint_angles(pose)),
-            jacobian: std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))),
-            inverse_condition: Number(inverse_condition(&scaled)),
-            flexures: terms.flexure_wrench(pose).map(|wrench| {
-                let three = |v: &nalgebra::Vector3<f64>| [v.x, v.y, v.z].map(Number);
-                FlexureRecord { force: three(&wrench.force), torque: three(&wrench.torque) }
-            }),
-            uncertainty: None,
-            margins: PoseMarginRecord::all(design, terms, pose),
-        }
-    }
-
     /// Adds the covariance of the pose that the calibrated machine computes here.
     #[must_use]
     pub fn with_uncertainty(mut self, design: &Design, known: &MachineUncertainty, pose: &Pose) -> Self {

@@ -11,6 +11,9 @@
 //! truth value that may be undecided is an `Option<bool>`, `null` for undecided. Names of fields carry their unit
 //! (`angle_deg`) if it differs from the units of the design. Legs are counted from 1.
 
+#[macro_use]
+mod view;
+
 mod at_pose;
 #[cfg(feature = "lab")]
 mod bench;

@@ -36,54 +36,64 @@ pub struct MappedLengthsRecord {
     pub reason: Option<String>,
 }
 
-/// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MapRecord {
-    /// The relation of the two designs; null: undecided, exit 3.
-    pub relation: Option<Relation>,
-    /// The level of the proof; within rounding: nothing is proved.
-    pub level: Level,
-    /// Whether the relation holds up to rounding; true for an exact relation too.
-    pub holds_within_rounding: bool,
-    /// Relation in words, with the numbers that decided.
-    pub explanation: String,
-    /// Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
-    #[serde(rename = "A")]
-    pub matrix: [[Number; 6]; 6],
-    /// The constant terms, design units squared.
-    #[serde(rename = "c")]
-    pub constants: [Number; 6],
-    /// The determinant of A.
-    #[serde(rename = "det")]
-    pub determinant: Number,
-    /// Exact determinant, such as 64/243. Null: the identity of leg vectors is not proved in exact arithmetic, or the
-    /// number is too long to read.
-    pub det_exact: Option<String>,
-    /// Rows of A, exact; null if `det_exact` is null.
-    #[serde(rename = "A_exact")]
-    pub matrix_exact: Option<[[String; 6]; 6]>,
-    /// Constant terms, exact, design units squared; null if `det_exact` is null.
-    #[serde(rename = "c_exact")]
-    pub constants_exact: Option<[String; 6]>,
-    /// Zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t. Its row of A
-    /// has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs stay
-    /// fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
-    pub singular_offsets: Option<[Option<String>; 6]>,
-    /// det A as an exact polynomial in the offsets t1 to t6, the other legs fixed. TO is singular exactly at its zeros.
-    /// Null: no leg is of this kind, or `det_exact` is null.
-    pub det_of_offsets: Option<String>,
-    /// Largest residual.
-    pub residual: Number,
-    /// Relative distance of each leg of TO from the span of FROM.
-    pub residuals: [Number; 6],
-    /// Rank of the leg vectors of FROM.
-    pub leg_rank: usize,
-    /// Singular values of the normalised leg vectors of FROM.
-    pub singular_values: [Number; 6],
-    /// Smallest over largest singular value of A.
-    pub inverse_condition: Number,
-    /// Decision thresholds.
-    pub tolerances: MapTolerancesRecord,
+view! {
+    /// The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct MapRecord {
+        /// The relation of the two designs; null: undecided, exit 3.
+        pub relation: Option<Relation> = o.relation.decided(),
+        /// The level of the proof; within rounding: nothing is proved.
+        pub level: Level = o.level,
+        /// Whether the relation holds up to rounding; true for an exact relation too.
+        pub holds_within_rounding: bool = o.holds_within_rounding,
+        /// Relation in words, with the numbers that decided.
+        pub explanation: String = o.explanation(),
+        /// Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
+        #[serde(rename = "A")]
+        pub matrix: [[Number; 6]; 6] = matrix(&o.closest),
+        /// The constant terms, design units squared.
+        #[serde(rename = "c")]
+        pub constants: [Number; 6] = c.map(Number),
+        /// The determinant of A.
+        #[serde(rename = "det")]
+        pub determinant: Number = Number(o.determinant),
+        /// Exact determinant, such as 64/243. Null: the identity of leg vectors is not proved in exact arithmetic, or
+        /// the number is too long to read.
+        pub det_exact: Option<String> = exact.map(|numbers| numbers.determinant.clone()),
+        /// Rows of A, exact; null if `det_exact` is null.
+        #[serde(rename = "A_exact")]
+        pub matrix_exact: Option<[[String; 6]; 6]> = exact.map(|numbers| numbers.a.clone()),
+        /// Constant terms, exact, design units squared; null if `det_exact` is null.
+        #[serde(rename = "c_exact")]
+        pub constants_exact: Option<[String; 6]> = exact.map(|numbers| numbers.c.clone()),
+        /// Zeros of det A for single legs, exact. Such a leg has its ends on edges of FROM at the offset t. Its row of
+        /// A has the entries 1 - t and t, the others zero. The list has the t for which det A vanishes while other legs
+        /// stay fixed. An entry is null for other legs, or if no t exists. The list is null if `det_exact` is null.
+        pub singular_offsets: Option<[Option<String>; 6]> =
+            exact.map(|numbers| numbers.singular_offsets.clone()),
+        /// det A as an exact polynomial in the offsets t1 to t6, the other legs fixed. TO is singular exactly at its
+        /// zeros. Null: no leg is of this kind, or `det_exact` is null.
+        pub det_of_offsets: Option<String> = exact.and_then(|numbers| numbers.determinant_of_offsets.clone()),
+        /// Largest residual.
+        pub residual: Number = Number(o.residual),
+        /// Relative distance of each leg of TO from the span of FROM.
+        pub residuals: [Number; 6] = o.residuals.map(Number),
+        /// Rank of the leg vectors of FROM.
+        pub leg_rank: usize = o.leg_rank,
+        /// Singular values of the normalised leg vectors of FROM.
+        pub singular_values: [Number; 6] = o.singular_values.map(Number),
+        /// Smallest over largest singular value of A.
+        pub inverse_condition: Number = Number(o.inverse_condition),
+        /// Decision thresholds.
+        pub tolerances: MapTolerancesRecord = MapTolerancesRecord {
+            residual: o.tolerances.residual,
+            rank: o.tolerances.rank,
+            inverse_condition: o.singular_limit,
+        },
+    }
+    impl From(o: &LegMapOutcome) {
+        let (c, exact): ([f64; 6], _) = (o.closest.c.into(), o.exact_numbers.as_ref());
+    }
 }
 
 /// The thresholds of the decision about a map.
@@ -103,58 +113,20 @@ pub(super) fn matrix(map: &AffineLegMap) -> [[Number; 6]; 6] {
     rows.map(|i| rows.map(|j| Number(map.a[(i, j)])))
 }
 
-impl From<&LegMapOutcome> for MapRecord {
-    fn from(o: &LegMapOutcome) -> Self {
-        let (c, exact): ([f64; 6], _) = (o.closest.c.into(), o.exact_numbers.as_ref());
-        Self {
-            relation: o.relation.decided(),
-            level: o.level,
-            holds_within_rounding: o.holds_within_rounding,
-            explanation: o.explanation(),
-            matrix: matrix(&o.closest),
-            constants: c.map(Number),
-            determinant: Number(o.determinant),
-            det_exact: exact.map(|numbers| numbers.determinant.clone()),
-            matrix_exact: exact.map(|numbers| numbers.a.clone()),
-            constants_exact: exact.map(|numbers| numbers.c.clone()),
-            singular_offsets: exact.map(|numbers| numbers.singular_offsets.clone()),
-            det_of_offsets: exact.and_then(|numbers| numbers.determinant_of_offsets.clone()),
-            residual: Number(o.residual),
-            residuals: o.residuals.map(Number),
-            leg_rank: o.leg_rank,
-            singular_values: o.singular_values.map(Number),
-            inverse_condition: Number(o.inverse_condition),
-            tolerances: MapTolerancesRecord {
-                residual: o.tolerances.residual,
-                rank: o.tolerances.rank,
-                inverse_condition: o.singular_limit,
-            },
-        }
+view! {
+    /// The leg of FROM that corresponds to each leg of TO.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct CorrespondenceRecord {
+        /// Leg of FROM for each leg of TO, from 1; null: none.
+        pub legs: [Option<usize>; 6] = c.legs.map(|leg| leg.map(leg_number)),
+        /// Distances of the two legs over the size.
+        pub distances: [Number; 6] = c.distances.map(Number),
+        /// Whether every leg of FROM is one of TO.
+        pub permutation: bool = c.is_permutation(),
+        /// Whether all distances are zero.
+        pub exact: bool = c.is_exact(),
     }
-}
-
-/// The leg of FROM that corresponds to each leg of TO.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CorrespondenceRecord {
-    /// Leg of FROM for each leg of TO, from 1; null: none.
-    pub legs: [Option<usize>; 6],
-    /// Distances of the two legs over the size.
-    pub distances: [Number; 6],
-    /// Whether every leg of FROM is one of TO.
-    pub permutation: bool,
-    /// Whether all distances are zero.
-    pub exact: bool,
-}
-
-impl From<&LegCorrespondence> for CorrespondenceRecord {
-    fn from(c: &LegCorrespondence) -> Self {
-        Self {
-            legs: c.legs.map(|leg| leg.map(leg_number)),
-            distances: c.distances.map(Number),
-            permutation: c.is_permutation(),
-            exact: c.is_exact(),
-        }
-    }
+    impl From(c: &LegCorrespondence) {}
 }
 
 /// The effect of `--exchange`, `--align` and `--output` on the second design.
@@ -171,18 +143,22 @@ pub struct FramesRecord {
     pub output: Option<String>,
 }
 
-/// The rigid motions that make one design equivalent to another.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct AlignmentRecord {
-    /// Result in words, with the numbers that decided.
-    pub explanation: String,
-    /// The result of the search for motions.
-    #[serde(flatten)]
-    pub outcome: AlignmentOutcome,
-    /// With base and platform of the second design exchanged.
-    pub exchanged: OtherAlignmentRecord,
-    /// With the mirror image of the second design.
-    pub mirrored: OtherAlignmentRecord,
+view! {
+    /// The rigid motions that make one design equivalent to another.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct AlignmentRecord {
+        /// Result in words, with the numbers that decided.
+        pub explanation: String = found.explanation(),
+        /// The result of the search for motions.
+        #[serde(flatten)]
+        pub outcome: AlignmentOutcome = found.into(),
+        /// With base and platform of the second design exchanged.
+        pub exchanged: OtherAlignmentRecord = exchanged.into(),
+        /// With the mirror image of the second design.
+        pub mirrored: OtherAlignmentRecord = mirrored.into(),
+    }
+    /// The record of an alignment, and of the alignments with the exchanged and the mirrored second design.
+    pub fn new(found: &Alignment, exchanged: &Alignment, mirrored: &Alignment) {}
 }
 
 /// The result of a search for rigid motions.
@@ -214,19 +190,6 @@ pub enum AlignmentOutcome {
     },
 }
 
-impl AlignmentRecord {
-    /// The record of an alignment, and of the alignments with the exchanged and the mirrored second design.
-    #[must_use]
-    pub fn new(found: &Alignment, exchanged: &Alignment, mirrored: &Alignment) -> Self {
-        Self {
-            explanation: found.explanation(),
-            outcome: found.into(),
-            exchanged: exchanged.into(),
-            mirrored: mirrored.into(),
-        }
-    }
-}
-
 impl From<&Alignment> for AlignmentOutcome {
     fn from(a: &Alignment) -> Self {
         match a {
@@ -245,31 +208,22 @@ impl From<&Alignment> for AlignmentOutcome {
     }
 }
 
-/// A pair of rigid motions of the second design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MotionRecord {
-    /// The motion of its base.
-    pub base: PoseRecord,
-    /// The motion of its platform.
-    pub platform: PoseRecord,
-    /// Residual of the leg map.
-    pub residual: Number,
-    /// Determinant of this map.
-    pub det: Number,
-    /// Relation to the first design; null: undecided.
-    pub relation: Option<Relation>,
-}
-
-impl From<&Motion> for MotionRecord {
-    fn from(m: &Motion) -> Self {
-        Self {
-            base: (&m.base).into(),
-            platform: (&m.platform).into(),
-            residual: Number(m.map.residual),
-            det: Number(m.map.determinant),
-            relation: m.map.relation.decided(),
-        }
+view! {
+    /// A pair of rigid motions of the second design.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct MotionRecord {
+        /// The motion of its base.
+        pub base: PoseRecord = (&m.base).into(),
+        /// The motion of its platform.
+        pub platform: PoseRecord = (&m.platform).into(),
+        /// Residual of the leg map.
+        pub residual: Number = Number(m.map.residual),
+        /// Determinant of this map.
+        pub det: Number = Number(m.map.determinant),
+        /// Relation to the first design; null: undecided.
+        pub relation: Option<Relation> = m.map.relation.decided(),
     }
+    impl From(m: &Motion) {}
 }
 
 /// The result for the exchanged or mirrored second design.

@@ -33,21 +33,36 @@ pub struct MotionAnswer {
     pub csv: Option<String>,
 }
 
-/// Stiffness and natural motions at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StiffnessRecord {
-    /// The pose.
-    pub pose: PoseQuaternionRecord,
-    /// Stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units and radians. It
-    /// maps a shift and a small rotation to force and torque.
-    #[serde(rename = "K")]
-    pub matrix: [[Number; 6]; 6],
-    /// Least stiffness against forces through the platform origin, force units per design unit; 0 at a singular pose.
-    pub linear: Number,
-    /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
-    pub angular: Number,
-    /// The natural motions, the slowest first; null: masses are unknown, or no inertia resists some rotation.
-    pub natural: Option<Vec<NaturalMotionRecord>>,
+view! {
+    /// Stiffness and natural motions at a pose.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct StiffnessRecord {
+        /// The pose.
+        pub pose: PoseQuaternionRecord = (&found.pose).into(),
+        /// Stiffness matrix `J^T diag(k) J` at the platform origin, base frame; force units, design units and radians.
+        /// It maps a shift and a small rotation to force and torque.
+        #[serde(rename = "K")]
+        pub matrix: [[Number; 6]; 6] =
+            std::array::from_fn(|i| std::array::from_fn(|j| Number(found.matrix[(i, j)]))),
+        /// Least stiffness against forces through the platform origin, force units per design unit; 0 at a singular
+        /// pose.
+        pub linear: Number = of(|s| s.linear),
+        /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+        pub angular: Number = of(|s| s.angular),
+        /// The natural motions, the slowest first; null: masses are unknown, or no inertia resists some rotation.
+        pub natural: Option<Vec<NaturalMotionRecord>> = natural,
+    }
+    /// The record of the stiffness at a pose.
+    pub fn new(found: &StiffnessReport) {
+        let natural = found.natural.as_ref().map(|all| {
+            let record = |v: &Vibration| NaturalMotionRecord {
+                frequency_hz: Number(v.frequency),
+                shape: std::array::from_fn(|k| Number(v.shape[k])),
+            };
+            all.iter().map(record).collect()
+        });
+        let of = |value: fn(&LeastStiffness) -> f64| Number(found.least.as_ref().map_or(0.0, value));
+    }
 }
 
 /// A natural motion.
@@ -60,57 +75,52 @@ pub struct NaturalMotionRecord {
     pub shape: [Number; 6],
 }
 
-impl StiffnessRecord {
-    /// The record of the stiffness at a pose.
-    #[must_use]
-    pub fn new(found: &StiffnessReport) -> Self {
-        let natural = found.natural.as_ref().map(|all| {
-            let record = |v: &Vibration| NaturalMotionRecord {
-                frequency_hz: Number(v.frequency),
-                shape: std::array::from_fn(|k| Number(v.shape[k])),
-            };
-            all.iter().map(record).collect()
-        });
-        let of = |value: fn(&LeastStiffness) -> f64| Number(found.least.as_ref().map_or(0.0, value));
-        Self {
-            pose: (&found.pose).into(),
-            matrix: std::array::from_fn(|i| std::array::from_fn(|j| Number(found.matrix[(i, j)]))),
-            linear: of(|s| s.linear),
-            angular: of(|s| s.angular),
-            natural,
-        }
+view! {
+    /// The legs along one motion.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct MotionRunRecord {
+        /// Trajectory or manoeuvre, as requested.
+        pub motion: String = motion,
+        /// Number of sampled instants.
+        pub instants: usize = found.instants.len(),
+        /// Duration of the motion, seconds.
+        pub duration_s: f64 = ends.map_or(0.0, |(first, last)| last.time - first.time),
+        /// Whether every requirement is met at the sampled instants, and every pose is regular.
+        pub met: bool = found.singular.is_none()
+            && found.unreached.is_none()
+            && found.margins.iter().all(|m| m.margin.standing.is_met()),
+        /// The legs in order; empty: a leg has no length at some instant, or the legs are rods on cranks.
+        pub legs: Vec<LegMotionRecord> =
+            if found.cranks { Vec::new() } else { each(found, LegMotionRecord::new) },
+        /// The cranks in leg order, for legs that are rods on cranks; empty: a rod does not reach at some instant.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub cranks: Option<Vec<CrankMotionRecord>> =
+            found.cranks.then(|| each(found, CrankMotionRecord::new)),
+        /// Least margin by kind of requirement, with the forces and speeds of this motion.
+        pub requirements: Vec<TimedMarginRecord> = requirements,
+        /// Whether all its poses are regular.
+        pub regularity: MotionRegularity = match (&found.singular, found.cranks) {
+            (Some(_), _) => MotionRegularity::Singular,
+            (None, true) => MotionRegularity::Sampled,
+            (None, false) => MotionRegularity::Proved,
+        },
+        /// Time of the first singular pose, seconds; null: none was found.
+        pub singular_at_s: Option<f64> = found.singular.map(|at| at.time),
+        /// The first singular pose; null: none was found.
+        pub singular_pose: Option<PoseQuaternionRecord> =
+            found.singular.map(|at| PoseQuaternionRecord::from(&at.pose)),
+        /// Evidence that it is singular.
+        pub singular_evidence: Option<SingularEvidence> = found.singular.map(|at| at.evidence),
+        /// First time at which a rod does not reach, seconds.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub unreached_at_s: Option<f64> = found.unreached,
     }
-}
-
-/// The legs along one motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MotionRunRecord {
-    /// Trajectory or manoeuvre, as requested.
-    pub motion: String,
-    /// Number of sampled instants.
-    pub instants: usize,
-    /// Duration of the motion, seconds.
-    pub duration_s: f64,
-    /// Whether every requirement is met at the sampled instants, and every pose is regular.
-    pub met: bool,
-    /// The legs in order; empty: a leg has no length at some instant, or the legs are rods on cranks.
-    pub legs: Vec<LegMotionRecord>,
-    /// The cranks in leg order, for legs that are rods on cranks; empty: a rod does not reach at some instant.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cranks: Option<Vec<CrankMotionRecord>>,
-    /// Least margin by kind of requirement, with the forces and speeds of this motion.
-    pub requirements: Vec<TimedMarginRecord>,
-    /// Whether all its poses are regular.
-    pub regularity: MotionRegularity,
-    /// Time of the first singular pose, seconds; null: none was found.
-    pub singular_at_s: Option<f64>,
-    /// The first singular pose; null: none was found.
-    pub singular_pose: Option<PoseQuaternionRecord>,
-    /// Evidence that it is singular.
-    pub singular_evidence: Option<SingularEvidence>,
-    /// First time at which a rod does not reach, seconds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unreached_at_s: Option<f64>,
+    /// The record of a motion.
+    pub fn new(design: &Design, motion: String, found: &MotionReport) {
+        let requirements: Vec<_> =
+            found.margins.iter().map(|margin| TimedMarginRecord::new(design, margin)).collect();
+        let ends = found.instants.first().zip(found.instants.last());
+    }
 }
 
 /// Whether every pose of a motion is regular.
@@ -123,36 +133,6 @@ pub enum MotionRegularity {
     Sampled,
     /// The motion passes a singular pose.
     Singular,
-}
-
-impl MotionRunRecord {
-    /// The record of a motion.
-    #[must_use]
-    pub fn new(design: &Design, motion: String, found: &MotionReport) -> Self {
-        let requirements: Vec<_> =
-            found.margins.iter().map(|margin| TimedMarginRecord::new(design, margin)).collect();
-        let ends = found.instants.first().zip(found.instants.last());
-        Self {
-            motion,
-            instants: found.instants.len(),
-            duration_s: ends.map_or(0.0, |(first, last)| last.time - first.time),
-            met: found.singular.is_none()
-                && found.unreached.is_none()
-                && found.margins.iter().all(|m| m.margin.standing.is_met()),
-            legs: if found.cranks { Vec::new() } else { each(found, LegMotionRecord::new) },
-            cranks: found.cranks.then(|| each(found, CrankMotionRecord::new)),
-            requirements,
-            regularity: match (&found.singular, found.cranks) {
-                (Some(_), _) => MotionRegularity::Singular,
-                (None, true) => MotionRegularity::Sampled,
-                (None, false) => MotionRegularity::Proved,
-            },
-            singular_at_s: found.singular.map(|at| at.time),
-            singular_pose: found.singular.map(|at| PoseQuaternionRecord::from(&at.pose)),
-            singular_evidence: found.singular.map(|at| at.evidence),
-            unreached_at_s: found.unreached,
-        }
-    }
 }
 
 /// A record of each leg, from 1.
@@ -175,80 +155,56 @@ impl TimedMarginRecord {
     }
 }
 
-/// A leg along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LegMotionRecord {
-    /// The leg, from 1.
-    pub leg: usize,
-    /// The least length, design units.
-    pub shortest: Extreme,
-    /// The greatest length, design units.
-    pub longest: Extreme,
-    /// Greatest speed, design units per second; positive: the leg becomes longer.
-    pub speed: Extreme,
-    /// Greatest acceleration, design units per second squared.
-    pub acceleration: Extreme,
-    /// Greatest push, force units; 0: it only pulls. Null: no masses are known, or forces are not determined.
-    pub push: Option<Extreme>,
-    /// Greatest pull, a negative force; 0: it only pushes.
-    pub pull: Option<Extreme>,
-    /// RMS force over time, force units.
-    pub rms_force: Option<Number>,
-    /// Greatest power, watts; negative: the drive brakes.
-    pub power_w: Option<Extreme>,
-}
-
-impl LegMotionRecord {
-    fn new(leg: usize, found: &LegExtremes) -> Self {
-        Self {
-            leg,
-            shortest: found.shortest,
-            longest: found.longest,
-            speed: found.speed,
-            acceleration: found.acceleration,
-            push: found.drive.map(|d| d.push),
-            pull: found.drive.map(|d| d.pull),
-            rms_force: found.drive.map(|d| Number(d.rms_force)),
-            power_w: found.drive.map(|d| d.power),
-        }
+view! {
+    /// A leg along a motion.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct LegMotionRecord {
+        /// The leg, from 1.
+        pub leg: usize = leg,
+        /// The least length, design units.
+        pub shortest: Extreme = found.shortest,
+        /// The greatest length, design units.
+        pub longest: Extreme = found.longest,
+        /// Greatest speed, design units per second; positive: the leg becomes longer.
+        pub speed: Extreme = found.speed,
+        /// Greatest acceleration, design units per second squared.
+        pub acceleration: Extreme = found.acceleration,
+        /// Greatest push, force units; 0: it only pulls. Null: no masses are known, or forces are not determined.
+        pub push: Option<Extreme> = found.drive.map(|d| d.push),
+        /// Greatest pull, a negative force; 0: it only pushes.
+        pub pull: Option<Extreme> = found.drive.map(|d| d.pull),
+        /// RMS force over time, force units.
+        pub rms_force: Option<Number> = found.drive.map(|d| Number(d.rms_force)),
+        /// Greatest power, watts; negative: the drive brakes.
+        pub power_w: Option<Extreme> = found.drive.map(|d| d.power),
     }
+    fn new(leg: usize, found: &LegExtremes) {}
 }
 
-/// A crank along a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CrankMotionRecord {
-    /// Leg, from 1.
-    pub leg: usize,
-    /// The least angle, degrees.
-    pub least_deg: Extreme,
-    /// The greatest angle, degrees.
-    pub greatest_deg: Extreme,
-    /// Greatest speed, degrees per second.
-    pub speed_deg: Extreme,
-    /// Greatest acceleration, degrees per second squared.
-    pub acceleration_deg: Extreme,
-    /// Greatest torque about the axis, force units times design units. Null: no masses are known, or torques are not
-    /// determined. Cranks and rods count as massless.
-    pub torque: Option<Extreme>,
-    /// RMS torque over time, force units times design units.
-    pub rms_torque: Option<Number>,
-    /// Greatest power, watts; negative: the drive brakes.
-    pub power_w: Option<Extreme>,
-}
-
-impl CrankMotionRecord {
-    fn new(leg: usize, found: &LegExtremes) -> Self {
+view! {
+    /// A crank along a motion.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct CrankMotionRecord {
+        /// Leg, from 1.
+        pub leg: usize = leg,
+        /// The least angle, degrees.
+        pub least_deg: Extreme = found.shortest,
+        /// The greatest angle, degrees.
+        pub greatest_deg: Extreme = found.longest,
+        /// Greatest speed, degrees per second.
+        pub speed_deg: Extreme = found.speed,
+        /// Greatest acceleration, degrees per second squared.
+        pub acceleration_deg: Extreme = found.acceleration,
+        /// Greatest torque about the axis, force units times design units. Null: no masses are known, or torques are
+        /// not determined. Cranks and rods count as massless.
+        pub torque: Option<Extreme> = found.drive.map(torque),
+        /// RMS torque over time, force units times design units.
+        pub rms_torque: Option<Number> = found.drive.map(|d| Number(d.rms_force)),
+        /// Greatest power, watts; negative: the drive brakes.
+        pub power_w: Option<Extreme> = found.drive.map(|d| d.power),
+    }
+    fn new(leg: usize, found: &LegExtremes) {
         let torque =
             |d: DriveExtremes| if d.push.value.abs() >= d.pull.value.abs() { d.push } else { d.pull };
-        Self {
-            leg,
-            least_deg: found.shortest,
-            greatest_deg: found.longest,
-            speed_deg: found.speed,
-            acceleration_deg: found.acceleration,
-            torque: found.drive.map(torque),
-            rms_torque: found.drive.map(|d| Number(d.rms_force)),
-            power_w: found.drive.map(|d| d.power),
-        }
     }
 }

@@ -23,49 +23,35 @@ pub enum MoveAnswer {
     Moves(Box<MovesAnswer>),
 }
 
-/// The result of moving legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct MovesAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// The relation after the last move; null: undecided, exit 3.
-    pub outcome: Option<Relation>,
-    /// Moves one by one or together.
-    pub mode: MoveMode,
-    /// The steps in order; each holds the moves made at once.
-    pub steps: Vec<MoveStepRecord>,
-    /// Number of moves left undone, because a move before them is not regular.
-    pub moves_left_out: usize,
-    /// Whether all new coordinates are exact.
-    pub exact: bool,
-    /// The leg map from the design to the last platform.
-    #[serde(flatten)]
-    pub map: MapRecord,
-    /// Largest difference of A and c from the composed steps.
-    pub composition_difference: Number,
-    /// The new design; null: two legs coincide.
-    pub design: Option<DesignRecord>,
-    /// The file written.
-    pub output: Option<String>,
-}
-
-impl MovesAnswer {
+view! {
+    /// The result of moving legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct MovesAnswer {
+        /// The name of the design.
+        pub name: String = design.name.clone(),
+        /// The relation after the last move; null: undecided, exit 3.
+        pub outcome: Option<Relation> = found.outcome(),
+        /// Moves one by one or together.
+        pub mode: MoveMode = if found.together { MoveMode::Together } else { MoveMode::Sequence },
+        /// The steps in order; each holds the moves made at once.
+        pub steps: Vec<MoveStepRecord> = found.steps.iter().map(MoveStepRecord::from).collect(),
+        /// Number of moves left undone, because a move before them is not regular.
+        pub moves_left_out: usize = found.left_out,
+        /// Whether all new coordinates are exact.
+        pub exact: bool = moved.all(|m| m.exact),
+        /// The leg map from the design to the last platform.
+        #[serde(flatten)]
+        pub map: MapRecord = (&found.chain.direct).into(),
+        /// Largest difference of A and c from the composed steps.
+        pub composition_difference: Number = Number(found.chain.disagreement),
+        /// The new design; null: two legs coincide.
+        pub design: Option<DesignRecord> = found.design.as_ref().map(DesignRecord::from),
+        /// The file written.
+        pub output: Option<String> = None,
+    }
     /// The answer about a design; no file is written yet.
-    #[must_use]
-    pub fn new(design: &Design, found: &MovesReport) -> Self {
+    pub fn new(design: &Design, found: &MovesReport) {
         let mut moved = found.steps.iter().flat_map(|step| &step.relocation.moved);
-        Self {
-            name: design.name.clone(),
-            outcome: found.outcome(),
-            mode: if found.together { MoveMode::Together } else { MoveMode::Sequence },
-            steps: found.steps.iter().map(MoveStepRecord::from).collect(),
-            moves_left_out: found.left_out,
-            exact: moved.all(|m| m.exact),
-            map: (&found.chain.direct).into(),
-            composition_difference: Number(found.chain.disagreement),
-            design: found.design.as_ref().map(DesignRecord::from),
-            output: None,
-        }
     }
 }
 
@@ -79,285 +65,181 @@ pub enum MoveMode {
     Together,
 }
 
-/// A step: moves made at once.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct MoveStepRecord {
-    /// Relation to the platform before; null: undecided.
-    pub outcome: Option<Relation>,
-    /// det A of the step.
-    pub det: Number,
-    /// The moves.
-    pub moves: Vec<LegMoveRecord>,
-}
-
-impl From<&MovedAtOnce> for MoveStepRecord {
-    fn from(step: &MovedAtOnce) -> Self {
+view! {
+    /// A step: moves made at once.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct MoveStepRecord {
+        /// Relation to the platform before; null: undecided.
+        pub outcome: Option<Relation> = r.map.relation.decided(),
+        /// det A of the step.
+        pub det: Number = Number(r.map.determinant),
+        /// The moves.
+        pub moves: Vec<LegMoveRecord> = r.moved.iter().enumerate().map(|moved| LegMoveRecord::of(step, moved)).collect(),
+    }
+    impl From(step: &MovedAtOnce) {
         let r = &step.relocation;
-        let one = |(k, m): (usize, &MovedLeg)| {
-            let (type_name, name) = &step.families[k];
-            LegMoveRecord {
-                leg: leg_number(m.request.leg),
-                component: m.request.family + 1,
-                type_name: type_name.clone(),
-                along: name.clone(),
-                parameters_written: step.written[k].clone(),
-                parameters: m.request.parameters.iter().copied().map(Number).collect(),
-                from: (&m.from).into(),
-                to: (&m.to).into(),
-                coefficients: m.coefficients.map(Number),
-                coefficient: Number(m.coefficients[m.request.leg.get()]),
-                residual: Number(m.residual),
-                exact: m.exact,
-                singular_parameters: (&m.singular).into(),
-            }
-        };
-        Self {
-            outcome: r.map.relation.decided(),
-            det: Number(r.map.determinant),
-            moves: r.moved.iter().enumerate().map(one).collect(),
-        }
     }
 }
 
-/// One leg moved along a family.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct LegMoveRecord {
-    /// The leg, from 1.
-    pub leg: usize,
-    /// The number of the family, from 1.
-    pub component: usize,
-    /// Family type.
-    #[serde(rename = "type")]
-    pub type_name: String,
-    /// Joints spanning the family.
-    pub along: Option<String>,
-    /// Parameters in the family.
-    pub parameters: Vec<Number>,
-    /// Parameters as written, such as 1/5.
-    pub parameters_written: Vec<String>,
-    /// The leg before.
-    pub from: LegEndsRecord,
-    /// The leg after.
-    pub to: LegEndsRecord,
-    /// Row of A of this leg.
-    pub coefficients: [Number; 6],
-    /// Coefficient of the replaced leg.
-    pub coefficient: Number,
-    /// Residual of the leg vector after subtracting this combination.
-    pub residual: Number,
-    /// Whether the new coordinates are exact.
-    pub exact: bool,
-    /// First parameters with det A = 0.
-    pub singular_parameters: SingularParametersRecord,
-}
-
-/// First parameters with det A = 0.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum SingularParametersRecord {
-    /// Some values.
-    At(Vec<Number>),
-    /// All values.
-    Everywhere(#[schemars(extend("const" = "everywhere"))] String),
-}
-
-impl From<&SingularParameters> for SingularParametersRecord {
-    fn from(s: &SingularParameters) -> Self {
-        match s {
-            SingularParameters::Everywhere => Self::Everywhere("everywhere".into()),
-            SingularParameters::At(list) => Self::At(list.iter().copied().map(Number).collect()),
-        }
+view! {
+    /// One leg moved along a family.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct LegMoveRecord {
+        /// The leg, from 1.
+        pub leg: usize = leg_number(m.request.leg),
+        /// The number of the family, from 1.
+        pub component: usize = m.request.family + 1,
+        /// Family type.
+        #[serde(rename = "type")]
+        pub type_name: String = step.families[k].0.clone(),
+        /// Joints spanning the family.
+        pub along: Option<String> = step.families[k].1.clone(),
+        /// Parameters in the family.
+        pub parameters: Vec<Number> = m.request.parameters.iter().copied().map(Number).collect(),
+        /// Parameters as written, such as 1/5.
+        pub parameters_written: Vec<String> = step.written[k].clone(),
+        /// The leg before.
+        pub from: LegEndsRecord = (&m.from).into(),
+        /// The leg after.
+        pub to: LegEndsRecord = (&m.to).into(),
+        /// Row of A of this leg.
+        pub coefficients: [Number; 6] = m.coefficients.map(Number),
+        /// Coefficient of the replaced leg.
+        pub coefficient: Number = Number(m.coefficients[m.request.leg.get()]),
+        /// Residual of the leg vector after subtracting this combination.
+        pub residual: Number = Number(m.residual),
+        /// Whether the new coordinates are exact.
+        pub exact: bool = m.exact,
+        /// First parameters with det A = 0.
+        pub singular_parameters: SingularParameters = m.singular.clone(),
     }
+    fn of(step: &MovedAtOnce, (k, m): (usize, &MovedLeg)) {}
 }
 
-/// The result of the search for an equivalent platform with requested properties.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct MoveSearchAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// Always `search`.
-    #[schemars(extend("const" = "search"))]
-    pub mode: String,
-    /// The outcome of the search.
-    pub outcome: SearchWord,
-    /// Reason for impossibility; null: there is none.
-    #[schemars(extend("enum" = ["no_leg_at_hole", "partners_at_infinity", "not_by_those_legs", "shared_joints", "holes_together", null]))]
-    pub reason: Option<String>,
-    /// Outcome in words.
-    pub explanation: String,
-    /// Number of patterns of six independent legs.
-    pub patterns: usize,
-    /// Number of patterns searched.
-    pub patterns_searched: usize,
-    /// Fewest shared joints of an equivalent platform; null: not known.
-    pub least_shared_joints: Option<usize>,
-    /// Whether all replaceable legs are known.
-    pub complete: bool,
-    /// The requested properties.
-    pub targets: TargetsRecord,
-    /// Requested holes.
-    pub holes: Vec<HoleRecord>,
-    /// Platforms, best first.
-    pub designs: Vec<CandidateRecord>,
-    /// The files written.
-    pub paths: Vec<String>,
-}
-
-/// The requested properties of an equivalent platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct TargetsRecord {
-    /// Whether the fewest shared joints are requested, at best none.
-    pub no_shared_joints: bool,
-    /// Least joint distance, design units.
-    pub spacing: Number,
-    /// Least leg clearance, design units; null: not requested.
-    pub clearance: Option<Number>,
-    /// Least inverse condition number.
-    pub conditioning: Number,
-    /// Greatest distance of a joint from the others, design units.
-    pub reach: Number,
-    /// Number of poses checked.
-    pub poses: usize,
-    /// The characteristic length, by which rotations are weighed, design units.
-    pub characteristic_length: Number,
-}
-
-impl From<&Targets> for TargetsRecord {
-    fn from(w: &Targets) -> Self {
-        Self {
-            no_shared_joints: w.no_shared_joints,
-            spacing: Number(w.spacing),
-            clearance: w.clearance.map(Number),
-            conditioning: Number(w.conditioning),
-            reach: Number(w.reach),
-            poses: w.poses.len(),
-            characteristic_length: Number(w.characteristic_length),
-        }
+view! {
+    /// The result of the search for an equivalent platform with requested properties.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct MoveSearchAnswer {
+        /// The name of the design.
+        pub name: String = design.name.clone(),
+        /// Always `search`.
+        #[schemars(extend("const" = "search"))]
+        pub mode: String = "search".into(),
+        /// The outcome of the search.
+        pub outcome: SearchWord = found.word(),
+        /// Reason for impossibility; null: there is none.
+        #[schemars(extend("enum" = ["no_leg_at_hole", "partners_at_infinity", "not_by_those_legs", "shared_joints", "holes_together", null]))]
+        pub reason: Option<String> = reason,
+        /// Outcome in words.
+        pub explanation: String = found.to_string(),
+        /// Number of patterns of six independent legs.
+        pub patterns: usize = o.patterns,
+        /// Number of patterns searched.
+        pub patterns_searched: usize = o.searched,
+        /// Fewest shared joints of an equivalent platform; null: not known.
+        pub least_shared_joints: Option<usize> = o.least_shared,
+        /// Whether all replaceable legs are known.
+        pub complete: bool = o.complete,
+        /// The requested properties.
+        pub targets: TargetsRecord = (&o.targets).into(),
+        /// Requested holes.
+        pub holes: Vec<HoleRecord> = o.holes.iter().map(HoleRecord::from).collect(),
+        /// Platforms, best first.
+        pub designs: Vec<CandidateRecord> =
+            found.platforms.iter().map(|f| CandidateRecord::new(design, f)).collect(),
+        /// The files written.
+        pub paths: Vec<String> = Vec::new(),
     }
-}
-
-/// A hole requested for an end of a leg.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct HoleRecord {
-    /// Body of the hole.
-    pub body: Body,
-    /// The position, body frame, design units.
-    pub point: [Number; 3],
-    /// Equivalent legs that end in the hole.
-    pub answer: HoleWord,
-    /// Legs requested, from 1; empty: any leg.
-    pub legs: Vec<usize>,
-    /// Dimension of possible opposite ends.
-    pub dimension: Option<usize>,
-    /// Rank defect in exact arithmetic; 0: no leg ends there.
-    pub exact_rank_defect: Option<usize>,
-    /// Deciding singular value.
-    pub singular_value: Number,
-    /// Threshold of the singular value.
-    pub tolerance: Number,
-}
-
-impl From<&search::CheckedHole> for HoleRecord {
-    fn from(h: &search::CheckedHole) -> Self {
-        let dimension = match h.answer {
-            HoleAnswer::Legs { dimension, .. } => Some(dimension),
-            _ => None,
-        };
-        let Hole { body, point, legs, .. } = &h.hole;
-        Self {
-            body: *body,
-            point: [point.x, point.y, point.z].map(Number),
-            answer: h.answer.word(),
-            legs: legs.iter().copied().map(leg_number).collect(),
-            dimension,
-            exact_rank_defect: h.exact,
-            singular_value: Number(h.singular_value),
-            tolerance: Number(h.tolerance),
-        }
-    }
-}
-
-/// An equivalent platform.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct CandidateRecord {
-    /// Whether all properties hold and all requirements are proved.
-    pub fulfilled: bool,
-    /// Whether all requested properties hold.
-    pub targets_met: bool,
-    /// The result of `assess`; null: the design has no requirements, or the legs make no platform.
-    pub assessment: Option<AssessAnswer>,
-    /// Least margin of a property.
-    pub worst: Number,
-    /// Number of shared joints.
-    pub shared_joints: usize,
-    /// Margins of requested properties.
-    pub margins: Vec<TargetMargin>,
-    /// The origin of each leg.
-    pub moves: Vec<PlacementRecord>,
-    /// The leg map to the platform.
-    #[serde(flatten)]
-    pub map: MapRecord,
-    /// The platform as a design.
-    pub design: Option<DesignRecord>,
-}
-
-/// The origin of one leg of an equivalent platform.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PlacementRecord {
-    /// The leg, from 1.
-    pub leg: usize,
-    /// Origin: leg, family or hole.
-    pub from: String,
-    /// Parameters in the family.
-    pub parameters: Vec<Number>,
-    /// Ends of the leg.
-    pub to: LegEndsRecord,
-    /// The coefficient of the replaced leg.
-    pub coefficient: Number,
-    /// Residual of the leg vector after subtracting this combination.
-    pub residual: Number,
-}
-
-impl MoveSearchAnswer {
     /// The answer about a design, before files are written.
-    #[must_use]
-    pub fn new(design: &Design, found: &MoveSearchReport) -> Self {
+    pub fn new(design: &Design, found: &MoveSearchReport) {
         let o = &found.outcome;
         let reason = match o.verdict {
             SearchVerdict::Impossible(why) => Some(why.name().to_owned()),
             SearchVerdict::Found | SearchVerdict::Undecided => None,
         };
-        Self {
-            name: design.name.clone(),
-            mode: "search".into(),
-            outcome: found.word(),
-            reason,
-            explanation: found.to_string(),
-            patterns: o.patterns,
-            patterns_searched: o.searched,
-            least_shared_joints: o.least_shared,
-            complete: o.complete,
-            targets: (&o.targets).into(),
-            holes: o.holes.iter().map(HoleRecord::from).collect(),
-            designs: found.platforms.iter().map(|f| CandidateRecord::new(design, f)).collect(),
-            paths: Vec::new(),
-        }
     }
 }
 
-impl CandidateRecord {
-    /// A platform that is equivalent to a design.
-    #[must_use]
-    pub fn new(given: &Design, found: &MovedPlatform) -> Self {
-        let c = &found.candidate;
-        let place = |(p, source): (&Placement, &String)| PlacementRecord {
-            leg: leg_number(p.leg),
-            from: source.clone(),
-            parameters: p.parameters.iter().copied().map(Number).collect(),
-            to: (&c.assembled.legs[p.leg.get()]).into(),
-            coefficient: Number(c.map.closest.a[(p.leg.get(), p.leg.get())]),
-            residual: Number(c.map.residuals[p.leg.get()]),
+view! {
+    /// The requested properties of an equivalent platform.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    pub struct TargetsRecord {
+        /// Whether the fewest shared joints are requested, at best none.
+        pub no_shared_joints: bool = w.no_shared_joints,
+        /// Least joint distance, design units.
+        pub spacing: Number = Number(w.spacing),
+        /// Least leg clearance, design units; null: not requested.
+        pub clearance: Option<Number> = w.clearance.map(Number),
+        /// Least inverse condition number.
+        pub conditioning: Number = Number(w.conditioning),
+        /// Greatest distance of a joint from the others, design units.
+        pub reach: Number = Number(w.reach),
+        /// Number of poses checked.
+        pub poses: usize = w.poses.len(),
+        /// The characteristic length, by which rotations are weighed, design units.
+        pub characteristic_length: Number = Number(w.characteristic_length),
+    }
+    impl From(w: &Targets) {}
+}
+
+view! {
+    /// A hole requested for an end of a leg.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct HoleRecord {
+        /// Body of the hole.
+        pub body: Body = *body,
+        /// The position, body frame, design units.
+        pub point: [Number; 3] = [point.x, point.y, point.z].map(Number),
+        /// Equivalent legs that end in the hole.
+        pub answer: HoleWord = h.answer.word(),
+        /// Legs requested, from 1; empty: any leg.
+        pub legs: Vec<usize> = legs.iter().copied().map(leg_number).collect(),
+        /// Dimension of possible opposite ends.
+        pub dimension: Option<usize> = dimension,
+        /// Rank defect in exact arithmetic; 0: no leg ends there.
+        pub exact_rank_defect: Option<usize> = h.exact,
+        /// Deciding singular value.
+        pub singular_value: Number = Number(h.singular_value),
+        /// Threshold of the singular value.
+        pub tolerance: Number = Number(h.tolerance),
+    }
+    impl From(h: &search::CheckedHole) {
+        let dimension = match h.answer {
+            HoleAnswer::Legs { dimension, .. } => Some(dimension),
+            _ => None,
         };
+        let Hole { body, point, legs, .. } = &h.hole;
+    }
+}
+
+view! {
+    /// An equivalent platform.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct CandidateRecord {
+        /// Whether all properties hold and all requirements are proved.
+        pub fulfilled: bool = found.is_fulfilled(),
+        /// Whether all requested properties hold.
+        pub targets_met: bool = c.fulfilled,
+        /// The result of `assess`; null: the design has no requirements, or the legs make no platform.
+        pub assessment: Option<AssessAnswer> = assessment,
+        /// Least margin of a property.
+        pub worst: Number = Number(c.worst),
+        /// Number of shared joints.
+        pub shared_joints: usize = c.shared_joints,
+        /// Margins of requested properties.
+        pub margins: Vec<TargetMargin> = c.margins.clone(),
+        /// The origin of each leg.
+        pub moves: Vec<PlacementRecord> =
+            c.placements.iter().zip(&found.sources).map(|placed| PlacementRecord::of(c, placed)).collect(),
+        /// The leg map to the platform.
+        #[serde(flatten)]
+        pub map: MapRecord = (&found.map).into(),
+        /// The platform as a design.
+        pub design: Option<DesignRecord> = found.design.as_ref().map(DesignRecord::from),
+    }
+    /// A platform that is equivalent to a design.
+    pub fn new(given: &Design, found: &MovedPlatform) {
+        let c = &found.candidate;
         let assessed = found.design.as_ref().zip(found.assessed.as_ref());
         // the name and the requirements come from the given design
         let assessment = assessed.map(|(design, a)| AssessAnswer {
@@ -365,16 +247,25 @@ impl CandidateRecord {
             role: DesignRoleWord::Equivalent,
             ..AssessAnswer::new(design, a)
         });
-        Self {
-            fulfilled: found.is_fulfilled(),
-            targets_met: c.fulfilled,
-            assessment,
-            worst: Number(c.worst),
-            shared_joints: c.shared_joints,
-            margins: c.margins.clone(),
-            moves: c.placements.iter().zip(&found.sources).map(place).collect(),
-            map: (&found.map).into(),
-            design: found.design.as_ref().map(DesignRecord::from),
-        }
     }
+}
+
+view! {
+    /// The origin of one leg of an equivalent platform.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PlacementRecord {
+        /// The leg, from 1.
+        pub leg: usize = leg_number(p.leg),
+        /// Origin: leg, family or hole.
+        pub from: String = source.clone(),
+        /// Parameters in the family.
+        pub parameters: Vec<Number> = p.parameters.iter().copied().map(Number).collect(),
+        /// Ends of the leg.
+        pub to: LegEndsRecord = (&c.assembled.legs[p.leg.get()]).into(),
+        /// The coefficient of the replaced leg.
+        pub coefficient: Number = Number(c.map.closest.a[(p.leg.get(), p.leg.get())]),
+        /// Residual of the leg vector after subtracting this combination.
+        pub residual: Number = Number(c.map.residuals[p.leg.get()]),
+    }
+    fn of(c: &search::Candidate, (p, source): (&Placement, &String)) {}
 }

@@ -4,50 +4,87 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{ComplexRecord, Number};
-use ask::PentapodReport;
+use ask::{HeldLine, PentapodReport};
 use fk::{LineClass, LinePose};
 use num::exact::nearest;
 use platform::manipulator::Body;
 use synthesis::DecouplingLeg;
 
-/// The answer of `check` and of `fk` about a design of five legs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PentapodAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// Number of legs: 5.
-    pub legs: usize,
-    /// Whether a joint is no fraction, so that the answer is about the nearest doubles.
-    pub rounded_joints: bool,
-    /// The line that the legs hold; the platform can still rotate about it. Null: no body has all its joints on a line.
-    pub line: Option<HeldLineRecord>,
-    /// Whether the legs are always dependent; null: not decided.
-    pub architecturally_singular: Option<bool>,
-    /// Sixth legs that allow solving in steps.
-    pub sixth_legs: Vec<DecouplingLeg>,
-    /// The lengths given, design units; null: none.
-    pub lengths: Option<[f64; 5]>,
-    /// Poses of the line for these lengths; null: no lengths were given, or there is no answer.
-    pub poses: Option<LinePosesRecord>,
-    /// Reason for no poses; null: there are poses.
-    pub no_poses: Option<String>,
+view! {
+    /// The answer of `check` and of `fk` about a design of five legs.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PentapodAnswer {
+        /// The name of the design.
+        pub name: String = report.design.name.clone(),
+        /// Number of legs: 5.
+        pub legs: usize = 5,
+        /// Whether a joint is no fraction, so that the answer is about the nearest doubles.
+        pub rounded_joints: bool = report.design.rounded,
+        /// The line that the legs hold; the platform can still rotate about it. Null: no body has all its joints on a
+        /// line.
+        pub line: Option<HeldLineRecord> = line,
+        /// Whether the legs are always dependent; null: not decided.
+        pub architecturally_singular: Option<bool> = report.architecturally_singular,
+        /// Sixth legs that allow solving in steps.
+        pub sixth_legs: Vec<DecouplingLeg> = report.sixth_legs.clone(),
+        /// The lengths given, design units; null: none.
+        pub lengths: Option<[f64; 5]> = report.lengths,
+        /// Poses of the line for these lengths; null: no lengths were given, or there is no answer.
+        pub poses: Option<LinePosesRecord> = poses,
+        /// Reason for no poses; null: there are poses.
+        pub no_poses: Option<String> = no_poses,
+    }
+    impl From(report: &PentapodReport) {
+        let line = report.held.as_ref().map(HeldLineRecord::of);
+        let (poses, no_poses) = match &report.poses {
+            None => (None, None),
+            Some(Err(why)) => (None, Some(why.to_string())),
+            Some(Ok(found)) => {
+                let poses: Vec<_> = found.poses.iter().map(LinePoseRecord::from).collect();
+                let record = LinePosesRecord {
+                    counted: found.counted,
+                    real: poses.iter().filter(|pose| pose.real).count(),
+                    coefficients: found.polynomial.coefficients().iter().map(ToString::to_string).collect(),
+                    poses,
+                };
+                (Some(record), None)
+            }
+        };
+    }
 }
 
-/// A line of a body that five legs hold.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct HeldLineRecord {
-    /// The body.
-    pub body: Body,
-    /// Leg joints along the line, measured from the joint of leg 1 in units of `length`.
-    pub marks: [Number; 5],
-    /// Distance from leg 1 to the farthest joint, design units.
-    pub length: Number,
-    /// Equation that gives the line; null: the legs are dependent.
-    pub class: Option<LineClass>,
-    /// Number of poses of the line, real and complex, for generic lengths; null: not counted.
-    pub generic_poses: Option<usize>,
-    /// Singular poses of the line.
-    pub singular_poses: LineLocusRecord,
+view! {
+    /// A line of a body that five legs hold.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct HeldLineRecord {
+        /// The body.
+        pub body: Body = held.line.body,
+        /// Leg joints along the line, measured from the joint of leg 1 in units of `length`.
+        pub marks: [Number; 5] = held.line.marks.each_ref().map(|mark| Number(nearest(mark))),
+        /// Distance from leg 1 to the farthest joint, design units.
+        pub length: Number = Number(nearest(&held.line.square()).sqrt()),
+        /// Equation that gives the line; null: the legs are dependent.
+        pub class: Option<LineClass> = held.class,
+        /// Number of poses of the line, real and complex, for generic lengths; null: not counted.
+        pub generic_poses: Option<usize> = held.generic_poses,
+        /// Singular poses of the line.
+        pub singular_poses: LineLocusRecord = LineLocusRecord {
+            family: held.locus.family(),
+            degree: held.locus.degree,
+            degree_in_position: held.locus.in_position,
+            degree_in_direction: held.locus.in_direction,
+            terms: held
+                .locus
+                .polynomial
+                .iter()
+                .map(|(exponents, c)| LineTermRecord {
+                    exponents: *exponents,
+                    coefficient: c.to_string(),
+                })
+                .collect(),
+        },
+    }
+    fn of(held: &HeldLine) {}
 }
 
 /// The polynomial `F(p, v)` whose zeros are the singular poses of the line.
@@ -89,84 +126,22 @@ pub struct LinePosesRecord {
     pub poses: Vec<LinePoseRecord>,
 }
 
-/// A pose of a line in the frame of the other body.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct LinePoseRecord {
-    /// Joint of leg 1, frame of the other body, design units.
-    pub position: ComplexRecord<[Number; 3]>,
-    /// Unit vector from leg 1 to the farthest joint, frame of the other body.
-    pub direction: ComplexRecord<[Number; 3]>,
-    /// Whether the pose is real, decided exactly.
-    pub real: bool,
-    /// The multiplicity of the pose.
-    pub multiplicity: usize,
-    /// Greatest error of a position coordinate, design units.
-    pub position_error: Number,
-    /// Greatest error of a direction coordinate.
-    pub direction_error: Number,
-}
-
-impl From<&LinePose> for LinePoseRecord {
-    fn from(pose: &LinePose) -> Self {
-        Self {
-            position: pose.position.into(),
-            direction: pose.direction.into(),
-            real: pose.real,
-            multiplicity: pose.multiplicity,
-            position_error: Number(pose.error[0]),
-            direction_error: Number(pose.error[1]),
-        }
+view! {
+    /// A pose of a line in the frame of the other body.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct LinePoseRecord {
+        /// Joint of leg 1, frame of the other body, design units.
+        pub position: ComplexRecord<[Number; 3]> = pose.position.into(),
+        /// Unit vector from leg 1 to the farthest joint, frame of the other body.
+        pub direction: ComplexRecord<[Number; 3]> = pose.direction.into(),
+        /// Whether the pose is real, decided exactly.
+        pub real: bool = pose.real,
+        /// The multiplicity of the pose.
+        pub multiplicity: usize = pose.multiplicity,
+        /// Greatest error of a position coordinate, design units.
+        pub position_error: Number = Number(pose.error[0]),
+        /// Greatest error of a direction coordinate.
+        pub direction_error: Number = Number(pose.error[1]),
     }
-}
-
-impl From<&PentapodReport> for PentapodAnswer {
-    fn from(report: &PentapodReport) -> Self {
-        let line = report.held.as_ref().map(|held| HeldLineRecord {
-            body: held.line.body,
-            marks: held.line.marks.each_ref().map(|mark| Number(nearest(mark))),
-            length: Number(nearest(&held.line.square()).sqrt()),
-            class: held.class,
-            generic_poses: held.generic_poses,
-            singular_poses: LineLocusRecord {
-                family: held.locus.family(),
-                degree: held.locus.degree,
-                degree_in_position: held.locus.in_position,
-                degree_in_direction: held.locus.in_direction,
-                terms: held
-                    .locus
-                    .polynomial
-                    .iter()
-                    .map(|(exponents, c)| LineTermRecord {
-                        exponents: *exponents,
-                        coefficient: c.to_string(),
-                    })
-                    .collect(),
-            },
-        });
-        let (poses, no_poses) = match &report.poses {
-            None => (None, None),
-            Some(Err(why)) => (None, Some(why.to_string())),
-            Some(Ok(found)) => {
-                let poses: Vec<_> = found.poses.iter().map(LinePoseRecord::from).collect();
-                let record = LinePosesRecord {
-                    counted: found.counted,
-                    real: poses.iter().filter(|pose| pose.real).count(),
-                    coefficients: found.polynomial.coefficients().iter().map(ToString::to_string).collect(),
-                    poses,
-                };
-                (Some(record), None)
-            }
-        };
-        Self {
-            name: report.design.name.clone(),
-            legs: 5,
-            rounded_joints: report.design.rounded,
-            line,
-            architecturally_singular: report.architecturally_singular,
-            sixth_legs: report.sixth_legs.clone(),
-            lengths: report.lengths,
-            poses,
-            no_poses,
-        }
-    }
+    impl From(pose: &LinePose) {}
 }

@@ -22,35 +22,44 @@ pub enum CoefficientsWord {
     Enclosed,
 }
 
-/// A polynomial in one unknown or in several: its degrees, its coefficients and its real roots.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PolynomialRecord {
-    /// Names of unknowns.
-    pub unknowns: Vec<String>,
-    /// Degree with spurious factors.
-    pub degree_before: usize,
-    /// The degree; null for the zero polynomial.
-    pub degree: Option<usize>,
-    /// The spurious factors removed.
-    pub removed: Vec<RemovedFactorRecord>,
-    /// Number of distinct complex roots; null: several unknowns, or not proved.
-    pub distinct_roots: Option<usize>,
-    /// The representation of the coefficients.
-    pub coefficients_known: CoefficientsWord,
-    /// Exponents of the unknowns by term.
-    pub exponents: Vec<Vec<usize>>,
-    /// Exact coefficients, integers as decimal text; for one unknown the constant comes first.
-    pub coefficients: Vec<String>,
-    /// Coefficient bounds [low, high]; null: they are exact.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub coefficient_bounds: Option<Vec<[Number; 2]>>,
-    /// Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients that are not
-    /// exact.
-    pub real_roots_by_sturm: Option<usize>,
-    /// Real roots as [low, high], rounded outwards.
-    pub real_roots: Vec<[Number; 2]>,
-    /// Their multiplicities.
-    pub real_root_multiplicities: Vec<usize>,
+view! {
+    /// A polynomial in one unknown or in several: its degrees, its coefficients and its real roots.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct PolynomialRecord {
+        /// Names of unknowns.
+        pub unknowns: Vec<String> = vec![unknown],
+        /// Degree with spurious factors.
+        pub degree_before: usize = degree.unwrap_or(0),
+        /// The degree; null for the zero polynomial.
+        pub degree: Option<usize> = degree,
+        /// The spurious factors removed.
+        pub removed: Vec<RemovedFactorRecord> = Vec::new(),
+        /// Number of distinct complex roots; null: several unknowns, or not proved.
+        pub distinct_roots: Option<usize> = degree,
+        /// The representation of the coefficients.
+        pub coefficients_known: CoefficientsWord = coefficients_known,
+        /// Exponents of the unknowns by term.
+        pub exponents: Vec<Vec<usize>> = degree.into_iter().flat_map(|n| 0..=n).map(|k| vec![k]).collect(),
+        /// Exact coefficients, integers as decimal text; for one unknown the constant comes first.
+        pub coefficients: Vec<String> = Vec::new(),
+        /// Coefficient bounds [low, high]; null: they are exact.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub coefficient_bounds: Option<Vec<[Number; 2]>> = None,
+        /// Number of distinct real roots, counted by Sturm's theorem; null: several unknowns, or coefficients that are
+        /// not exact.
+        pub real_roots_by_sturm: Option<usize> = None,
+        /// Real roots as [low, high], rounded outwards.
+        pub real_roots: Vec<[Number; 2]> = roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
+        /// Their multiplicities.
+        pub real_root_multiplicities: Vec<usize> = roots.iter().map(|r| r.multiplicity).collect(),
+    }
+    /// A polynomial in one unknown, of which nothing is removed and no coefficients are listed.
+    fn in_one_unknown(
+        unknown: String,
+        degree: Option<usize>,
+        coefficients_known: CoefficientsWord,
+        roots: &[EnclosedRoot],
+    ) {}
 }
 
 /// A spurious factor: it comes from the derivation of the polynomial and has no meaning for the poses.
@@ -72,29 +81,6 @@ impl PolynomialRecord {
             coefficients: p.coefficients().iter().map(ToString::to_string).collect(),
             real_roots_by_sturm: p.degree().map(|_| sturm_count_of_line(p)),
             ..Self::in_one_unknown(unknown, p.degree(), CoefficientsWord::Integers, roots)
-        }
-    }
-
-    /// A polynomial in one unknown, of which nothing is removed and no coefficients are listed.
-    fn in_one_unknown(
-        unknown: String,
-        degree: Option<usize>,
-        coefficients_known: CoefficientsWord,
-        roots: &[EnclosedRoot],
-    ) -> Self {
-        Self {
-            unknowns: vec![unknown],
-            degree_before: degree.unwrap_or(0),
-            degree,
-            removed: Vec::new(),
-            distinct_roots: degree,
-            coefficients_known,
-            exponents: degree.into_iter().flat_map(|n| 0..=n).map(|k| vec![k]).collect(),
-            coefficients: Vec::new(),
-            coefficient_bounds: None,
-            real_roots_by_sturm: None,
-            real_roots: roots.iter().map(|r| [r.low, r.high].map(Number)).collect(),
-            real_root_multiplicities: roots.iter().map(|r| r.multiplicity).collect(),
         }
     }
 
@@ -213,36 +199,29 @@ pub enum PoseFamilyWord {
     Rotation,
 }
 
-/// The answer of `singular locus`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SingularLocusAnswer {
-    /// The name of the design.
-    pub name: String,
-    /// Unit of lengths.
-    pub units: String,
-    /// Poses on which det J is a polynomial.
-    pub family: PoseFamilyWord,
-    /// Position of the given pose, as exact expressions, base frame.
-    pub position: [String; 3],
-    /// Quaternion of the orientation, scalar part first, of any norm, as exact expressions.
-    pub quaternion: [String; 4],
-    /// The direction of the line, or the axis of the rotations, base frame; null: a family of positions.
-    pub direction: Option<[String; 3]>,
-    /// The squared length of the axis; u is the tangent of half the angle divided by this length. Null: no axis.
-    pub axis_squared: Option<Number>,
-    /// det J up to a constant; the zero polynomial means that every pose is singular.
-    pub polynomial: PolynomialRecord,
-}
-
-impl SingularLocusAnswer {
+view! {
+    /// The answer of `singular locus`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct SingularLocusAnswer {
+        /// The name of the design.
+        pub name: String = name.to_owned(),
+        /// Unit of lengths.
+        pub units: String = units.to_owned(),
+        /// Poses on which det J is a polynomial.
+        pub family: PoseFamilyWord = word,
+        /// Position of the given pose, as exact expressions, base frame.
+        pub position: [String; 3] = pose.position.each_ref().map(ToString::to_string),
+        /// Quaternion of the orientation, scalar part first, of any norm, as exact expressions.
+        pub quaternion: [String; 4] = pose.quaternion.each_ref().map(ToString::to_string),
+        /// The direction of the line, or the axis of the rotations, base frame; null: a family of positions.
+        pub direction: Option<[String; 3]> = direction.map(|d| d.each_ref().map(ToString::to_string)),
+        /// The squared length of the axis; u is the tangent of half the angle divided by this length. Null: no axis.
+        pub axis_squared: Option<Number> = square.filter(|_| word == PoseFamilyWord::Rotation).map(Number),
+        /// det J up to a constant; the zero polynomial means that every pose is singular.
+        pub polynomial: PolynomialRecord = PolynomialRecord::of_locus(found, unknowns),
+    }
     /// The answer for a design, given by its name and units.
-    #[must_use]
-    pub fn new(
-        [name, units]: [&str; 2],
-        pose: &ExactPose,
-        family: &PoseFamily,
-        found: &LocusPolynomial,
-    ) -> Self {
+    pub fn new([name, units]: [&str; 2], pose: &ExactPose, family: &PoseFamily, found: &LocusPolynomial) {
         let (word, direction) = match family {
             PoseFamily::Positions => (PoseFamilyWord::Positions, None),
             PoseFamily::Line(d) => (PoseFamilyWord::Line, Some(d)),
@@ -250,15 +229,5 @@ impl SingularLocusAnswer {
         };
         let square = direction.map(|n| n.iter().map(|x| x.nearest().powi(2)).sum::<f64>());
         let unknowns: &[&str] = if direction.is_some() { &["u"] } else { &["x", "y", "z"] };
-        Self {
-            name: name.to_owned(),
-            units: units.to_owned(),
-            family: word,
-            position: pose.position.each_ref().map(ToString::to_string),
-            quaternion: pose.quaternion.each_ref().map(ToString::to_string),
-            direction: direction.map(|d| d.each_ref().map(ToString::to_string)),
-            axis_squared: square.filter(|_| word == PoseFamilyWord::Rotation).map(Number),
-            polynomial: PolynomialRecord::of_locus(found, unknowns),
-        }
     }
 }

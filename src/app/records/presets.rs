@@ -46,34 +46,23 @@ pub enum PresetFile {
     },
 }
 
-/// A design of real hardware.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct PresetRecord {
-    /// Preset.
-    pub preset: String,
-    /// Purpose.
-    pub class: PresetClass,
-    /// The name of the design.
-    pub name: String,
-    /// Unit of lengths.
-    pub units: String,
-    /// Source of its numbers.
-    pub source: Option<String>,
-    /// Description in the design file.
-    pub description: Option<String>,
-}
-
-impl PresetRecord {
-    /// The record of a preset with its design.
-    #[must_use]
-    pub fn new(preset: &Preset, design: &Design) -> Self {
-        Self {
-            preset: preset.name.into(),
-            class: preset.class,
-            name: design.name.clone(),
-            units: design.units.clone(),
-            source: design.source.clone(),
-            description: design.description.clone(),
-        }
+view! {
+    /// A design of real hardware.
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+    pub struct PresetRecord {
+        /// Preset.
+        pub preset: String = preset.name.into(),
+        /// Purpose.
+        pub class: PresetClass = preset.class,
+        /// The name of the design.
+        pub name: String = design.name.clone(),
+        /// Unit of lengths.
+        pub units: String = design.units.clone(),
+        /// Source of its numbers.
+        pub source: Option<String> = design.source.clone(),
+        /// Description in the design file.
+        pub description: Option<String> = design.description.clone(),
     }
+    /// The record of a preset with its design.
+    pub fn new(preset: &Preset, design: &Design) {}
 }

@@ -10,66 +10,52 @@ use files::design::AssessedForces;
 use machine::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use synthesis::singularity::{Regularity, RegularityWord};
 
-/// The least margin of a kind of requirement.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MarginRecord {
-    /// The kind of requirement.
-    pub name: TermKind,
-    /// Least margin over sampled poses, negative for a violation.
-    pub margin: Number,
-    /// Required safety margin, in the unit of the margin; 0: none. Its name in JSON is older than the word.
-    #[serde(rename = "reserve")]
-    pub safety_margin: Number,
-    /// The margin minus the safety margin.
-    pub net_margin: Number,
-    /// Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at the sampled
-    /// poses.
-    pub safety_margin_kept: Option<bool>,
-    /// Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other answers it
-    /// holds at the sampled poses.
-    pub met: Option<bool>,
-    /// Whether the margin is 0 to rounding.
-    pub at_limit: bool,
-    /// The status of the requirement.
-    pub status: MarginVerdict,
-    /// Proved lower bound over the workspace; null: nothing is proved.
-    pub proved_margin: Number,
-    /// Unit.
-    pub unit: String,
-    /// The parts with the least margin: legs, joints, keep-out or load.
-    pub between: Vec<String>,
-    /// Legs, from 1; for a requirement on joints, the legs of the joint.
-    pub legs: Vec<usize>,
-    /// The pose with the least margin; null: the margin is the same at every pose.
-    pub pose: Option<PoseQuaternionRecord>,
-}
-
-impl MarginRecord {
+view! {
+    /// The least margin of a kind of requirement.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct MarginRecord {
+        /// The kind of requirement.
+        pub name: TermKind = m.term.kind,
+        /// Least margin over sampled poses, negative for a violation.
+        pub margin: Number = Number(m.value),
+        /// Required safety margin, in the unit of the margin; 0: none. Its name in JSON is older than the word.
+        #[serde(rename = "reserve")]
+        pub safety_margin: Number = Number(safety_margin),
+        /// The margin minus the safety margin.
+        pub net_margin: Number = Number(m.value - safety_margin),
+        /// Whether the safety margin is kept. In `assess` this is proved, or null; in other answers it holds at the
+        /// sampled poses.
+        pub safety_margin_kept: Option<bool> = safety_margin_kept,
+        /// Whether the requirement is met, apart from rounding. In `assess` this is proved, or null; in other answers
+        /// it holds at the sampled poses.
+        pub met: Option<bool> = met,
+        /// Whether the margin is 0 to rounding.
+        pub at_limit: bool = m.standing == Standing::AtLimit,
+        /// The status of the requirement.
+        pub status: MarginVerdict = status,
+        /// Proved lower bound over the workspace; null: nothing is proved.
+        pub proved_margin: Number = Number(below),
+        /// Unit.
+        pub unit: String = design.unit_of(m.term.kind.quantity()),
+        /// The parts with the least margin: legs, joints, keep-out or load.
+        pub between: Vec<String> = design.names_of(m.term),
+        /// Legs, from 1; for a requirement on joints, the legs of the joint.
+        pub legs: Vec<usize> = design.legs_of(m.term),
+        /// The pose with the least margin; null: the margin is the same at every pose.
+        pub pose: Option<PoseQuaternionRecord> = m.pose.as_ref().map(PoseQuaternionRecord::from),
+    }
     fn new(
         design: &Design,
         m: &Margin,
         met: Option<bool>,
         (status, below): (MarginVerdict, f64),
         safety_margin_kept: Option<bool>,
-    ) -> Self {
+    ) {
         let safety_margin = design.requirements().safety_margin(m.term.kind);
-        Self {
-            name: m.term.kind,
-            margin: Number(m.value),
-            met,
-            safety_margin: Number(safety_margin),
-            net_margin: Number(m.value - safety_margin),
-            safety_margin_kept,
-            at_limit: m.standing == Standing::AtLimit,
-            status,
-            proved_margin: Number(below),
-            unit: design.unit_of(m.term.kind.quantity()),
-            between: design.names_of(m.term),
-            legs: design.legs_of(m.term),
-            pose: m.pose.as_ref().map(PoseQuaternionRecord::from),
-        }
     }
+}
 
+impl MarginRecord {
     /// The record of a margin with its proved bound.
     #[must_use]
     pub fn proved(design: &Design, bound: &MarginBound) -> Self {
@@ -100,47 +86,59 @@ impl MarginRecord {
     }
 }
 
-/// The answer of `assess`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct AssessAnswer {
-    /// Assessed design.
-    pub name: String,
-    /// Unit of lengths.
-    #[serde(default)]
-    pub length_unit: String,
-    /// Role of the design here.
-    pub role: DesignRoleWord,
-    /// Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a violation or a
-    /// change of sign of det J. Null: neither is proved.
-    pub met: Option<bool>,
-    /// Verdict in words.
-    pub explanation: String,
-    /// The poses assessed.
-    pub assessed_poses: AssessedPosesRecord,
-    /// Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given pose proves
-    /// the opposite. Null: neither is proved.
-    pub safety_margin_kept: Option<bool>,
-    /// The least margin of each kind.
-    pub requirements: Vec<MarginRecord>,
-    /// Least margin relative to its limit; null: no requirement has a limit to compare with.
-    pub tightest: Option<TightestRecord>,
-    /// Whether the workspace is free of singular poses.
-    pub regular: RegularityRecord,
-    /// Result on singular poses.
-    pub regular_explanation: String,
-    /// Worst conditioning over the sampled poses: a value found, without limit and proof.
-    pub conditioning: LeastConditioningRecord,
-    /// Number of poses sampled.
-    pub poses: usize,
-    /// Number of workspace cells of the proof.
-    pub cells: usize,
-    /// Lightest drive that meets the requirements, from the table that the design names. Null: the design names none,
-    /// or the answer has another subject.
-    pub lightest_drive: Option<LightestDriveRecord>,
-    /// Assumptions about masses, one sentence each. Absent: no force, torque or natural frequency is assessed, or the
-    /// enclosing answer has the list.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub assumptions: Vec<String>,
+view! {
+    /// The answer of `assess`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct AssessAnswer {
+        /// Assessed design.
+        pub name: String = design.name.clone(),
+        /// Unit of lengths.
+        #[serde(default)]
+        pub length_unit: String = design.units.clone(),
+        /// Role of the design here.
+        pub role: DesignRoleWord = DesignRoleWord::Design,
+        /// Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a violation or
+        /// a change of sign of det J. Null: neither is proved.
+        pub met: Option<bool> = found.met(),
+        /// Verdict in words.
+        pub explanation: String = found.to_string(),
+        /// The poses assessed.
+        pub assessed_poses: AssessedPosesRecord = found.assessed_poses.into(),
+        /// Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given pose
+        /// proves the opposite. Null: neither is proved.
+        pub safety_margin_kept: Option<bool> = proof.all_keep_safety_margin(),
+        /// The least margin of each kind.
+        pub requirements: Vec<MarginRecord> =
+            proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
+        /// Least margin relative to its limit; null: no requirement has a limit to compare with.
+        pub tightest: Option<TightestRecord> = TightestRecord::of(design, found),
+        /// Whether the workspace is free of singular poses.
+        pub regular: RegularityRecord = RegularityRecord::new(&found.regularity, found.regularity_cells),
+        /// Result on singular poses.
+        pub regular_explanation: String = found.regularity_in_words(),
+        /// Worst conditioning over the sampled poses: a value found, without limit and proof.
+        pub conditioning: LeastConditioningRecord = LeastConditioningRecord {
+            inverse_condition: Number(found.conditioning.value),
+            pose: (&found.conditioning.pose).into(),
+            characteristic_length,
+        },
+        /// Number of poses sampled.
+        pub poses: usize = proof.poses,
+        /// Number of workspace cells of the proof.
+        pub cells: usize = proof.bounds.iter().map(|b| b.cells).sum(),
+        /// Lightest drive that meets the requirements, from the table that the design names. Null: the design names
+        /// none, or the answer has another subject.
+        pub lightest_drive: Option<LightestDriveRecord> = None,
+        /// Assumptions about masses, one sentence each. Absent: no force, torque or natural frequency is assessed, or
+        /// the enclosing answer has the list.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        pub assumptions: Vec<String> = design
+            .assumptions_of(AssessedForces::of(proof.bounds.iter().map(|b| b.found.term.kind))),
+    }
+    /// The answer with a conditioning by the common characteristic length of a comparison.
+    pub fn beside(design: &Design, found: &AssessReport, characteristic_length: f64) {
+        let proof = &found.proof;
+    }
 }
 
 impl AssessAnswer {
@@ -160,34 +158,6 @@ impl AssessAnswer {
     #[must_use]
     pub fn with_role(self, role: DesignRoleWord) -> Self {
         Self { role, ..self }
-    }
-
-    /// The answer with a conditioning by the common characteristic length of a comparison.
-    pub fn beside(design: &Design, found: &AssessReport, characteristic_length: f64) -> Self {
-        let proof = &found.proof;
-        Self {
-            name: design.name.clone(),
-            length_unit: design.units.clone(),
-            role: DesignRoleWord::Design,
-            met: found.met(),
-            explanation: found.to_string(),
-            assessed_poses: found.assessed_poses.into(),
-            safety_margin_kept: proof.all_keep_safety_margin(),
-            requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
-            tightest: TightestRecord::of(design, found),
-            regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
-            regular_explanation: found.regularity_in_words(),
-            conditioning: LeastConditioningRecord {
-                inverse_condition: Number(found.conditioning.value),
-                pose: (&found.conditioning.pose).into(),
-                characteristic_length,
-            },
-            poses: proof.poses,
-            cells: proof.bounds.iter().map(|b| b.cells).sum(),
-            lightest_drive: None,
-            assumptions: design
-                .assumptions_of(AssessedForces::of(proof.bounds.iter().map(|b| b.found.term.kind))),
-        }
     }
 
     /// The answer inside another one that lists the assumptions itself.
@@ -255,31 +225,22 @@ impl DesignRoleWord {
     }
 }
 
-/// The poses of an assessment, with home.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct AssessedPosesRecord {
-    /// Whether the design states a workspace; otherwise only home is assessed.
-    pub stated: bool,
-    /// Whether a whole region around home is assessed.
-    pub region: bool,
-    /// Number of single poses; the motions between them are not assessed.
-    pub listed: usize,
-    /// Number of poses of a trajectory; the straight motions between them are assessed too.
-    pub trajectory: usize,
-    /// Wording of the verdict if met.
-    pub met_in_words: String,
-}
-
-impl From<AssessedPoses> for AssessedPosesRecord {
-    fn from(poses: AssessedPoses) -> Self {
-        Self {
-            stated: poses.are_stated(),
-            region: poses.region,
-            listed: poses.listed,
-            trajectory: poses.trajectory,
-            met_in_words: poses.met_in_words(),
-        }
+view! {
+    /// The poses of an assessment, with home.
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+    pub struct AssessedPosesRecord {
+        /// Whether the design states a workspace; otherwise only home is assessed.
+        pub stated: bool = poses.are_stated(),
+        /// Whether a whole region around home is assessed.
+        pub region: bool = poses.region,
+        /// Number of single poses; the motions between them are not assessed.
+        pub listed: usize = poses.listed,
+        /// Number of poses of a trajectory; the straight motions between them are assessed too.
+        pub trajectory: usize = poses.trajectory,
+        /// Wording of the verdict if met.
+        pub met_in_words: String = poses.met_in_words(),
     }
+    impl From(poses: AssessedPoses) {}
 }
 
 /// The pose with the worst conditioning.
@@ -294,28 +255,19 @@ pub struct LeastConditioningRecord {
     pub characteristic_length: f64,
 }
 
-/// Whether det J is nonzero at every pose of the workspace.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RegularityRecord {
-    /// Whether every pose is regular; null: undecided.
-    pub met: Option<bool>,
-    /// Result.
-    pub status: RegularityWord,
-    /// Pose with det J opposite to home, or is undecided.
-    pub pose: Option<PoseQuaternionRecord>,
-    /// Number of cells examined.
-    pub cells: usize,
-}
-
-impl RegularityRecord {
-    /// The record of a regularity result and the number of cells used.
-    #[must_use]
-    pub fn new(regularity: &Regularity, cells: usize) -> Self {
-        Self {
-            met: regularity.is_regular(),
-            status: regularity.word(),
-            pose: regularity.pose().map(PoseQuaternionRecord::from),
-            cells,
-        }
+view! {
+    /// Whether det J is nonzero at every pose of the workspace.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct RegularityRecord {
+        /// Whether every pose is regular; null: undecided.
+        pub met: Option<bool> = regularity.is_regular(),
+        /// Result.
+        pub status: RegularityWord = regularity.word(),
+        /// Pose with det J opposite to home, or is undecided.
+        pub pose: Option<PoseQuaternionRecord> = regularity.pose().map(PoseQuaternionRecord::from),
+        /// Number of cells examined.
+        pub cells: usize = cells,
     }
+    /// The record of a regularity result and the number of cells used.
+    pub fn new(regularity: &Regularity, cells: usize) {}
 }

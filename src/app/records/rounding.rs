@@ -53,31 +53,22 @@ pub struct GridsRecord {
     pub platform: Option<GridRecord>,
 }
 
-/// A grid of holes in the plane of a body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GridRecord {
-    /// Hole pattern.
-    pub pattern: HolePattern,
-    /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
-    pub pitch: Option<Number>,
-    /// The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other patterns.
-    pub circles: Vec<HoleCircle>,
-    /// Hole, or centre of the circles, body frame, design units.
-    pub origin: [Number; 2],
-    /// The angle of the grid, degrees.
-    pub angle_deg: Number,
-}
-
-impl From<&Grid> for GridRecord {
-    fn from(g: &Grid) -> Self {
-        Self {
-            pattern: g.pattern,
-            pitch: (g.pattern != HolePattern::BoltCircle).then_some(Number(g.pitch)),
-            circles: g.circles.as_slice().to_vec(),
-            origin: g.origin.map(Number),
-            angle_deg: Number(g.angle_deg),
-        }
+view! {
+    /// A grid of holes in the plane of a body.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct GridRecord {
+        /// Hole pattern.
+        pub pattern: HolePattern = g.pattern,
+        /// Distance of neighbouring holes, or of the rings of a polar grid, design units; null for bolt circles.
+        pub pitch: Option<Number> = (g.pattern != HolePattern::BoltCircle).then_some(Number(g.pitch)),
+        /// The circles of the grid: the first ring of a polar grid, or all bolt circles; empty for the other patterns.
+        pub circles: Vec<HoleCircle> = g.circles.as_slice().to_vec(),
+        /// Hole, or centre of the circles, body frame, design units.
+        pub origin: [Number; 2] = g.origin.map(Number),
+        /// The angle of the grid, degrees.
+        pub angle_deg: Number = Number(g.angle_deg),
     }
+    impl From(g: &Grid) {}
 }
 
 impl GridRecord {
@@ -121,11 +112,14 @@ pub enum NearestRoundingOutcome {
     None(NoRoundingRecord),
 }
 
-/// The reason why there is no rounding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct NoRoundingRecord {
-    /// The obstacle.
-    pub error: NoRoundingError,
+view! {
+    /// The reason why there is no rounding.
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+    pub struct NoRoundingRecord {
+        /// The obstacle.
+        pub error: NoRoundingError = NoRoundingError { code: why.word(), message: why.to_string() },
+    }
+    impl From(why: NoRounding) {}
 }
 
 /// The obstacle to a rounding.
@@ -135,12 +129,6 @@ pub struct NoRoundingError {
     pub code: NoRoundingWord,
     /// Message in words.
     pub message: String,
-}
-
-impl From<NoRounding> for NoRoundingRecord {
-    fn from(why: NoRounding) -> Self {
-        Self { error: NoRoundingError { code: why.word(), message: why.to_string() } }
-    }
 }
 
 /// The verdict of a verification, if one was computed.
@@ -171,25 +159,32 @@ impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
     }
 }
 
-/// A rounding with all joints exactly on the sides of two triangles, with holes as their corners.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ExactRoundingRecord {
-    /// The grids used.
-    pub grids: GridsRecord,
-    /// Whether equivalence with its own octahedral platform is proved.
-    pub proved: bool,
-    /// Verdict of leg map and forward kinematics.
-    pub verdict: RoundingVerdict,
-    /// Whether rotations by 120 degrees keep both bodies.
-    pub three_fold: bool,
-    /// Offsets around the hexagon: [m, g] for t = m / g.
-    pub fractions: Option<[[i64; 2]; 6]>,
-    /// The joints.
-    pub joints: Vec<RoundedJointRecord>,
-    /// Figures of the rounded design.
-    pub evaluation: Evaluation,
-    /// Search statistics.
-    pub search: RoundingSearchRecord,
+view! {
+    /// A rounding with all joints exactly on the sides of two triangles, with holes as their corners.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct ExactRoundingRecord {
+        /// The grids used.
+        pub grids: GridsRecord = (&e.grids).into(),
+        /// Whether equivalence with its own octahedral platform is proved.
+        pub proved: bool = e.proved,
+        /// Verdict of leg map and forward kinematics.
+        pub verdict: RoundingVerdict = (&e.verification).into(),
+        /// Whether rotations by 120 degrees keep both bodies.
+        pub three_fold: bool = e.three_fold,
+        /// Offsets around the hexagon: [m, g] for t = m / g.
+        pub fractions: Option<[[i64; 2]; 6]> = e.fractions.map(|f| f.map(|(k, n)| [k, n])),
+        /// The joints.
+        pub joints: Vec<RoundedJointRecord> = joints(design, &e.joints),
+        /// Figures of the rounded design.
+        pub evaluation: Evaluation = e.evaluation.clone(),
+        /// Search statistics.
+        pub search: RoundingSearchRecord = RoundingSearchRecord {
+            triangles: e.pool,
+            complete_to: e.complete_to.map(Number),
+            replacements: e.replacements,
+        },
+    }
+    fn of(design: &Design, e: &ExactRounding) {}
 }
 
 /// Statistics of the search for an exact rounding.
@@ -203,25 +198,33 @@ pub struct RoundingSearchRecord {
     pub replacements: usize,
 }
 
-/// A rounding with all joints on holes near their given positions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct NearestRoundingRecord {
-    /// The grids used.
-    pub grids: GridsRecord,
-    /// Verdict of leg map and forward kinematics.
-    pub verdict: RoundingVerdict,
-    /// Leg map residual; null: it could not be computed.
-    pub map_residual: Option<Number>,
-    /// The joints.
-    pub joints: Vec<RoundedJointRecord>,
-    /// Figures of the rounded design.
-    pub evaluation: Evaluation,
-    /// Pose error when computing with the given design.
-    pub pose_error: RoundingErrorRecord,
-    /// Number of joints on another than the nearest hole.
-    pub not_nearest: usize,
-    /// Whether rotations by 120 degrees keep both bodies.
-    pub three_fold: bool,
+view! {
+    /// A rounding with all joints on holes near their given positions.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct NearestRoundingRecord {
+        /// The grids used.
+        pub grids: GridsRecord = (&n.grids).into(),
+        /// Verdict of leg map and forward kinematics.
+        pub verdict: RoundingVerdict = (&n.verification).into(),
+        /// Leg map residual; null: it could not be computed.
+        pub map_residual: Option<Number> = n.verification.as_ref().ok().map(|v| Number(v.map.residual)),
+        /// The joints.
+        pub joints: Vec<RoundedJointRecord> = joints(design, &n.joints),
+        /// Figures of the rounded design.
+        pub evaluation: Evaluation = n.evaluation.clone(),
+        /// Pose error when computing with the given design.
+        pub pose_error: RoundingErrorRecord = RoundingErrorRecord {
+            first_order: n.first_order.into(),
+            first_order_nearest_points: n.first_order_nearest.into(),
+            solved: n.solved.0,
+            solved_poses: n.solved.1,
+        },
+        /// Number of joints on another than the nearest hole.
+        pub not_nearest: usize = n.not_nearest,
+        /// Whether rotations by 120 degrees keep both bodies.
+        pub three_fold: bool = n.three_fold,
+    }
+    fn of(design: &Design, n: &NearestRounding) {}
 }
 
 /// The error of the pose if a rounded platform is controlled like the given one.
@@ -237,33 +240,29 @@ pub struct RoundingErrorRecord {
     pub solved_poses: usize,
 }
 
-/// A joint on a hole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RoundedJointRecord {
-    /// The body of the joint.
-    pub body: Body,
-    /// The name of the joint.
-    pub joint: String,
-    /// Hole by its counts along the axes, or its circle and its number on the circle. Null: the joint stays in place.
-    pub cell: Option<[i64; 2]>,
-    /// The displacement, body frame, design units.
-    pub moved: [Number; 3],
-    /// The size of the displacement, design units.
-    pub distance: Number,
-    /// Distance from its side, design units; null for corners.
-    pub off_line: Option<Number>,
+view! {
+    /// A joint on a hole.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct RoundedJointRecord {
+        /// The body of the joint.
+        pub body: Body = j.joint.body,
+        /// The name of the joint.
+        pub joint: String = joint_name(design, j.joint).to_owned(),
+        /// Hole by its counts along the axes, or its circle and its number on the circle. Null: the joint stays in
+        /// place.
+        pub cell: Option<[i64; 2]> = j.cell,
+        /// The displacement, body frame, design units.
+        pub moved: [Number; 3] = [j.moved.x, j.moved.y, j.moved.z].map(Number),
+        /// The size of the displacement, design units.
+        pub distance: Number = Number(j.moved.norm()),
+        /// Distance from its side, design units; null for corners.
+        pub off_line: Option<Number> = j.off_line.map(Number),
+    }
+    fn of(design: &Design, j: &RoundedJoint) {}
 }
 
 fn joints(design: &Design, list: &[RoundedJoint]) -> Vec<RoundedJointRecord> {
-    let one = |j: &RoundedJoint| RoundedJointRecord {
-        body: j.joint.body,
-        joint: joint_name(design, j.joint).to_owned(),
-        cell: j.cell,
-        moved: [j.moved.x, j.moved.y, j.moved.z].map(Number),
-        distance: Number(j.moved.norm()),
-        off_line: j.off_line.map(Number),
-    };
-    list.iter().map(one).collect()
+    list.iter().map(|j| RoundedJointRecord::of(design, j)).collect()
 }
 
 impl ExactRoundingOutcome {
@@ -274,20 +273,7 @@ impl ExactRoundingOutcome {
             Ok(e) => e,
             Err(why) => return Self::None((*why).into()),
         };
-        Self::Found(Box::new(ExactRoundingRecord {
-            grids: (&e.grids).into(),
-            proved: e.proved,
-            verdict: (&e.verification).into(),
-            three_fold: e.three_fold,
-            fractions: e.fractions.map(|f| f.map(|(k, n)| [k, n])),
-            joints: joints(design, &e.joints),
-            evaluation: e.evaluation.clone(),
-            search: RoundingSearchRecord {
-                triangles: e.pool,
-                complete_to: e.complete_to.map(Number),
-                replacements: e.replacements,
-            },
-        }))
+        Self::Found(Box::new(ExactRoundingRecord::of(design, e)))
     }
 }
 
@@ -299,20 +285,6 @@ impl NearestRoundingOutcome {
             Ok(n) => n,
             Err(why) => return Self::None((*why).into()),
         };
-        Self::Found(Box::new(NearestRoundingRecord {
-            grids: (&n.grids).into(),
-            verdict: (&n.verification).into(),
-            map_residual: n.verification.as_ref().ok().map(|v| Number(v.map.residual)),
-            joints: joints(design, &n.joints),
-            evaluation: n.evaluation.clone(),
-            pose_error: RoundingErrorRecord {
-                first_order: n.first_order.into(),
-                first_order_nearest_points: n.first_order_nearest.into(),
-                solved: n.solved.0,
-                solved_poses: n.solved.1,
-            },
-            not_nearest: n.not_nearest,
-            three_fold: n.three_fold,
-        }))
+        Self::Found(Box::new(NearestRoundingRecord::of(design, n)))
     }
 }

@@ -105,65 +105,44 @@ impl IsolatedRecord {
     }
 }
 
-/// The outcomes of the paths to critical points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct CriticalPointsRecord {
-    /// Number of paths followed.
-    pub paths: usize,
-    /// Number of real critical points found.
-    pub real: usize,
-    /// Number of regular path ends.
-    pub regular: usize,
-    /// Number of singular path ends.
-    pub singular: usize,
-    /// Number of path ends that are no pose.
-    pub no_pose: usize,
-    /// Number of lost paths.
-    pub lost: usize,
-    /// Number of starts left unused.
-    pub unused_starts: usize,
-}
-
-impl From<&CriticalPoses> for CriticalPointsRecord {
-    fn from(c: &CriticalPoses) -> Self {
-        Self {
-            paths: c.paths,
-            real: c.poses.len(),
-            regular: c.regular,
-            singular: c.singular,
-            no_pose: c.no_pose,
-            lost: c.lost,
-            unused_starts: c.unused,
-        }
+view! {
+    /// The outcomes of the paths to critical points.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+    pub struct CriticalPointsRecord {
+        /// Number of paths followed.
+        pub paths: usize = c.paths,
+        /// Number of real critical points found.
+        pub real: usize = c.poses.len(),
+        /// Number of regular path ends.
+        pub regular: usize = c.regular,
+        /// Number of singular path ends.
+        pub singular: usize = c.singular,
+        /// Number of path ends that are no pose.
+        pub no_pose: usize = c.no_pose,
+        /// Number of lost paths.
+        pub lost: usize = c.lost,
+        /// Number of starts left unused.
+        pub unused_starts: usize = c.unused,
     }
+    impl From(c: &CriticalPoses) {}
 }
 
-/// A curve of poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct MotionCurveRecord {
-    /// End of the curve: closed, joined, unfinished or stuck.
-    #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
-    pub end: String,
-    /// The crossings with other curves.
-    pub crossings: Vec<CurveCrossing>,
-    /// The degree of the curve; null: not computed.
-    pub degree: Option<CurveDegree>,
-    /// Origin of its first pose.
-    pub found_by: Option<MotionOrigin>,
-    /// Poses of the curve.
-    pub points: Vec<MotionPoint>,
-}
-
-impl MotionCurveRecord {
+view! {
+    /// A curve of poses.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct MotionCurveRecord {
+        /// End of the curve: closed, joined, unfinished or stuck.
+        #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]
+        pub end: String = curve.end.name().to_owned(),
+        /// The crossings with other curves.
+        pub crossings: Vec<CurveCrossing> = curve.crossings.clone(),
+        /// The degree of the curve; null: not computed.
+        pub degree: Option<CurveDegree> = degree.copied(),
+        /// Origin of its first pose.
+        pub found_by: Option<MotionOrigin> = found_by,
+        /// Poses of the curve.
+        pub points: Vec<MotionPoint> = curve.points.clone(),
+    }
     /// The record of a curve.
-    #[must_use]
-    pub fn new(curve: &MotionCurve, degree: Option<&CurveDegree>, found_by: Option<MotionOrigin>) -> Self {
-        Self {
-            end: curve.end.name().to_owned(),
-            crossings: curve.crossings.clone(),
-            degree: degree.copied(),
-            found_by,
-            points: curve.points.clone(),
-        }
-    }
+    pub fn new(curve: &MotionCurve, degree: Option<&CurveDegree>, found_by: Option<MotionOrigin>) {}
 }

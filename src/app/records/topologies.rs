@@ -41,30 +41,28 @@ pub struct RecognisedRecord {
     pub exchanged: bool,
 }
 
-/// Numbers of topologies by the virtual legs that trilateration needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct VirtualLegsRecord {
-    /// Number of topologies without a virtual leg.
-    #[serde(rename = "0")]
-    pub none: usize,
-    /// Number of decoupled topologies with one virtual leg: the position of some joint is found before the others.
-    #[serde(rename = "1_decoupled")]
-    pub one_decoupled: usize,
-    /// Number of coupled topologies with one virtual leg.
-    #[serde(rename = "1_coupled")]
-    pub one_coupled: usize,
-    /// Number of topologies with two virtual legs.
-    #[serde(rename = "2")]
-    pub two: usize,
-    /// Number of topologies with three virtual legs.
-    #[serde(rename = "3")]
-    pub three: usize,
-}
-
-impl VirtualLegsRecord {
+view! {
+    /// Numbers of topologies by the virtual legs that trilateration needs.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+    pub struct VirtualLegsRecord {
+        /// Number of topologies without a virtual leg.
+        #[serde(rename = "0")]
+        pub none: usize = count(0, false),
+        /// Number of decoupled topologies with one virtual leg: the position of some joint is found before the others.
+        #[serde(rename = "1_decoupled")]
+        pub one_decoupled: usize = count(1, true),
+        /// Number of coupled topologies with one virtual leg.
+        #[serde(rename = "1_coupled")]
+        pub one_coupled: usize = count(1, false),
+        /// Number of topologies with two virtual legs.
+        #[serde(rename = "2")]
+        pub two: usize = count(2, false),
+        /// Number of topologies with three virtual legs.
+        #[serde(rename = "3")]
+        pub three: usize = count(3, false),
+    }
     /// The numbers for a list of topologies.
-    #[must_use]
-    pub fn of(list: &[NamedTopology]) -> Self {
+    pub fn of(list: &[NamedTopology]) {
         let count = |legs: usize, decoupled: bool| {
             let of = |t: &&NamedTopology| {
                 let t = t.topology();
@@ -72,52 +70,51 @@ impl VirtualLegsRecord {
             };
             list.iter().filter(of).count()
         };
-        Self {
-            none: count(0, false),
-            one_decoupled: count(1, true),
-            one_coupled: count(1, false),
-            two: count(2, false),
-            three: count(3, false),
-        }
     }
 }
 
-/// One topology.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct TopologyRecord {
-    /// The identifier of the topology, T01 to T34.
-    #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]
-    pub id: String,
-    /// Name of the topology: numbers of base and platform joints.
-    pub name: String,
-    /// Number of joints of the base.
-    pub base_joints: usize,
-    /// Number of joints of the platform.
-    pub platform_joints: usize,
-    /// Number of joints of several legs.
-    pub shared_joints: usize,
-    /// Base joint and platform joint by leg.
-    pub legs: Vec<[String; 2]>,
-    /// Number of virtual legs for trilateration.
-    pub virtual_legs: usize,
-    /// The joints of the virtual legs.
-    pub virtual_leg_joints: Vec<[String; 2]>,
-    /// Whether some joint is placed before the others.
-    pub decoupled: bool,
-    /// The joints of the first triangle.
-    pub start: [String; 3],
-    /// The trilaterations after the first triangle.
-    pub sequence: Vec<TrilaterationStepRecord>,
-    /// Number of finite poses of a random member, counted with multiplicity.
-    pub finite_roots: u32,
-    /// Whether this number is proved.
-    pub finite_roots_proved: bool,
-    /// Closure polynomial degree; null with two or more virtual legs.
-    pub closure_degree: Option<usize>,
-    /// Closure degree with singular factors.
-    pub closure_degree_before: Option<usize>,
-    /// Number of distinct roots of the closure polynomial.
-    pub closure_distinct_roots: Option<usize>,
+view! {
+    /// One topology.
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+    pub struct TopologyRecord {
+        /// The identifier of the topology, T01 to T34.
+        #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]
+        pub id: String = f.named.id(),
+        /// Name of the topology: numbers of base and platform joints.
+        pub name: String = f.named.name(),
+        /// Number of joints of the base.
+        pub base_joints: usize = t.base_joints(),
+        /// Number of joints of the platform.
+        pub platform_joints: usize = t.platform_joints(),
+        /// Number of joints of several legs.
+        pub shared_joints: usize = t.shared_joints(),
+        /// Base joint and platform joint by leg.
+        pub legs: Vec<[String; 2]> = joint_pairs(&t.legs()),
+        /// Number of virtual legs for trilateration.
+        pub virtual_legs: usize = f.sequence.virtual_legs.len(),
+        /// The joints of the virtual legs.
+        pub virtual_leg_joints: Vec<[String; 2]> = joint_pairs(&f.sequence.virtual_legs),
+        /// Whether some joint is placed before the others.
+        pub decoupled: bool = f.decoupled,
+        /// The joints of the first triangle.
+        pub start: [String; 3] = f.sequence.start.map(joint_name),
+        /// The trilaterations after the first triangle.
+        pub sequence: Vec<TrilaterationStepRecord> =
+            f.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, joint_name)).collect(),
+        /// Number of finite poses of a random member, counted with multiplicity.
+        pub finite_roots: u32 = f.poses,
+        /// Whether this number is proved.
+        pub finite_roots_proved: bool = f.proved,
+        /// Closure polynomial degree; null with two or more virtual legs.
+        pub closure_degree: Option<usize> = f.closure.as_ref().map(|c| c.after),
+        /// Closure degree with singular factors.
+        pub closure_degree_before: Option<usize> = f.closure.as_ref().map(|c| c.before),
+        /// Number of distinct roots of the closure polynomial.
+        pub closure_distinct_roots: Option<usize> = f.closure.as_ref().map(|c| c.distinct),
+    }
+    impl From(f: &TopologyFindings) {
+        let t = f.named.topology();
+    }
 }
 
 /// The computed properties of a topology.
@@ -135,30 +132,6 @@ pub struct TopologyFindings {
     pub proved: bool,
     /// The closure degrees of a random member, for at most one virtual leg.
     pub closure: Option<ClosureDegrees>,
-}
-
-impl From<&TopologyFindings> for TopologyRecord {
-    fn from(f: &TopologyFindings) -> Self {
-        let t = f.named.topology();
-        Self {
-            id: f.named.id(),
-            name: f.named.name(),
-            base_joints: t.base_joints(),
-            platform_joints: t.platform_joints(),
-            shared_joints: t.shared_joints(),
-            legs: joint_pairs(&t.legs()),
-            virtual_legs: f.sequence.virtual_legs.len(),
-            virtual_leg_joints: joint_pairs(&f.sequence.virtual_legs),
-            decoupled: f.decoupled,
-            start: f.sequence.start.map(joint_name),
-            sequence: f.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, joint_name)).collect(),
-            finite_roots: f.poses,
-            finite_roots_proved: f.proved,
-            closure_degree: f.closure.as_ref().map(|c| c.after),
-            closure_degree_before: f.closure.as_ref().map(|c| c.before),
-            closure_distinct_roots: f.closure.as_ref().map(|c| c.distinct),
-        }
-    }
 }
 
 fn joint_name(joint: JointIndex) -> String {

@@ -28,31 +28,23 @@ impl CorrelationsWord {
     }
 }
 
-/// The uncertainty of a pose computed from lengths with the calibrated machine, to first order. It covers the errors of
-/// the calibration; the noise of the lengths adds to it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct PoseUncertaintyRecord {
-    /// Source of correlations.
-    pub correlations: CorrelationsWord,
-    /// RMS error of the platform origin, design units.
-    pub position: Number,
-    /// RMS error of the orientation, degrees.
-    pub rotation_deg: Number,
-    /// Covariance of platform origin (design units) and rotation vector (degrees), base frame.
-    pub covariance: [[Number; 6]; 6],
-}
-
-impl PoseUncertaintyRecord {
+view! {
+    /// The uncertainty of a pose computed from lengths with the calibrated machine, to first order. It covers the
+    /// errors of the calibration; the noise of the lengths adds to it.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct PoseUncertaintyRecord {
+        /// Source of correlations.
+        pub correlations: CorrelationsWord = CorrelationsWord::of(design),
+        /// RMS error of the platform origin, design units.
+        pub position: Number = Number(found.position),
+        /// RMS error of the orientation, degrees.
+        pub rotation_deg: Number = Number(found.rotation.to_degrees()),
+        /// Covariance of platform origin (design units) and rotation vector (degrees), base frame.
+        pub covariance: [[Number; 6]; 6] = in_degrees(&found),
+    }
     /// The uncertainty at a pose; `None`: a singular pose.
-    #[must_use]
     pub fn at(design: &Design, known: &MachineUncertainty, pose: &Pose) -> Option<Self> {
         let found = known.pose_covariance(design.manipulator(), pose, &Point3::origin())?;
-        Some(Self {
-            correlations: CorrelationsWord::of(design),
-            position: Number(found.position),
-            rotation_deg: Number(found.rotation.to_degrees()),
-            covariance: in_degrees(&found),
-        })
     }
 }
 

@@ -86,13 +86,6 @@ pub enum FigureWord {
     Workspace,
 }
 
-/// The answer of `reference`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct ReferenceAnswer {
-    /// The page with the options of this program.
-    pub page: String,
-}
-
 /// The answer of `report`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportAnswer {

@@ -29,7 +29,7 @@ pub(super) fn exchanged(nominal: &LegModel, measurements: &[Measurement]) -> Opt
 
 #[cfg(test)]
 mod tests {
-    use super::super::simulated::{built, measured, nominal, octahedral, poses};
+    use super::super::fixtures::{built, measured, nominal, octahedral, poses};
     use super::*;
     use crate::calibration::MeasurementNoise;
     use num::Rng;

@@ -22,6 +22,8 @@ mod accuracy;
 mod chi_square;
 mod exchanged;
 mod fit;
+#[cfg(test)]
+mod fixtures;
 mod frames;
 mod model;
 mod next_pose;
@@ -29,8 +31,6 @@ mod noise;
 mod observability;
 mod report;
 mod robust;
-#[cfg(test)]
-mod simulated;
 mod spectrum;
 mod start;
 #[cfg(test)]

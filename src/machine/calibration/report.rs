@@ -53,16 +53,18 @@ impl Default for CalibrateOptions {
     }
 }
 
-/// The start of a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum StartChoice {
-    /// Both starts; the better result is taken.
-    #[default]
-    Best,
-    /// The nominal joints.
-    Nominal,
-    /// The solution of the linear equations.
-    ClosedForm,
+num::words! {
+    /// The start of a fit.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum StartChoice as name {
+        /// Both starts; the better result is taken.
+        #[default]
+        Best = "best",
+        /// The nominal joints.
+        Nominal = "nominal",
+        /// The solution of the linear equations.
+        ClosedForm = "closed-form",
+    }
 }
 
 /// The start whose result was taken.

@@ -38,20 +38,22 @@ impl Loss {
     }
 }
 
-/// The unit that a gross error spoils: the whole pose, or a single length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum LossUnit {
-    /// The Mahalanobis norm of the six residuals of a pose.
-    #[default]
-    Pose,
-    /// The difference between the residual of a leg and its prediction from the other five, over its standard
-    /// deviation.
-    Leg,
+num::words! {
+    /// The unit that a gross error spoils: the whole pose, or a single length.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[cfg_attr(
+        feature = "serde",
+        derive(serde::Serialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum LossUnit as name {
+        /// The Mahalanobis norm of the six residuals of a pose.
+        #[default]
+        Pose = "pose",
+        /// The difference between the residual of a leg and its prediction from the other five, over its standard
+        /// deviation.
+        Leg = "leg",
+    }
 }
 
 /// A loss of distances with a given number of degrees of freedom.

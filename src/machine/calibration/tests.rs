@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3};
 
-use super::simulated::{built, measured, nominal, octahedral, poses};
+use super::fixtures::{built, measured, nominal, octahedral, poses};
 use super::*;
 use num::Rng;
 use platform::geom::{Pose, random_rotation, rotation_vector, turn_between};

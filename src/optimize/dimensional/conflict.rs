@@ -78,6 +78,9 @@ fn with_least_whole(
 /// necessary, so failing to meet them means failing to meet all. They alone are tried from the points, since the other
 /// requirements would create local optima. The requirements count as infeasible, within the power of local searches, if
 /// every run misses them and no other end is expected ([`expects_no_other`]).
+///
+/// Here a trial is a single run from a point, even if several points come from one population. Those depend on each
+/// other, so this search can end before all populations have started: only the runs made are evidence.
 pub(super) fn unmet(
     model: &Model<'_>,
     points: &[Vec<f64>],

@@ -15,7 +15,7 @@ mod outcome;
 mod problem;
 mod search;
 #[cfg(test)]
-mod soundness;
+mod soundness_tests;
 #[cfg(test)]
 mod tests;
 mod verdict;

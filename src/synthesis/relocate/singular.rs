@@ -8,13 +8,20 @@ use crate::components::{Components, Parametrisation};
 use num::linalg::LinalgError;
 use platform::manipulator::Leg;
 
-/// Parameters at which `det A = 0`.
+/// First parameters with det A = 0.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case"),
+    schemars(rename = "SingularParametersRecord", transform = num::nullable)
+)]
 pub enum SingularParameters {
-    /// Everywhere on the family.
+    /// All values.
     Everywhere,
-    /// At these values of the first parameter, in order; other parameters are those of the move. For plane cubics these
-    /// are the changes of sign of the determinant over 360 lines through the centre.
+    /// Some values, in order; other parameters are those of the move. For plane cubics these are the changes of sign of
+    /// the determinant over 360 lines through the centre.
+    #[cfg_attr(feature = "serde", serde(untagged))]
     At(Vec<f64>),
 }
 

@@ -11,18 +11,20 @@ use platform::geom::{Pose, any_pose};
 use platform::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
 use platform::topology::NamedTopology;
 
-/// The source of the leg lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum LengthsFrom {
-    /// A random real pose: rotation uniform, position standard normal.
-    Pose,
-    /// Squared lengths uniform in `[0.5, 3]` (Martyushev, sec. 5.1).
-    Uniform,
+num::words! {
+    /// The source of the leg lengths.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(
+        feature = "files",
+        derive(serde::Serialize, schemars::JsonSchema),
+        serde(rename_all = "snake_case")
+    )]
+    pub enum LengthsFrom as name {
+        /// A random real pose: rotation uniform, position standard normal.
+        Pose = "pose",
+        /// Squared lengths uniform in `[0.5, 3]` (Martyushev, sec. 5.1).
+        Uniform = "uniform",
+    }
 }
 
 /// One problem.

@@ -61,27 +61,12 @@ impl<'a> VerifyOptions<'a> {
         /// Sets the seed of the sample poses and of forward kinematics. The answer depends on the seed and not on the
         /// number of threads.
         fn seed(seed: u64) = seed;
-    }
-
-    /// Sets the number of threads that solve samples.
-    #[must_use]
-    pub fn threads(mut self, threads: Threads) -> Self {
-        self.run.threads = threads;
-        self
-    }
-
-    /// Sets the cancellation of the comparison.
-    #[must_use]
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.run.cancel = cancel.clone();
-        self
-    }
-
-    /// Sets a function that sees each sample in order as soon as it is solved, and may end the comparison.
-    #[must_use]
-    pub fn on_sample(mut self, observe: impl FnMut(&Sample) -> ControlFlow<()> + 'a) -> Self {
-        self.on_sample = Some(Box::new(observe));
-        self
+        /// Sets the number of threads that solve samples.
+        fn threads(threads: Threads) run.threads = threads;
+        /// Sets the cancellation of the comparison.
+        fn cancel(cancel: &Cancel) run.cancel = cancel.clone();
+        /// Sets a function that sees each sample in order as soon as it is solved, and may end the comparison.
+        fn on_sample(observe: impl FnMut(&Sample) -> ControlFlow<()> + 'a) = Some(Box::new(observe));
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
+use crate::app::cli::args::choice;
 use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::rows;
 use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
@@ -35,11 +36,11 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "DEG", requires = "sigma_length", allow_hyphen_values = true)]
     sigma_rotation_deg: Option<f64>,
     /// Loss function; all except squares tolerate gross errors
-    #[arg(long, value_enum, default_value_t = LossArg::Squares)]
-    loss: LossArg,
+    #[arg(long, default_value = "squares", value_parser = choice(&Loss::ALL, Loss::name))]
+    loss: Loss,
     /// Unit rejected by the loss: a pose, or a leg length
-    #[arg(long, value_enum, default_value_t = UnitArg::Pose)]
-    loss_of: UnitArg,
+    #[arg(long, default_value = "pose", value_parser = choice(&LossUnit::ALL, LossUnit::name))]
+    loss_of: LossUnit,
     /// Frames of the joints: of the measurement, or fitted to the design
     #[arg(long, value_enum, default_value_t = FramesArg::Measured)]
     frames: FramesArg,
@@ -47,8 +48,8 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_enum, value_delimiter = ',')]
     hold: Vec<HeldArg>,
     /// Start of the fit: the design, a closed form, or the better of both
-    #[arg(long, value_enum, default_value_t = StartArg::Best)]
-    start: StartArg,
+    #[arg(long, default_value = "best", value_parser = choice(&StartChoice::ALL, StartChoice::name))]
+    start: StartChoice,
     /// Greatest standard deviation of an identified change, over the size of the design
     #[arg(long, value_name = "SHARE", default_value_t = 0.01, allow_hyphen_values = true)]
     identified: f64,
@@ -69,22 +70,6 @@ pub(crate) struct CalibrateArgs {
     convention: FrameArgs,
 }
 
-/// `--loss`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LossArg {
-    Squares,
-    Huber,
-    Cauchy,
-    Tukey,
-}
-
-/// `--loss-of`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum UnitArg {
-    Pose,
-    Leg,
-}
-
 /// `--frames`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum FramesArg {
@@ -100,14 +85,6 @@ enum HeldArg {
     Offsets,
 }
 
-/// `--start`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum StartArg {
-    Best,
-    Nominal,
-    ClosedForm,
-}
-
 const BAD_MEASUREMENTS: &str = "calibrate::bad_measurements";
 
 impl CalibrateArgs {
@@ -118,26 +95,14 @@ impl CalibrateArgs {
                 position: self.sigma_position.unwrap_or(0.0),
                 rotation: self.sigma_rotation_deg.unwrap_or(0.0).to_radians(),
             }),
-            loss: match self.loss {
-                LossArg::Squares => Loss::Squares,
-                LossArg::Huber => Loss::Huber,
-                LossArg::Cauchy => Loss::Cauchy,
-                LossArg::Tukey => Loss::Tukey,
-            },
-            loss_unit: match self.loss_of {
-                UnitArg::Pose => LossUnit::Pose,
-                UnitArg::Leg => LossUnit::Leg,
-            },
+            loss: self.loss,
+            loss_unit: self.loss_of,
             held: HeldParts {
                 base: self.hold.contains(&HeldArg::Base),
                 platform: self.hold.contains(&HeldArg::Platform),
                 offsets: self.hold.contains(&HeldArg::Offsets),
             },
-            start: match self.start {
-                StartArg::Best => StartChoice::Best,
-                StartArg::Nominal => StartChoice::Nominal,
-                StartArg::ClosedForm => StartChoice::ClosedForm,
-            },
+            start: self.start,
             identified: self.identified,
         }
     }
@@ -148,7 +113,7 @@ impl CalibrateArgs {
                 context.no_effect(option, "there are no measurements")?;
             }
         }
-        if self.loss == LossArg::Squares {
+        if self.loss == Loss::Squares {
             context.no_effect("loss_of", "the loss of squares rejects no measurement")?;
         }
         Ok(())

@@ -44,7 +44,6 @@ use clap::Subcommand;
 use super::context::Context;
 use super::failure::Failure;
 use super::output::Answer;
-use super::reference;
 
 /// The way from another design to commands for octahedral designs.
 const NEAREST: &str =
@@ -110,9 +109,6 @@ pub(crate) enum Command {
     /// Print completion scripts and write manual pages
     #[command(subcommand)]
     Shell(shell::ShellCommand),
-    /// Write the options of all commands into the manual
-    #[command(hide = true)]
-    Reference(reference::ReferenceArgs),
 }
 
 impl Command {
@@ -143,7 +139,6 @@ impl Command {
             Self::Report(args) => report::run(args, context),
             Self::Bench(args) => bench::run(args, context),
             Self::Shell(command) => command.run(),
-            Self::Reference(args) => reference::run(args),
         }
     }
 }

@@ -17,14 +17,15 @@ struct CommandGroup {
 }
 
 /// A command with its place in the help.
-pub(crate) struct GuideEntry {
+#[derive(Debug)]
+pub struct GuideEntry {
     /// The words after `equipod`.
-    pub(crate) path: &'static str,
+    pub path: &'static str,
     /// Command lines after `equipod` that work on the designs of the project; the help of the program and of the group
     /// shows the first one.
-    pub(crate) examples: &'static [&'static str],
+    pub examples: &'static [&'static str],
     /// Other words for the command; if they are typed, the command is suggested.
-    pub(crate) words: &'static [&'static str],
+    pub words: &'static [&'static str],
 }
 
 const fn entry(
@@ -324,12 +325,12 @@ const JOBS: [CommandGroup; 10] = [
 ];
 
 /// All commands, in the order of the help.
-pub(crate) fn entries() -> impl Iterator<Item = &'static GuideEntry> {
+pub fn entries() -> impl Iterator<Item = &'static GuideEntry> {
     JOBS.iter().flat_map(|job| job.commands)
 }
 
 /// The definition of the program with the examples and the order of this guide.
-pub(crate) fn program() -> Command {
+pub fn program() -> Command {
     let mut program = Cli::command();
     for entry in entries() {
         program = with_examples(program, &entry.path.split(' ').collect::<Vec<_>>(), entry.examples);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 
 fn leaves(command: &Command, path: &str, out: &mut Vec<String>) {
-    for c in command.get_subcommands().filter(|c| !c.is_hide_set()) {
+    for c in command.get_subcommands() {
         let path = format!("{path} {}", c.get_name());
         if c.has_subcommands() {
             leaves(c, &path, out);

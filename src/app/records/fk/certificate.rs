@@ -151,15 +151,30 @@ impl From<&OctahedralCertificate> for CertificateRecord {
     }
 }
 
-/// Discs that contain the entries of R and p of a root.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct EnclosureRecord {
-    /// Rotation matrix entries, rows.
-    #[serde(rename = "R")]
-    pub rotation: DiscsRecord<[[Number; 3]; 3]>,
-    /// Position entries, design units.
-    #[serde(rename = "p")]
-    pub position: DiscsRecord<[Number; 3]>,
+view! {
+    /// Discs that contain the entries of R and p of a root.
+    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    pub struct EnclosureRecord {
+        /// Rotation matrix entries, rows.
+        #[serde(rename = "R")]
+        pub rotation: DiscsRecord<[[Number; 3]; 3]> = DiscsRecord {
+            re: rows(|d| d.centre.re),
+            im: rows(|d| d.centre.im),
+            radius: rows(|d| d.radius),
+        },
+        /// Position entries, design units.
+        #[serde(rename = "p")]
+        pub position: DiscsRecord<[Number; 3]> = DiscsRecord {
+            re: three(|d| d.centre.re),
+            im: three(|d| d.centre.im),
+            radius: three(|d| d.radius),
+        },
+    }
+    impl From(e: &PoseEnclosure) {
+        let rows =
+            |of: fn(&Disc) -> f64| e.rotation.each_ref().map(|row| row.each_ref().map(|d| Number(of(d))));
+        let three = |of: fn(&Disc) -> f64| e.position.each_ref().map(|d| Number(of(d)));
+    }
 }
 
 /// Discs in the complex plane, in some arrangement.
@@ -171,24 +186,4 @@ pub struct DiscsRecord<T> {
     pub im: T,
     /// Radii.
     pub radius: T,
-}
-
-impl From<&PoseEnclosure> for EnclosureRecord {
-    fn from(e: &PoseEnclosure) -> Self {
-        let rows =
-            |of: fn(&Disc) -> f64| e.rotation.each_ref().map(|row| row.each_ref().map(|d| Number(of(d))));
-        let three = |of: fn(&Disc) -> f64| e.position.each_ref().map(|d| Number(of(d)));
-        Self {
-            rotation: DiscsRecord {
-                re: rows(|d| d.centre.re),
-                im: rows(|d| d.centre.im),
-                radius: rows(|d| d.radius),
-            },
-            position: DiscsRecord {
-                re: three(|d| d.centre.re),
-                im: three(|d| d.centre.im),
-                radius: three(|d| d.radius),
-            },
-        }
-    }
 }

@@ -6,28 +6,31 @@ use serde::{Deserialize, Serialize};
 use fk::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
 use fk::{Completeness, FkSolutions};
 
-/// The finite poses of the design, counted without finding them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PoseCountRecord {
-    /// Number of poses with multiplicity; null: not finite, or undecided.
-    pub finite: Option<usize>,
-    /// Number of standard monomials by degree.
-    pub by_degree: Option<Vec<usize>>,
-    /// Dimension of a positive-dimensional set.
-    pub dimension: Option<usize>,
-    /// Degree of a positive-dimensional set, in the 16 coordinates of a pose, with multiplicity.
-    pub degree: Option<usize>,
-    /// Reason for no count.
-    pub undecided: Option<CountUndecided>,
-    /// The counted lengths: the exact ones given, or generic ones, which have at least as many isolated poses. Lengths
-    /// known only to rounding, such as images under a leg map, are counted as generic.
-    pub lengths: CountedLengths,
-    /// The evidence for the count: a theorem with certificates, or counting modulo random primes.
-    pub evidence: EvidenceWord,
-    /// Bound on the probability of a wrong count; null: proved, or undecided.
-    pub error_probability: Option<f64>,
-    /// The primes in decimal, as text: they have more digits than a double.
-    pub primes: Vec<String>,
+view! {
+    /// The finite poses of the design, counted without finding them.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct PoseCountRecord {
+        /// Number of poses with multiplicity; null: not finite, or undecided.
+        pub finite: Option<usize> = None,
+        /// Number of standard monomials by degree.
+        pub by_degree: Option<Vec<usize>> = None,
+        /// Dimension of a positive-dimensional set.
+        pub dimension: Option<usize> = None,
+        /// Degree of a positive-dimensional set, in the 16 coordinates of a pose, with multiplicity.
+        pub degree: Option<usize> = None,
+        /// Reason for no count.
+        pub undecided: Option<CountUndecided> = None,
+        /// The counted lengths: the exact ones given, or generic ones, which have at least as many isolated poses.
+        /// Lengths known only to rounding, such as images under a leg map, are counted as generic.
+        pub lengths: CountedLengths = CountedLengths::Given,
+        /// The evidence for the count: a theorem with certificates, or counting modulo random primes.
+        pub evidence: EvidenceWord = evidence,
+        /// Bound on the probability of a wrong count; null: proved, or undecided.
+        pub error_probability: Option<f64> = None,
+        /// The primes in decimal, as text: they have more digits than a double.
+        pub primes: Vec<String> = Vec::new(),
+    }
+    fn without(evidence: EvidenceWord) {}
 }
 
 /// The evidence for a count.
@@ -46,20 +49,6 @@ impl PoseCountRecord {
             Some(count) => Some(count.into()),
             None => matches!(s.completeness, Completeness::Proved { .. })
                 .then(|| Self { finite: Some(s.certified_count()), ..Self::without(EvidenceWord::Proved) }),
-        }
-    }
-
-    fn without(evidence: EvidenceWord) -> Self {
-        Self {
-            finite: None,
-            by_degree: None,
-            dimension: None,
-            degree: None,
-            undecided: None,
-            lengths: CountedLengths::Given,
-            evidence,
-            error_probability: None,
-            primes: Vec::new(),
         }
     }
 }

@@ -7,38 +7,30 @@ use super::platform::ZONES;
 use crate::Number;
 use optimize::offsets::{BranchReport, BranchVerdict, BranchWord, Conflict};
 
-/// A branch: one zone for each offset.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BranchRecord {
-    /// Zone of each offset: before, inside or beyond its edge.
-    #[schemars(extend("pattern" = ZONES))]
-    pub branch: String,
-    /// Outcome.
-    pub verdict: BranchWord,
-    /// The best objective of the branch, if it is dominated.
-    pub objective: Option<Number>,
-    /// The offsets with this objective.
-    pub offsets: Option<[Number; 6]>,
-    /// Number of searched parts.
-    pub cells: usize,
-    /// Proved conflicts.
-    pub conflicts: Vec<BranchConflictRecord>,
-}
-
-impl From<&BranchReport> for BranchRecord {
-    fn from(b: &BranchReport) -> Self {
+view! {
+    /// A branch: one zone for each offset.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct BranchRecord {
+        /// Zone of each offset: before, inside or beyond its edge.
+        #[schemars(extend("pattern" = ZONES))]
+        pub branch: String = b.branch.to_string(),
+        /// Outcome.
+        pub verdict: BranchWord = b.verdict.word(),
+        /// The best objective of the branch, if it is dominated.
+        pub objective: Option<Number> = own.map(|o| Number(o.0)),
+        /// The offsets with this objective.
+        pub offsets: Option<[Number; 6]> = own.map(|o| o.1.map(Number)),
+        /// Number of searched parts.
+        pub cells: usize = b.cells,
+        /// Proved conflicts.
+        pub conflicts: Vec<BranchConflictRecord> =
+            b.conflicts.iter().map(BranchConflictRecord::from).collect(),
+    }
+    impl From(b: &BranchReport) {
         let own = match &b.verdict {
             BranchVerdict::Dominated { value, offsets, .. } => Some((*value, *offsets)),
             _ => None,
         };
-        Self {
-            branch: b.branch.to_string(),
-            verdict: b.verdict.word(),
-            objective: own.map(|o| Number(o.0)),
-            offsets: own.map(|o| o.1.map(Number)),
-            cells: b.cells,
-            conflicts: b.conflicts.iter().map(BranchConflictRecord::from).collect(),
-        }
     }
 }
 

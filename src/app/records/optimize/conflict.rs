@@ -10,15 +10,20 @@ use machine::requirements::{Objective, TermKind};
 use optimize::dimensional::{ConstraintConflict, Demand, Give};
 use optimize::offsets::{BranchWord, Conflict};
 
-/// A conflict: a set of requirements that cannot be met together; without any one of them the others were met.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ConflictRecord {
-    /// Whether the conflict is proved.
-    pub proved: bool,
-    /// The requirements in conflict, with the amounts to relax. Empty: the branches are empty for different reasons.
-    pub requirements: Vec<GiveRecord>,
-    /// Reasons for empty branches, by kind; empty: the search has no branches.
-    pub reasons: Vec<ConflictReasonRecord>,
+view! {
+    /// A conflict: a set of requirements that cannot be met together; without any one of them the others were met.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct ConflictRecord {
+        /// Whether the conflict is proved.
+        pub proved: bool = c.proved,
+        /// The requirements in conflict, with the amounts to relax. Empty: the branches are empty for different
+        /// reasons.
+        pub requirements: Vec<GiveRecord> = c.demands.iter().map(|g| GiveRecord::new(design, g)).collect(),
+        /// Reasons for empty branches, by kind; empty: the search has no branches.
+        pub reasons: Vec<ConflictReasonRecord> = Vec::new(),
+    }
+    /// The record of a conflict in a design.
+    pub fn new(design: &Design, c: &ConstraintConflict) {}
 }
 
 /// A kind of proof that branches of the offsets are empty.
@@ -34,16 +39,6 @@ pub struct ConflictReasonRecord {
 }
 
 impl ConflictRecord {
-    /// The record of a conflict in a design.
-    #[must_use]
-    pub fn new(design: &Design, c: &ConstraintConflict) -> Self {
-        Self {
-            proved: c.proved,
-            requirements: c.demands.iter().map(|g| GiveRecord::new(design, g)).collect(),
-            reasons: Vec::new(),
-        }
-    }
-
     /// The reasons why all branches are empty.
     pub(super) fn of_branches(branches: &[BranchRecord]) -> Self {
         Self { proved: true, requirements: Vec::new(), reasons: ConflictReasonRecord::all(branches) }
@@ -69,36 +64,28 @@ impl ConflictReasonRecord {
     }
 }
 
-/// A requirement of a conflict.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GiveRecord {
-    /// The requirement.
-    pub name: DemandWord,
-    /// Unit.
-    pub unit: String,
-    /// Relaxation that suffices alone; null: no amount suffices.
-    pub alone: Option<Number>,
-    /// Relaxation if all give way together; the sum of these amounts, each in its scale, is least.
-    pub together: Number,
-    /// Relaxation in words.
-    pub message: String,
-}
-
-impl GiveRecord {
-    fn new(design: &Design, g: &Give) -> Self {
+view! {
+    /// A requirement of a conflict.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct GiveRecord {
+        /// The requirement.
+        pub name: DemandWord = g.demand.into(),
+        /// Unit.
+        pub unit: String = unit,
+        /// Relaxation that suffices alone; null: no amount suffices.
+        pub alone: Option<Number> = g.alone.map(Number),
+        /// Relaxation if all give way together; the sum of these amounts, each in its scale, is least.
+        pub together: Number = Number(g.together),
+        /// Relaxation in words.
+        pub message: String = message,
+    }
+    fn new(design: &Design, g: &Give) {
         let (what, unit) = words(design, g.demand);
         let message = match g.alone {
             Some(x) if x > 0.0 => format!("{what}: relax it by {} {unit}", amount(x)).trim_end().to_string(),
             Some(_) => format!("{what}: relax it by less than the tolerance of the search"),
             None => format!("{what}: relaxing it alone does not resolve the conflict"),
         };
-        Self {
-            name: g.demand.into(),
-            unit,
-            alone: g.alone.map(Number),
-            together: Number(g.together),
-            message,
-        }
     }
 }
 

@@ -10,21 +10,43 @@ use machine::requirements::TermKind;
 use num::shown::rounded;
 use optimize::dimensional::DimensionalOutcome;
 
-/// The search over the drives of a table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DriveSearchRecord {
-    /// Drive of the answer; null: no drive leads to a platform that is proved to meet the requirements.
-    pub chosen: Option<String>,
-    /// Criterion of the choice.
-    pub ranked_by: DriveRanking,
-    /// Currency of prices; null: the table names none.
-    pub currency: Option<String>,
-    /// Whether the search was interrupted.
-    pub interrupted: bool,
-    /// Result in words.
-    pub message: String,
-    /// Drives, best first.
-    pub drives: Vec<SearchedDriveRecord>,
+view! {
+    /// The search over the drives of a table.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct DriveSearchRecord {
+        /// Drive of the answer; null: no drive leads to a platform that is proved to meet the requirements.
+        pub chosen: Option<String> = chosen.map(str::to_owned),
+        /// Criterion of the choice.
+        pub ranked_by: DriveRanking = search.ranking,
+        /// Currency of prices; null: the table names none.
+        pub currency: Option<String> = search.currency.clone(),
+        /// Whether the search was interrupted.
+        pub interrupted: bool = search.interrupted,
+        /// Result in words.
+        pub message: String = message,
+        /// Drives, best first.
+        pub drives: Vec<SearchedDriveRecord> = drives,
+    }
+    /// The record of a search over a table.
+    pub fn new(search: &DriveSearch) {
+        let chosen = search.chosen().map(|d| d.name.as_str());
+        let one = |d: &SearchedDrive| SearchedDriveRecord::new(d, chosen, search.ranking);
+        let drives: Vec<SearchedDriveRecord> = search.drives.iter().map(one).collect();
+        let how = match search.ranking {
+            DriveRanking::Price => "the cheapest drive with which the requirements are met",
+            DriveRanking::Objective => {
+                "the drive with the best first objective among those that meet the requirements (not every drive has a price)"
+            }
+        };
+        let ended = if search.interrupted { "; the search was interrupted" } else { "" };
+        let message = match chosen {
+            Some(name) => format!("{name} is {how}{ended}"),
+            None => format!(
+                "no platform found with any of {} drives is proved to meet the requirements{ended}",
+                drives.len()
+            ),
+        };
+    }
 }
 
 /// A drive of the table in the units of the design, with its search result.
@@ -202,37 +224,5 @@ impl SearchedDriveRecord {
             }
         }
         out
-    }
-}
-
-impl DriveSearchRecord {
-    /// The record of a search over a table.
-    #[must_use]
-    pub fn new(search: &DriveSearch) -> Self {
-        let chosen = search.chosen().map(|d| d.name.as_str());
-        let one = |d: &SearchedDrive| SearchedDriveRecord::new(d, chosen, search.ranking);
-        let drives: Vec<SearchedDriveRecord> = search.drives.iter().map(one).collect();
-        let how = match search.ranking {
-            DriveRanking::Price => "the cheapest drive with which the requirements are met",
-            DriveRanking::Objective => {
-                "the drive with the best first objective among those that meet the requirements (not every drive has a price)"
-            }
-        };
-        let ended = if search.interrupted { "; the search was interrupted" } else { "" };
-        let message = match chosen {
-            Some(name) => format!("{name} is {how}{ended}"),
-            None => format!(
-                "no platform found with any of {} drives is proved to meet the requirements{ended}",
-                drives.len()
-            ),
-        };
-        Self {
-            chosen: chosen.map(str::to_owned),
-            ranked_by: search.ranking,
-            currency: search.currency.clone(),
-            interrupted: search.interrupted,
-            message,
-            drives,
-        }
     }
 }

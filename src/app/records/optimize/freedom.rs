@@ -8,46 +8,34 @@ use ask::Design;
 use ask::{ConflictFreedom, FreedomWord, OpenedFreedom, RelaxedRequirement};
 use optimize::offsets::DEFAULT_MIN_ABS_DET;
 
-/// A freedom that the design does not allow, and the result of the search with it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FreedomRecord {
-    /// The freedom.
-    pub freedom: ConflictFreedom,
-    /// The outcome of the search.
-    pub outcome: FreedomWord,
-    /// Relaxation of the limit in the last search, or by which the platform found is higher; null: no such number.
-    pub amount: Option<Number>,
-    /// Unit.
-    pub unit: String,
-    /// Result in words.
-    pub message: String,
-    /// Result of `assess`; null: none was found.
-    pub assessment: Option<AssessAnswer>,
-    /// The platform found, with the relaxed limit; null: none was found.
-    pub design: Option<DesignRecord>,
-    /// The design file written; null: none.
-    pub output: Option<String>,
-}
-
-impl FreedomRecord {
+view! {
+    /// A freedom that the design does not allow, and the result of the search with it.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct FreedomRecord {
+        /// The freedom.
+        pub freedom: ConflictFreedom = opened.freedom,
+        /// The outcome of the search.
+        pub outcome: FreedomWord = outcome,
+        /// Relaxation of the limit in the last search, or by which the platform found is higher; null: no such number.
+        pub amount: Option<Number> = opened.amount.map(Number),
+        /// Unit.
+        pub unit: String = design.units.clone(),
+        /// Result in words.
+        pub message: String = message(design, opened, outcome),
+        /// Result of `assess`; null: none was found.
+        pub assessment: Option<AssessAnswer> = found.and_then(|c| {
+            c.assessed
+                .as_ref()
+                .map(|a| AssessAnswer::new(&c.design, a).with_role(DesignRoleWord::Optimised))
+        }),
+        /// The platform found, with the relaxed limit; null: none was found.
+        pub design: Option<DesignRecord> = found.map(|c| (&c.design).into()),
+        /// The design file written; null: none.
+        pub output: Option<String> = output.map(str::to_owned),
+    }
     /// The record of a freedom of a design.
-    #[must_use]
-    pub fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) -> Self {
+    pub fn new(design: &Design, opened: &OpenedFreedom, output: Option<&str>) {
         let (outcome, found) = (opened.outcome.word(), opened.outcome.found());
-        Self {
-            freedom: opened.freedom,
-            outcome,
-            amount: opened.amount.map(Number),
-            unit: design.units.clone(),
-            message: message(design, opened, outcome),
-            assessment: found.and_then(|c| {
-                c.assessed
-                    .as_ref()
-                    .map(|a| AssessAnswer::new(&c.design, a).with_role(DesignRoleWord::Optimised))
-            }),
-            design: found.map(|c| (&c.design).into()),
-            output: output.map(str::to_owned),
-        }
     }
 }
 

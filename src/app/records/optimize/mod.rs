@@ -38,53 +38,57 @@ const SIZES: &str = "no leg of the design can be replaced without another kinema
 /// Number of runners-up listed.
 const RUNNERS_UP: usize = 5;
 
-/// The answer of `optimize`. Every field is present for every search; null: it does not apply, or nothing is known.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OptimizeAnswer {
-    /// The status of the search.
-    pub status: OptimizeStatus,
-    /// The evidence of optimality; null: none, or there is no platform.
-    pub optimality: Option<OptimalityWord>,
-    /// The best platform found; all its fields are null if there is none, or if the answer is a Pareto front.
-    #[serde(flatten)]
-    pub platform: FoundPlatformRecord,
-    /// The platform as a design; null: there is none.
-    pub design: Option<DesignRecord>,
-    /// The file written, with the best platform or the one with the least violation.
-    pub output: Option<String>,
-    /// Platform with the least violation; null: a platform meets the requirements.
-    pub nearest: Option<Box<NearestPlatformRecord>>,
-    /// The requirements in conflict; null: no conflict is known.
-    pub conflict: Option<ConflictRecord>,
-    /// Reason for no decision, one sentence; null: it decided, or nothing failed.
-    pub failure: Option<String>,
-    /// The searches with other freedoms, symmetry and drives.
-    #[serde(flatten)]
-    pub beside: SearchesBesideRecord,
-    /// Other local optima that meet the requirements, best first; null: not requested.
-    pub candidates: Option<Vec<OptimumRecord>>,
-    /// Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling gain
-    /// of the first objective; null in other modes.
-    pub front: Option<Vec<FrontMemberRecord>>,
-    /// Reason for choosing sizes and home height, one sentence. Null: the variables come from the design or are the
-    /// usual ones.
-    pub choice: Option<String>,
-    /// Limits of the search.
-    pub limits: SearchLimitsRecord,
-    /// The poses required.
-    pub region: PoseRegionRecord,
-    /// Search statistics.
-    pub search: SearchRecord,
-    /// Upper bound on the objective at the poses held; null: not proved, or there is no solution.
-    pub global_bound: Option<GlobalBound>,
-    /// Greatest gap that counts as optimal; null: the search proves no bound.
-    pub tolerance: Option<f64>,
-    /// Branches by outcome; null: the search has none.
-    pub branch_counts: Option<BranchCounts>,
-    /// The best other branches.
-    pub runners_up: Option<Vec<BranchRecord>>,
-    /// All branches.
-    pub branches: Option<Vec<BranchRecord>>,
+view! {
+    /// The answer of `optimize`. Every field is present for every search; null: it does not apply, or nothing is known.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct OptimizeAnswer {
+        /// The status of the search.
+        pub status: OptimizeStatus = status,
+        /// The evidence of optimality; null: none, or there is no platform.
+        pub optimality: Option<OptimalityWord> = None,
+        /// The best platform found; all its fields are null if there is none, or if the answer is a Pareto front.
+        #[serde(flatten)]
+        pub platform: FoundPlatformRecord = FoundPlatformRecord::default(),
+        /// The platform as a design; null: there is none.
+        pub design: Option<DesignRecord> = None,
+        /// The file written, with the best platform or the one with the least violation.
+        pub output: Option<String> = None,
+        /// Platform with the least violation; null: a platform meets the requirements.
+        pub nearest: Option<Box<NearestPlatformRecord>> = None,
+        /// The requirements in conflict; null: no conflict is known.
+        pub conflict: Option<ConflictRecord> = None,
+        /// Reason for no decision, one sentence; null: it decided, or nothing failed.
+        pub failure: Option<String> = None,
+        /// The searches with other freedoms, symmetry and drives.
+        #[serde(flatten)]
+        pub beside: SearchesBesideRecord = SearchesBesideRecord::default(),
+        /// Other local optima that meet the requirements, best first; null: not requested.
+        pub candidates: Option<Vec<OptimumRecord>> = None,
+        /// Pareto front with mode = "pareto": no platform is better than another in every objective. Sorted by falling
+        /// gain of the first objective; null in other modes.
+        pub front: Option<Vec<FrontMemberRecord>> = None,
+        /// Reason for choosing sizes and home height, one sentence. Null: the variables come from the design or are the
+        /// usual ones.
+        pub choice: Option<String> = None,
+        /// Limits of the search.
+        pub limits: SearchLimitsRecord = limits,
+        /// The poses required.
+        pub region: PoseRegionRecord = design.into(),
+        /// Search statistics.
+        pub search: SearchRecord = search,
+        /// Upper bound on the objective at the poses held; null: not proved, or there is no solution.
+        pub global_bound: Option<GlobalBound> = None,
+        /// Greatest gap that counts as optimal; null: the search proves no bound.
+        pub tolerance: Option<f64> = None,
+        /// Branches by outcome; null: the search has none.
+        pub branch_counts: Option<BranchCounts> = None,
+        /// The best other branches.
+        pub runners_up: Option<Vec<BranchRecord>> = None,
+        /// All branches.
+        pub branches: Option<Vec<BranchRecord>> = None,
+    }
+    /// An answer without a platform, with the fields that every search fills.
+    fn none(design: &Design, status: OptimizeStatus, limits: SearchLimitsRecord, search: SearchRecord) {}
 }
 
 /// The results of the searches beside the one for the platform.
@@ -121,64 +125,46 @@ pub enum SearchMethodWord {
     Dimensional,
 }
 
-/// Statistics of a search.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SearchRecord {
-    /// The search method.
-    pub method: SearchMethodWord,
-    /// Number of starts; null: the search begins in the branches.
-    pub starts: Option<usize>,
-    /// Number of starts with a feasible result.
-    pub feasible: Option<usize>,
-    /// Gains of polished runs; null in the list: not feasible.
-    pub polished: Option<Vec<Option<Number>>>,
-    /// Number of runs on a Pareto front dominated by others; null: no front.
-    pub dominated: Option<usize>,
-    /// Number of bounds of a Pareto front that no run met; null: no front.
-    pub unmet: Option<usize>,
-    /// Number of conic programs solved by clarabel; searches with other drives and for freedoms are not counted.
-    pub conic_programs: u64,
-}
-
-impl SearchRecord {
-    fn of(method: SearchMethodWord, conic_programs: u64) -> Self {
-        Self {
-            method,
-            starts: None,
-            feasible: None,
-            polished: None,
-            dominated: None,
-            unmet: None,
-            conic_programs,
-        }
+view! {
+    /// Statistics of a search.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct SearchRecord {
+        /// The search method.
+        pub method: SearchMethodWord = method,
+        /// Number of starts; null: the search begins in the branches.
+        pub starts: Option<usize> = None,
+        /// Number of starts with a feasible result.
+        pub feasible: Option<usize> = None,
+        /// Gains of polished runs; null in the list: not feasible.
+        pub polished: Option<Vec<Option<Number>>> = None,
+        /// Number of runs on a Pareto front dominated by others; null: no front.
+        pub dominated: Option<usize> = None,
+        /// Number of bounds of a Pareto front that no run met; null: no front.
+        pub unmet: Option<usize> = None,
+        /// Number of conic programs solved by clarabel; searches with other drives and for freedoms are not counted.
+        pub conic_programs: u64 = conic_programs,
     }
+    fn of(method: SearchMethodWord, conic_programs: u64) {}
 }
 
-/// Limits of a search beside the requirements of the design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SearchLimitsRecord {
-    /// Least distance of joint centres of a body, design units; null: none.
-    pub min_joint_distance: Option<f64>,
-    /// Least |det A| of equivalent platforms.
-    pub min_abs_det: f64,
-    /// The characteristic length, by which moments in the Jacobian are divided, design units.
-    pub characteristic_length: f64,
-    /// Unit of lengths.
-    pub units: String,
+view! {
+    /// Limits of a search beside the requirements of the design.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct SearchLimitsRecord {
+        /// Least distance of joint centres of a body, design units; null: none.
+        pub min_joint_distance: Option<f64> = p.requirements.min_joint_distance,
+        /// Least |det A| of equivalent platforms.
+        pub min_abs_det: f64 = p.min_abs_det,
+        /// The characteristic length, by which moments in the Jacobian are divided, design units.
+        pub characteristic_length: f64 = p.characteristic_length,
+        /// Unit of lengths.
+        pub units: String = design.units.clone(),
+    }
+    /// The limits of a search under requirements.
+    pub fn new(design: &Design, p: &DimensionalProblem) {}
 }
 
 impl SearchLimitsRecord {
-    /// The limits of a search under requirements.
-    #[must_use]
-    pub fn new(design: &Design, p: &DimensionalProblem) -> Self {
-        Self {
-            min_joint_distance: p.requirements.min_joint_distance,
-            min_abs_det: p.min_abs_det,
-            characteristic_length: p.characteristic_length,
-            units: design.units.clone(),
-        }
-    }
-
     fn of_offsets(design: &Design, p: &OffsetProblem) -> Self {
         Self {
             min_joint_distance: Some(p.min_joint_distance),
@@ -189,25 +175,18 @@ impl SearchLimitsRecord {
     }
 }
 
-/// The poses that a design requires.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PoseRegionRecord {
-    /// The source of home.
-    pub home: SourceWord,
-    /// Home position of the starting design, base frame, design units.
-    pub home_position: [Number; 3],
-    /// Source of the workspace.
-    pub workspace: SourceWord,
-}
-
-impl From<&Design> for PoseRegionRecord {
-    fn from(design: &Design) -> Self {
-        Self {
-            home: SourceWord::given(design.home.is_some()),
-            home_position: <[f64; 3]>::from(design.home_or_default().position).map(Number),
-            workspace: SourceWord::given(!design.workspace.is_empty()),
-        }
+view! {
+    /// The poses that a design requires.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct PoseRegionRecord {
+        /// The source of home.
+        pub home: SourceWord = SourceWord::given(design.home.is_some()),
+        /// Home position of the starting design, base frame, design units.
+        pub home_position: [Number; 3] = <[f64; 3]>::from(design.home_or_default().position).map(Number),
+        /// Source of the workspace.
+        pub workspace: SourceWord = SourceWord::given(!design.workspace.is_empty()),
     }
+    impl From(design: &Design) {}
 }
 
 /// Files in which platforms of an answer were written.
@@ -247,37 +226,6 @@ impl OptimizeAnswer {
             candidates: r.candidates.as_ref().map(|list| candidates(r, list, &written.candidates)),
             choice: r.chooses_sizes.then(|| SIZES.to_owned()),
             ..found
-        }
-    }
-
-    /// An answer without a platform, with the fields that every search fills.
-    fn none(
-        design: &Design,
-        status: OptimizeStatus,
-        limits: SearchLimitsRecord,
-        search: SearchRecord,
-    ) -> Self {
-        Self {
-            status,
-            optimality: None,
-            platform: FoundPlatformRecord::default(),
-            design: None,
-            output: None,
-            nearest: None,
-            conflict: None,
-            failure: None,
-            beside: SearchesBesideRecord::default(),
-            candidates: None,
-            front: None,
-            choice: None,
-            limits,
-            region: design.into(),
-            search,
-            global_bound: None,
-            tolerance: None,
-            branch_counts: None,
-            runners_up: None,
-            branches: None,
         }
     }
 

@@ -215,60 +215,41 @@ pub struct SearchMarginsRecord {
     pub bounds: Number,
 }
 
-/// A local optimum other than the best one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OptimumRecord {
-    /// All objectives.
-    pub objectives: Vec<ObjectiveRecord>,
-    /// The chosen variables, without axes.
-    pub variables: Vec<ChosenVariable>,
-    /// Whether all requirements are proved; null: some are unproved.
-    pub requirements_met: Option<bool>,
-    /// The result of `assess`; null: the design has no requirements.
-    pub assessment: Option<AssessAnswer>,
-    /// The platform.
-    pub design: DesignRecord,
-    /// The design file written; null: none.
-    pub output: Option<String>,
-}
-
-impl OptimumRecord {
+view! {
+    /// A local optimum other than the best one.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct OptimumRecord {
+        /// All objectives.
+        pub objectives: Vec<ObjectiveRecord> = ObjectiveRecord::all(design, &s.objectives, c),
+        /// The chosen variables, without axes.
+        pub variables: Vec<ChosenVariable> = s.variables.clone(),
+        /// Whether all requirements are proved; null: some are unproved.
+        pub requirements_met: Option<bool> = c.met(),
+        /// The result of `assess`; null: the design has no requirements.
+        pub assessment: Option<AssessAnswer> = assessed_as(c, DesignRoleWord::Optimised),
+        /// The platform.
+        pub design: DesignRecord = (&c.design).into(),
+        /// The design file written; null: none.
+        pub output: Option<String> = output.map(str::to_owned),
+    }
     /// The record of a candidate for a design.
-    #[must_use]
-    pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked, output: Option<&str>) -> Self {
-        Self {
-            objectives: ObjectiveRecord::all(design, &s.objectives, c),
-            variables: s.variables.clone(),
-            requirements_met: c.met(),
-            assessment: assessed_as(c, DesignRoleWord::Optimised),
-            design: (&c.design).into(),
-            output: output.map(str::to_owned),
-        }
-    }
+    pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked, output: Option<&str>) {}
 }
 
-/// The platform with the least violation of its requirements.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct NearestPlatformRecord {
-    /// The chosen variables, without axes.
-    pub variables: Vec<ChosenVariable>,
-    /// Margins of requirements, over many poses and computed independently of the search.
-    pub constraint_margins: Vec<MarginRecord>,
-    /// The result of `assess`; null: the design has no requirements.
-    pub assessment: Option<AssessAnswer>,
-    /// The platform.
-    pub design: DesignRecord,
-}
-
-impl NearestPlatformRecord {
-    pub(super) fn new(s: &DimensionalSolution, c: &Checked) -> Self {
-        Self {
-            variables: s.variables.clone(),
-            constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
-            assessment: assessed_as(c, DesignRoleWord::Closest),
-            design: (&c.design).into(),
-        }
+view! {
+    /// The platform with the least violation of its requirements.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct NearestPlatformRecord {
+        /// The chosen variables, without axes.
+        pub variables: Vec<ChosenVariable> = s.variables.clone(),
+        /// Margins of requirements, over many poses and computed independently of the search.
+        pub constraint_margins: Vec<MarginRecord> = MarginRecord::searched(&c.design, &c.assessment),
+        /// The result of `assess`; null: the design has no requirements.
+        pub assessment: Option<AssessAnswer> = assessed_as(c, DesignRoleWord::Closest),
+        /// The platform.
+        pub design: DesignRecord = (&c.design).into(),
     }
+    pub(super) fn new(s: &DimensionalSolution, c: &Checked) {}
 }
 
 /// A member of a Pareto front.
@@ -320,25 +301,18 @@ pub struct JointAxesRecord {
     pub platform: Option<[[Number; 3]; 6]>,
 }
 
-/// A summary of a verification.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct VerifiedRecord {
-    /// The verdict.
-    pub verdict: VerdictWord,
-    /// The largest distance of matched poses.
-    pub worst_distance: Number,
-    /// Number of length sets; both designs were solved at each.
-    pub sample_count: usize,
-}
-
-impl From<&Verification> for VerifiedRecord {
-    fn from(v: &Verification) -> Self {
-        Self {
-            verdict: v.verdict.word(),
-            worst_distance: Number(v.worst_distance()),
-            sample_count: v.samples.len(),
-        }
+view! {
+    /// A summary of a verification.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+    pub struct VerifiedRecord {
+        /// The verdict.
+        pub verdict: VerdictWord = v.verdict.word(),
+        /// The largest distance of matched poses.
+        pub worst_distance: Number = Number(v.worst_distance()),
+        /// Number of length sets; both designs were solved at each.
+        pub sample_count: usize = v.samples.len(),
     }
+    impl From(v: &Verification) {}
 }
 
 /// The pose with the worst conditioning.

@@ -4,11 +4,9 @@ use super::map::leg_map;
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use ask::targets_in_words;
-use records::{
-    AssessAnswer, CandidateRecord, LegEndsRecord, LegMoveRecord, MoveSearchAnswer, MovesAnswer,
-    SingularParametersRecord,
-};
+use records::{AssessAnswer, CandidateRecord, LegEndsRecord, LegMoveRecord, MoveSearchAnswer, MovesAnswer};
 use synthesis::Relation;
+use synthesis::relocate::SingularParameters;
 
 /// The answer of `equivalents move`.
 #[must_use]
@@ -70,12 +68,10 @@ fn describe(out: &mut Sheet, number: &str, m: &LegMoveRecord) {
     );
     say!(out, "   from {}\n   to   {}", ends(&m.from), ends(&m.to));
     let singular = match &m.singular_parameters {
-        SingularParametersRecord::Everywhere(_) => "det A = 0 on the whole family".to_string(),
-        SingularParametersRecord::At(list) if list.is_empty() => {
-            "no singular point on the family".to_string()
-        }
-        SingularParametersRecord::At(list) => {
-            let list: Vec<String> = list.iter().map(|t| figure(t.0)).collect();
+        SingularParameters::Everywhere => "det A = 0 on the whole family".to_string(),
+        SingularParameters::At(list) if list.is_empty() => "no singular point on the family".to_string(),
+        SingularParameters::At(list) => {
+            let list: Vec<String> = list.iter().map(|t| figure(*t)).collect();
             format!("singular at t = {}", list.join(", "))
         }
     };

@@ -5,8 +5,8 @@ use super::verdict;
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
-    CalibratedPosesRecord, CorrelationsWord, JointBudgetRecord, Number, SolvedBudgetRecord, TolerancesAnswer,
-    TrialsRecord, WorkspaceWord,
+    CalibratedPosesRecord, CorrelationsWord, JointBudgetRecord, Number, SolvedBudgetRecord, SourceWord,
+    TolerancesAnswer, TrialsRecord,
 };
 
 /// The answer of `build tolerances` about a design of this name; `margins`: the place with the margins of the design.
@@ -27,7 +27,7 @@ pub fn tolerances(name: &str, r: &TolerancesAnswer, margins: &str) -> Sheet {
         figure(r.bound.position.0),
         figure(r.bound.rotation_deg.0),
         r.poses.count,
-        if r.poses.workspace == WorkspaceWord::Design { "design's" } else { "default" }
+        if r.poses.workspace == SourceWord::Design { "design's" } else { "default" }
     );
     say!(
         out,

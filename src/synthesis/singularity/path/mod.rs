@@ -23,8 +23,10 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use num::Rng;
 use num::interval::Interval;
+use num::vector::cross;
+use platform::geom::enclosed::IntervalVector;
 use platform::geom::{Pose, random_rotation};
-use platform::manipulator::{Manipulator, plucker_matrix};
+use platform::manipulator::{Leg, Manipulator, plucker_matrix};
 
 /// Greatest number of halvings before a piece stays open.
 const DEPTH: u32 = 40;
@@ -100,6 +102,11 @@ pub fn between(from: &Pose, to: &Pose, u: f64) -> Pose {
 #[must_use]
 pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
     signs(determinant(m, &Curve::straight(from, to)))
+}
+
+/// The proved sign of `det J` at a pose.
+pub(super) fn sign_at(m: &Manipulator, pose: &Pose) -> Option<Sign> {
+    signs_on_curve(m, &straight(pose, pose)[..1]).kept()
 }
 
 /// Position, then quaternion with the scalar part first, of any norm above zero.
@@ -208,15 +215,18 @@ fn scaled(x: &Form, factor: Interval) -> Form {
     x.iter().map(|a| *a * factor).collect()
 }
 
-/// Bernstein coefficients of `N^6 det J` on a path, up to the power of the size.
+/// Bernstein coefficients of `N^6 det J` on a path, up to a positive factor.
 fn determinant(m: &Manipulator, curve: &Curve) -> Vec<Interval> {
     let rows = rows(m, curve);
-    let minor = |r: usize, c: [usize; 3]| {
-        let part = |i: usize, j: usize, k: usize| {
-            let two =
-                minus(&times(&rows[r + 1][j], &rows[r + 2][k]), &times(&rows[r + 1][k], &rows[r + 2][j]));
-            times(&rows[r][i], &two)
+    // each minor of two rows is in four minors of three rows
+    let of_two_rows = [1, 4].map(|r| -> Vec<Form> {
+        let of_columns = |j: usize, k: usize| {
+            minus(&times(&rows[r][j], &rows[r + 1][k]), &times(&rows[r][k], &rows[r + 1][j]))
         };
+        (0..36).map(|at| if at / 6 < at % 6 { of_columns(at / 6, at % 6) } else { Form::new() }).collect()
+    });
+    let minor = |r: usize, c: [usize; 3]| {
+        let part = |i: usize, j: usize, k: usize| times(&rows[r][i], &of_two_rows[r / 3][6 * j + k]);
         plus(&minus(&part(c[0], c[1], c[2]), &part(c[1], c[0], c[2])), &part(c[2], c[0], c[1]))
     };
     let degree = DEGREE * curve.degree;
@@ -238,49 +248,73 @@ fn determinant(m: &Manipulator, curve: &Curve) -> Vec<Interval> {
     sum
 }
 
-/// Rows `N [n_i, a_i x n_i]`, about the mean base joint in units of the size.
+/// Rows `N [n_i, m_i]` in units of the size. The moments are about the mean joint of the smaller body and in units of
+/// its radius, so a small body is compared with itself. With the mean joints `o` and `c`,
+///
+/// ```text
+/// m = (a - o) x n                                    about the base,
+/// m = R (b - c) x (p - a) + R ((b - c) x c)          about the platform.
+/// ```
 fn rows(m: &Manipulator, curve: &Curve) -> Vec<[Form; 6]> {
-    let [mean, _] = m.mean_leg_ends();
-    let unit = Interval::from(m.size());
-    let place =
-        |x: Interval, origin: f64| (x - Interval::from(origin)).checked_div(unit).unwrap_or(Interval::WHOLE);
-    let e = &curve.quaternion;
-    let one = ones(curve.degree);
-    let squares = e.each_ref().map(|x| times(x, x));
-    let vector = plus(&plus(&squares[1], &squares[2]), &squares[3]);
-    let norm = plus(&squares[0], &vector);
+    let [o, c] = m.mean_leg_ends();
+    let radius = |mean: Vector3<f64>, end: fn(&Leg) -> Vector3<f64>| {
+        m.legs().iter().map(|leg| (end(leg) - mean).norm()).fold(0.0, f64::max)
+    };
+    let (base, platform) = (radius(o, |leg| leg.base.coords), radius(c, |leg| leg.platform.coords));
+    let (unit, small) = (Interval::from(1.0 / m.size()), Interval::from(1.0 / base.min(platform)));
+    let from_mean = |end: IntervalVector, mean: Vector3<f64>| -> IntervalVector {
+        std::array::from_fn(|k| (end[k] - Interval::from(mean[k])) * small)
+    };
+    let (one, turn) = (ones(curve.degree), turn(&curve.quaternion));
+    let squares = curve.quaternion.each_ref().map(|x| times(x, x));
+    let norm = plus(&plus(&squares[0], &squares[1]), &plus(&squares[2], &squares[3]));
     let row = |leg: usize| {
         let [a, b] = m.enclosed_ends(leg);
-        let base: [Interval; 3] = std::array::from_fn(|k| place(a[k], mean[k]));
-        let arm: [Interval; 3] = b.map(|x| place(x, 0.0));
-        let turned = turned(e, &minus(&squares[0], &vector), &arm);
-        let direction: [Form; 3] = std::array::from_fn(|k| {
-            let offset = Interval::from(mean[k]) + base[k] * unit;
-            let from_joint = minus(&curve.position[k], &scaled(&one, offset));
-            let line: Form =
-                from_joint.iter().map(|x| x.checked_div(unit).unwrap_or(Interval::WHOLE)).collect();
-            // the form of the rotation times the constant 1 in the degree of the path
-            plus(&times(&turned[k], &one), &times(&norm, &line))
-        });
-        let moment =
-            |i: usize, j: usize| minus(&scaled(&direction[j], base[i]), &scaled(&direction[i], base[j]));
-        let (x, y, z) = (moment(1, 2), moment(2, 0), moment(0, 1));
-        let [u, v, w] = direction;
+        // p - a
+        let shift: [Form; 3] =
+            std::array::from_fn(|k| scaled(&minus(&curve.position[k], &scaled(&one, a[k])), unit));
+        let arm = turned(&turn, &b.map(|x| x * unit));
+        let [u, v, w]: [Form; 3] =
+            std::array::from_fn(|k| plus(&times(&arm[k], &one), &times(&norm, &shift[k])));
+        let [x, y, z] = if platform < base {
+            let own = from_mean(b, c);
+            let across = turned(&turn, &cross(&own, &[c.x, c.y, c.z].map(|x| Interval::from(x) * unit)));
+            let moment = crossed(&turned(&turn, &own), &shift);
+            std::array::from_fn(|k| plus(&moment[k], &times(&across[k], &one)))
+        } else {
+            crossed(&from_mean(a, o).map(|x| vec![x]), &[&u, &v, &w].map(Form::clone))
+        };
         [u, v, w, x, y, z]
     };
     (0..6).map(row).collect()
 }
 
-/// `N R(e) b = (w^2 - v.v) b + 2 (v.b) v + 2 w v x b` with `e = (w, v)`.
-fn turned(e: &[Form; 4], difference: &Form, b: &[Interval; 3]) -> [Form; 3] {
-    let v = [&e[1], &e[2], &e[3]];
-    let along = plus(&plus(&scaled(v[0], b[0]), &scaled(v[1], b[1])), &scaled(v[2], b[2]));
-    let two = Interval::from(2.0);
+/// The rows of `N R(e)`.
+fn turn(e: &[Form; 4]) -> [[Form; 3]; 3] {
+    let product = |i: usize, j: usize| times(&e[i], &e[j]);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            if i == j {
+                let [k, l] = [(i + 1) % 3 + 1, (i + 2) % 3 + 1];
+                let own = plus(&product(0, 0), &product(i + 1, i + 1));
+                return minus(&own, &plus(&product(k, k), &product(l, l)));
+            }
+            let sum = if (i + 1) % 3 == j { minus } else { plus };
+            scaled(&sum(&product(i + 1, j + 1), &product(0, 4 - i - j)), Interval::from(2.0))
+        })
+    })
+}
+
+/// `N R(e) b`.
+fn turned(turn: &[[Form; 3]; 3], b: &IntervalVector) -> [Form; 3] {
+    turn.each_ref().map(|[x, y, z]| plus(&plus(&scaled(x, b[0]), &scaled(y, b[1])), &scaled(z, b[2])))
+}
+
+/// The cross product.
+fn crossed(x: &[Form; 3], y: &[Form; 3]) -> [Form; 3] {
     std::array::from_fn(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let cross = minus(&scaled(v[i], b[j]), &scaled(v[j], b[i]));
-        let rest = plus(&times(&along, v[k]), &times(&e[0], &cross));
-        plus(&scaled(difference, b[k]), &scaled(&rest, two))
+        minus(&times(&x[i], &y[j]), &times(&x[j], &y[i]))
     })
 }
 
@@ -381,7 +415,7 @@ pub struct Joined {
 /// Two poses in different regions of `det J != 0` are never joined, with any effort; two in one region may be missed.
 #[must_use]
 pub fn join(m: &Manipulator, poses: &[Pose], options: &JoinOptions) -> Joined {
-    let signs: Vec<Option<Sign>> = poses.iter().map(|p| signs_along(m, p, p).kept()).collect();
+    let signs: Vec<Option<Sign>> = poses.iter().map(|p| sign_at(m, p)).collect();
     let mut joined = Joined { signs, groups: Vec::new(), ways: Vec::new() };
     for sign in [Sign::Positive, Sign::Negative] {
         let members: Vec<usize> = (0..poses.len()).filter(|k| joined.signs[*k] == Some(sign)).collect();

@@ -4,13 +4,13 @@ mod general;
 mod octahedral;
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use thiserror::Error as ThisError;
 
 pub use self::general::{ExploredDesign, NEAREST_EXTENSION, nearest_options};
 pub use self::octahedral::{ExploreFinding, ExploredClass};
-use crate::optimizing::{EXTENSION, ends_of};
+use crate::optimizing::{EXTENSION, Watch, ends_of};
 use crate::{Design, Error, NoReplaceableLegs, OptimizeOptions, OptimizeProgress, SAMPLES};
 use files::design::DriveTable;
 use fk::{FkError, FkOptions, FkSolutions, PoseCounting};
@@ -31,42 +31,19 @@ pub enum ExploreProgress {
     Searched,
 }
 
-type OnProgress<'a> = Box<dyn FnMut(ExploreProgress) -> ControlFlow<()> + 'a>;
-
 /// Options of [`Design::explore`].
+#[derive(Debug)]
 pub struct ExploreOptions<'a> {
     seed: u64,
     samples: usize,
     extension: Option<f64>,
     drives: Option<&'a DriveTable>,
-    ends: Option<[Instant; 2]>,
-    cancel: Cancel,
-    on_progress: Option<OnProgress<'a>>,
-}
-
-impl std::fmt::Debug for ExploreOptions<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("ExploreOptions")
-            .field("seed", &self.seed)
-            .field("samples", &self.samples)
-            .field("extension", &self.extension)
-            .field("drives", &self.drives.map(|table| table.drives.len()))
-            .field("ends", &self.ends)
-            .finish_non_exhaustive()
-    }
+    watch: Watch<'a, ExploreProgress>,
 }
 
 impl Default for ExploreOptions<'_> {
     fn default() -> Self {
-        Self {
-            seed: 1,
-            samples: SAMPLES,
-            extension: None,
-            drives: None,
-            ends: None,
-            cancel: Cancel::new(),
-            on_progress: None,
-        }
+        Self { seed: 1, samples: SAMPLES, extension: None, drives: None, watch: Watch::default() }
     }
 }
 
@@ -88,23 +65,16 @@ impl<'a> ExploreOptions<'a> {
         /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
         fn drives(table: Option<&'a DriveTable>) = table;
         /// Sets the time limit from now on ([`OptimizeOptions::time_limit`]).
-        fn time_limit(limit: Option<Duration>) ends = limit.and_then(ends_of);
+        fn time_limit(limit: Option<Duration>) watch.ends = limit.and_then(ends_of);
         /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
-        fn cancel(cancel: &Cancel) = cancel.clone();
+        fn cancel(cancel: &Cancel) watch.cancel = cancel.clone();
         /// Sets a function that sees the progress, and may end the search for the best platform.
-        fn on_progress(observe: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) = Some(Box::new(observe));
-    }
-
-    fn flow(&mut self, progress: ExploreProgress) -> ControlFlow<()> {
-        if self.cancel.is_cancelled() {
-            return ControlFlow::Break(());
-        }
-        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
+        fn on_progress(observe: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) watch.on_progress = Some(Box::new(observe));
     }
 
     /// Every stage is run: only searches can be ended.
     fn stage(&mut self, number: usize, name: &'static str) {
-        let _ = self.flow(ExploreProgress::Stage(number, name));
+        let _ = self.watch.flow(ExploreProgress::Stage(number, name));
     }
 
     /// Options of forward kinematics.
@@ -114,21 +84,11 @@ impl<'a> ExploreOptions<'a> {
 
     /// Options of the search for the best platform.
     fn optimize(&mut self, explains: bool) -> OptimizeOptions<'_> {
-        let Self { seed, extension, drives, ends, cancel, on_progress, .. } = self;
-        let mut options = OptimizeOptions::new()
-            .seed(*seed)
-            .extension(extension.unwrap_or(EXTENSION))
-            .explains(explains)
-            .cancel(cancel)
-            .on_progress(|p| match on_progress {
-                Some(observe) => observe(ExploreProgress::Search(p)),
-                None => ControlFlow::Continue(()),
-            });
-        options.ends = *ends;
-        match drives {
-            Some(table) => options.drives(table),
-            None => options,
-        }
+        let extension = self.extension.unwrap_or(EXTENSION);
+        let mut options = OptimizeOptions::new().seed(self.seed).extension(extension).explains(explains);
+        options.drives = self.drives;
+        options.watch = self.watch.of_part(ExploreProgress::Search);
+        options
     }
 }
 

@@ -156,7 +156,7 @@ fn searched_carefully(
         None => found.design().is_some() && found.met() == Some(true),
         Some(_) => is_met(&holes),
     };
-    if keeps || options.flow(ExploreProgress::Searched).is_break() {
+    if keeps || options.watch.flow(ExploreProgress::Searched).is_break() {
         return Ok((found, holes, Some(true)));
     }
     let (found, holes) = searched(design, true, options)?;
@@ -172,7 +172,8 @@ fn searched(
     options: &mut ExploreOptions<'_>,
 ) -> Result<(OptimizeReport, OnHoles), NoExploration> {
     let (found, holes) = search_once(design, explains, options)?;
-    let is_last = holes.is_none() || is_met(&holes) || options.flow(ExploreProgress::Searched).is_break();
+    let is_last =
+        holes.is_none() || is_met(&holes) || options.watch.flow(ExploreProgress::Searched).is_break();
     if is_last || found.symmetry() != Some(StartSymmetry::Kept) {
         return Ok((found, holes));
     }
@@ -218,7 +219,7 @@ fn on_holes(
     };
     let search = options.optimize(true).search();
     let rounded = on_stated_holes(given, &grids, first, &search, &mut |p| {
-        options.flow(ExploreProgress::Search(OptimizeProgress::Dimensions(p)))
+        options.watch.flow(ExploreProgress::Search(OptimizeProgress::Dimensions(p)))
     });
     rounded.map(Some).map_err(NoExploration::Holes)
 }

@@ -76,9 +76,47 @@ pub(crate) fn ends_of(limit: Duration) -> Option<[Instant; 2]> {
     Some([now.checked_add(limit.saturating_sub(kept))?, now.checked_add(limit)?])
 }
 
-type OnProgress<'a> = Box<dyn FnMut(OptimizeProgress) -> ControlFlow<()> + 'a>;
+/// The caller of a search, who may end it and sees its progress.
+pub(crate) struct Watch<'a, P> {
+    /// The end of the search, and the end of the assessments of its results.
+    pub(crate) ends: Option<[Instant; 2]>,
+    pub(crate) cancel: Cancel,
+    pub(crate) on_progress: Option<Box<dyn FnMut(P) -> ControlFlow<()> + 'a>>,
+}
+
+impl<P> std::fmt::Debug for Watch<'_, P> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Watch").field("ends", &self.ends).finish_non_exhaustive()
+    }
+}
+
+impl<P> Default for Watch<'_, P> {
+    fn default() -> Self {
+        Self { ends: None, cancel: Cancel::new(), on_progress: None }
+    }
+}
+
+impl<P> Watch<'_, P> {
+    /// Tells the caller, and returns whether the search continues. The time limit is for the search to obey.
+    pub(crate) fn flow(&mut self, progress: P) -> ControlFlow<()> {
+        if self.cancel.is_cancelled() {
+            return ControlFlow::Break(());
+        }
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
+    }
+
+    /// The same caller for a part of the search.
+    pub(crate) fn of_part<Q: 'static>(&mut self, progress: fn(Q) -> P) -> Watch<'_, Q> {
+        Watch {
+            ends: self.ends,
+            cancel: self.cancel.clone(),
+            on_progress: Some(Box::new(move |part| self.flow(progress(part)))),
+        }
+    }
+}
 
 /// Options of [`Design::optimize_with`].
+#[derive(Debug)]
 #[allow(clippy::struct_excessive_bools, reason = "independent choices")]
 pub struct OptimizeOptions<'a> {
     seed: u64,
@@ -89,26 +127,8 @@ pub struct OptimizeOptions<'a> {
     candidates: bool,
     freedoms: bool,
     explains: bool,
-    drives: Option<&'a DriveTable>,
-    pub(crate) ends: Option<[Instant; 2]>,
-    cancel: Cancel,
-    on_progress: Option<OnProgress<'a>>,
-}
-
-impl std::fmt::Debug for OptimizeOptions<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("OptimizeOptions")
-            .field("seed", &self.seed)
-            .field("threads", &self.threads)
-            .field("extension", &self.extension)
-            .field("survey", &self.survey)
-            .field("gap", &self.gap)
-            .field("candidates", &self.candidates)
-            .field("freedoms", &self.freedoms)
-            .field("drives", &self.drives.map(|table| table.drives.len()))
-            .field("ends", &self.ends)
-            .finish_non_exhaustive()
-    }
+    pub(crate) drives: Option<&'a DriveTable>,
+    pub(crate) watch: Watch<'a, OptimizeProgress>,
 }
 
 impl Default for OptimizeOptions<'_> {
@@ -123,9 +143,7 @@ impl Default for OptimizeOptions<'_> {
             freedoms: true,
             explains: true,
             drives: None,
-            ends: None,
-            cancel: Cancel::new(),
-            on_progress: None,
+            watch: Watch::default(),
         }
     }
 }
@@ -164,27 +182,24 @@ impl<'a> OptimizeOptions<'a> {
     num::setters! {
         /// Sets the time limit from now on. The last quarter of the time, at most ten seconds, is for assessing the
         /// best result until then.
-        fn time_limit(limit: Option<Duration>) ends = limit.and_then(ends_of);
+        fn time_limit(limit: Option<Duration>) watch.ends = limit.and_then(ends_of);
         /// Sets whether a conflict is searched for if no platform meets the requirements.
         fn explains(explains: bool) = explains;
         /// Sets the cancellation of the search; the answer is then the best until then.
-        fn cancel(cancel: &Cancel) = cancel.clone();
+        fn cancel(cancel: &Cancel) watch.cancel = cancel.clone();
         /// Sets a function that sees the progress, and may end the search.
-        fn on_progress(observe: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) = Some(Box::new(observe));
+        fn on_progress(observe: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) watch.on_progress = Some(Box::new(observe));
     }
 
     fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
-        let late = self.ends.is_some_and(|[search, _]| Instant::now() >= search);
-        if late || self.cancel.is_cancelled() {
-            return ControlFlow::Break(());
-        }
-        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
+        let late = self.watch.ends.is_some_and(|[search, _]| Instant::now() >= search);
+        if late { ControlFlow::Break(()) } else { self.watch.flow(progress) }
     }
 
     /// The options of a search under requirements.
     pub fn search(&self) -> ShapeSearchOptions {
         let threads = self.threads.count(MOST_THREADS);
-        let until = self.ends.map(|[_, assessing]| assessing);
+        let until = self.watch.ends.map(|[_, assessing]| assessing);
         ShapeSearchOptions { seed: self.seed, threads, until, ..ShapeSearchOptions::default() }
     }
 }

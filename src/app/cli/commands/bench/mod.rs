@@ -2,13 +2,13 @@
 
 mod noise;
 
-use clap::ValueEnum;
+use clap::builder::PossibleValuesParser;
 
-use crate::app::cli::commands::fk::MethodArg;
+use crate::app::cli::args::choice;
 use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath};
 use ask::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
 use fk::{self, Homotopy};
-use records::{BenchAnswer, BenchClassRecord};
+use records::{BenchAnswer, BenchClassRecord, METHODS};
 
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]
@@ -29,11 +29,11 @@ pub(crate) struct BenchArgs {
     threads: u64,
     /// Method of solution; auto takes the best one for the design. sylvester and template also measure the candidates
     /// before refinement
-    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
-    method: MethodArg,
+    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(METHODS))]
+    method: String,
     /// Source of the lengths: uniform squares in [0.5, 3] (default where possible), or a random real pose
-    #[arg(long, value_enum, value_name = "SOURCE")]
-    lengths_from: Option<Source>,
+    #[arg(long, value_name = "SOURCE", value_parser = choice(&LengthsFrom::ALL, LengthsFrom::name))]
+    lengths_from: Option<LengthsFrom>,
     /// Round the joints to this number of decimals
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=17))]
     decimals: Option<u32>,
@@ -51,17 +51,10 @@ pub(crate) struct BenchArgs {
     svg: Option<OutputPath>,
 }
 
-/// `--lengths-from`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Source {
-    Pose,
-    Uniform,
-}
-
 /// Runs one class or several.
 pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Failure> {
     let classes = classes(&args.class)?;
-    let solver = fk::solver(args.method.method());
+    let solver = fk::solver(args.method.parse().ok());
     if args.noise {
         return noise::run(args, &classes, solver.as_ref(), context.seed());
     }
@@ -84,9 +77,8 @@ pub(crate) fn run(args: &BenchArgs, context: &mut Context) -> Result<Answer, Fai
         reports.push(report.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?);
     }
     let exit = if reports.iter().all(BenchReport::passed) { Exit::Yes } else { Exit::No };
-    let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
     let rows = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
-    let answer = BenchAnswer::new(&args.class, &name, rows, &references);
+    let answer = BenchAnswer::new(&args.class, &args.method, rows, &references);
     let sheet = sheet::answers::bench(&answer, context.seed());
     Ok(Answer::new(exit, answer, sheet))
 }
@@ -111,15 +103,14 @@ fn classes_named(name: &str) -> Result<Vec<Class>, Failure> {
         .with_help(format!("the classes are {}, all, T01 to T34, topologies", known.join(", "))))
 }
 
-fn lengths(asked: Option<Source>, class: Class) -> Result<LengthsFrom, Failure> {
+fn lengths(asked: Option<LengthsFrom>, class: Class) -> Result<LengthsFrom, Failure> {
     match asked {
-        Some(Source::Uniform) if !class.allows_uniform_lengths() => {
+        Some(LengthsFrom::Uniform) if !class.allows_uniform_lengths() => {
             let message = format!("the class {class} takes its lengths from real poses");
             Err(Failure::refused("bench::needs_pose", message).with_help("take --lengths-from pose"))
         }
-        Some(Source::Pose) => Ok(LengthsFrom::Pose),
         None if !class.allows_uniform_lengths() => Ok(LengthsFrom::Pose),
-        Some(Source::Uniform) | None => Ok(LengthsFrom::Uniform),
+        asked => Ok(asked.unwrap_or(LengthsFrom::Uniform)),
     }
 }
 
@@ -144,6 +135,9 @@ mod tests {
     fn uniform_lengths_are_for_the_classes_of_martyushev() {
         assert_eq!(lengths(None, Class::General).unwrap(), LengthsFrom::Uniform);
         assert_eq!(lengths(None, Class::Octahedral).unwrap(), LengthsFrom::Pose);
-        assert_eq!(lengths(Some(Source::Uniform), Class::Hexapod).unwrap_err().code, "bench::needs_pose");
+        assert_eq!(
+            lengths(Some(LengthsFrom::Uniform), Class::Hexapod).unwrap_err().code,
+            "bench::needs_pose"
+        );
     }
 }

@@ -64,11 +64,8 @@ pub(crate) fn run(args: &EquivalentsFamilyArgs, context: &mut Context) -> Result
     let mut answer = FamilyAnswer::new(&design.name, &original, &family, &members);
     let mut built = None;
     if let (Some(pattern), Some(offsets)) = (&pattern, &args.offsets) {
-        let (record, platform, found) = realise(args, pattern, &design, &original, offsets)?;
-        if args.explain {
-            answer.derivation = Some(explain(pattern, &original, &platform, context)?);
-        }
-        (answer.instance, built) = (Some(record), Some(found));
+        let (record, derivation, found) = realise(args, pattern, &design, &original, offsets, context)?;
+        (answer.instance, answer.derivation, built) = (Some(record), derivation, Some(found));
     }
     let mut sheet = Sheet::new();
     if let Some(map) = original.map.as_ref().filter(|map| map.relation == Relation::Undecided) {
@@ -141,7 +138,8 @@ fn realise(
     design: &Design,
     original: &Original,
     offsets: &[String],
-) -> Result<(InstanceRecord, Design, LegMapOutcome), Failure> {
+    context: &Context,
+) -> Result<(InstanceRecord, Option<DerivationRecord>, LegMapOutcome), Failure> {
     let refused = |e: &dyn std::fmt::Display| {
         Failure::refused("family::bad_offsets", e.to_string())
             .with_help("give one finite offset for each S of the pattern, separated by commas")
@@ -150,12 +148,18 @@ fn realise(
     let offsets: Vec<f64> = shares.iter().map(Share::nearest).collect();
     let (built, map) = original.equivalent_at(pattern, &shares).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, &offsets, &built, &map).map_err(|e| refused(&e))?;
-    let found = leg_map(design, &built)
-        .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?;
+    let (derivation, own_map) =
+        args.explain.then(|| explain(pattern, original, &built, context)).transpose()?.unzip();
+    // an octahedral design is its own original
+    let found = match own_map.filter(|_| original.map.is_none()) {
+        Some(map) => map,
+        None => leg_map(design, &built)
+            .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?,
+    };
     if let Some(path) = args.output.as_ref().filter(|_| found.is_regular_within_rounding()) {
         files::write_design(path, &built)?;
     }
-    Ok((record, built, found))
+    Ok((record, derivation, found))
 }
 
 /// The steps to the platform, and the forward kinematics of both platforms.
@@ -164,7 +168,7 @@ fn explain(
     original: &Original,
     built: &Design,
     context: &Context,
-) -> Result<DerivationRecord, Failure> {
+) -> Result<(DerivationRecord, LegMapOutcome), Failure> {
     let options = FkOptions::new().seed(context.seed());
     let found = DerivationRecord::compared(original, pattern, built, &options);
     let found = found.map_err(|e| failure_of(&e))?;

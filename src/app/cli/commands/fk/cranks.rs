@@ -77,7 +77,7 @@ pub(super) fn run(
                 "one set of angles is solved on one thread, the rows of a CSV file on many",
             )?;
         }
-        let method = args.method.method();
+        let method = args.method.parse().ok();
         let mut options = FkOptions::new().seed(machine.seed);
         options.method = method;
         let solve = |i: usize| machine.solve(&series.rows[i].value, &options);

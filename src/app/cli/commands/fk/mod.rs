@@ -11,7 +11,7 @@ mod tests;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::ValueEnum;
+use clap::builder::PossibleValuesParser;
 
 use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
@@ -23,7 +23,8 @@ use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::manipulator::{LegLengths, Manipulator};
 use records::{
-    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, METHODS, RowFailure,
+    SolvedRecord,
 };
 
 use self::csv::PoseTable;
@@ -43,8 +44,8 @@ pub(crate) struct FkArgs {
     #[arg(long, value_name = "A1,..,A6|FILE", allow_hyphen_values = true, conflicts_with = "lengths")]
     angles: Option<String>,
     /// Method of solution; auto takes the best one for the design
-    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
-    method: MethodArg,
+    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(METHODS))]
+    method: String,
     /// Show the closure polynomial in the squared distance of a base and a platform joint
     #[arg(long, value_name = "JOINT,JOINT", conflicts_with_all = ["near", "csv", "angles"])]
     between: Option<String>,
@@ -71,34 +72,9 @@ pub(crate) struct FkArgs {
     frames: FrameArgs,
 }
 
-/// `--method`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum MethodArg {
-    Auto,
-    Octic,
-    Homotopy,
-    Sylvester,
-    Template,
-    Trilateration,
-}
-
-impl MethodArg {
-    /// The method of the library; `None`: automatic choice.
-    pub(super) fn method(self) -> Option<Method> {
-        match self {
-            Self::Auto => None,
-            Self::Octic => Some(Method::Octic),
-            Self::Homotopy => Some(Method::Homotopy),
-            Self::Trilateration => Some(Method::Trilateration),
-            Self::Sylvester => Some(Method::Sylvester),
-            Self::Template => Some(Method::Template),
-        }
-    }
-}
-
 /// Solves one problem, or one for each row.
 pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failure> {
-    let method = args.method.method();
+    let method: Option<Method> = args.method.parse().ok();
     let design = match context.load_six_or_five(&args.design, parse_with_cranks)? {
         SixOrFive::Six(design) => *design,
         SixOrFive::Five(five) => {
@@ -147,7 +123,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
             let squares = l.distances.squared();
             answer.closure = match between {
                 Some(pair) => Some(ClosureRecord::between(&design, &squares, &solutions, pair)),
-                None if args.method == MethodArg::Trilateration => {
+                None if method == Some(Method::Trilateration) => {
                     Some(ClosureRecord::of_sequence(&design, &squares, &solutions))
                 }
                 None => None,

@@ -31,7 +31,7 @@ fn add(command: &clap::Command, out: &mut Vec<(String, String)>) -> std::io::Res
     let mut text = Vec::new();
     page.render(&mut text)?;
     out.push((page.get_filename(), String::from_utf8_lossy(&text).into_owned()));
-    command.get_subcommands().filter(|c| !c.is_hide_set()).try_for_each(|c| add(c, out))
+    command.get_subcommands().try_for_each(|c| add(c, out))
 }
 
 /// Writes the pages.

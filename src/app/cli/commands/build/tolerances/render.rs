@@ -6,7 +6,7 @@ use ask::Design;
 use machine::manufacture::{ErrorAtPose, ErrorParts};
 use records::{
     AssessAnswer, BudgetPosesRecord, CalibratedPosesRecord, ErrorMapRecord, JointBudgetRecord, Number,
-    PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer, TrialsRecord, WorkspaceWord, WorstErrorsRecord,
+    PoseErrorRecord, SolvedBudgetRecord, SourceWord, TolerancesAnswer, TrialsRecord, WorstErrorsRecord,
 };
 
 /// The record of the answer.
@@ -39,10 +39,7 @@ pub(super) fn record(
         calibrated: f.calibrated.as_ref().map(TrialsRecord::from),
         calibrated_poses: f.computed.as_ref().and_then(|poses| CalibratedPosesRecord::new(design, poses)),
         map: f.map.as_ref().and_then(|(errors, map)| ErrorMapRecord::new(errors, map, path)),
-        poses: BudgetPosesRecord {
-            count: b.poses,
-            workspace: if f.workspace_given { WorkspaceWord::Design } else { WorkspaceWord::Default },
-        },
+        poses: BudgetPosesRecord { count: b.poses, workspace: SourceWord::given(f.workspace_given) },
     }
 }
 

@@ -4,12 +4,14 @@ mod render;
 
 use std::path::{Path, PathBuf};
 
-use crate::app::cli::commands::fk::{MethodArg, failure_of, lengths, pair};
+use clap::builder::PossibleValuesParser;
+
+use crate::app::cli::commands::fk::{failure_of, lengths, pair};
 use crate::app::cli::output::{Answer, AnswerText};
 use crate::app::cli::{Context, Exit, Failure, OutputPath, files};
 use ask::{Design, LocusOptions, LocusReport, NoLocus};
 use platform::manipulator::LegIndex;
-use records::LocusAnswer;
+use records::{LocusAnswer, METHODS};
 use sheet::Sheet;
 
 /// Arguments of `plot locus`.
@@ -36,8 +38,8 @@ pub(crate) struct PlotLocusArgs {
     #[arg(long, value_name = "BASE,PLATFORM")]
     between: Option<String>,
     /// Method of solution; auto takes the best one for the design
-    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
-    method: MethodArg,
+    #[arg(long, default_value = "auto", value_parser = PossibleValuesParser::new(METHODS))]
+    method: String,
     /// Write the values as a table
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
@@ -85,7 +87,7 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
         ends: [args.from, args.to],
         steps: args.steps,
         between: between.transpose()?,
-        method: args.method.method(),
+        method: args.method.parse().ok(),
         seed: context.seed(),
     };
     design.locus(&options).map_err(|why| match why {

@@ -1,28 +1,18 @@
-//! `equipod reference`, hidden: writes the purpose of each command, its options, its examples and the fields of its
-//! answer into the manual, from their definitions.
+//! Writes purpose, options and examples of each command, the fields of its answer and the keys of design files into the
+//! manual, from their definitions. The program does not contain this code.
+//!
+//! `cargo test --test generated` compares the pages; with `WRITE_PAGES=1`, as in `.ci/generate`, it writes stale ones.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a failure ends the test")]
 
 mod answers;
 mod fields;
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use clap::{Arg, Command};
-
-use super::exit::Exit;
-use super::failure::Failure;
-use super::files;
-use super::guide;
-use super::output::Answer;
-use records::{ReferenceAnswer, schema_names};
-
-/// Arguments of `reference`.
-#[derive(Debug, clap::Args)]
-pub(crate) struct ReferenceArgs {
-    /// Page with marks `<!-- options of COMMAND -->`, `<!-- options of poses -->`, `<!-- keys of design -->` or
-    /// `<!-- all records -->`; the text up to `<!-- end of options -->` and so on is replaced
-    page: PathBuf,
-}
+use equipod::cli::guide;
+use records::schema_names;
 
 /// The beginnings and ends of blocks; the subject follows the beginning.
 const MARKS: [(&str, &str); 3] = [
@@ -130,7 +120,7 @@ fn block(command: &Command, global: bool) -> String {
     let mut out = String::from("\n");
     let shown = |a: &&Arg| {
         let own = global || !a.is_global_set();
-        !a.is_hide_set() && own && !["help", "version"].contains(&a.get_id().as_str())
+        own && !["help", "version"].contains(&a.get_id().as_str())
     };
     let arguments = || command.get_arguments().filter(shown);
     if let (Some(about), false) = (command.get_about(), global) {
@@ -147,7 +137,7 @@ fn block(command: &Command, global: bool) -> String {
         let _ = writeln!(out, "{listed}");
     }
     if !global {
-        let parts = command.get_subcommands().filter(|c| !c.is_hide_set());
+        let parts = command.get_subcommands();
         out.extend(parts.map(|c| block(c, false).trim_start_matches('\n').to_string()));
     }
     out
@@ -190,8 +180,7 @@ impl OpenEntries {
 
 /// The page with the blocks of this program. In the manual every command of the guide has a mark, or its group has one
 /// for all, and so has every answer.
-fn written(page: &str) -> Result<String, Failure> {
-    let bad = |message: String| Failure::refused("reference::bad_page", message);
+fn written(page: &str) -> Result<String, String> {
     let mut open = OpenEntries::new();
     let mut out = String::new();
     let mut until: Option<&str> = None;
@@ -214,20 +203,48 @@ fn written(page: &str) -> Result<String, Failure> {
             "<!-- keys of " => fields::of_design(name),
             _ => (name == "records").then(answers::all),
         };
-        out.push_str(&text.ok_or_else(|| bad(format!("`{line}` names nothing, or is there twice")))?);
+        out.push_str(&text.ok_or_else(|| format!("`{line}` names nothing, or is there twice"))?);
     }
     if let Some(end) = until {
-        return Err(bad(format!("a mark without `{end}`")));
+        return Err(format!("a mark without `{end}`"));
     }
     // the manual is the page with the options of the program
     if !(open.whole || open.commands.is_empty()) {
-        return Err(bad(format!("the page lacks marks: {}", open.commands.join(", "))));
+        return Err(format!("the page lacks marks: {}", open.commands.join(", ")));
     }
     Ok(out)
 }
 
-/// The page on standard output.
-pub(crate) fn run(args: &ReferenceArgs) -> Result<Answer, Failure> {
-    let text = written(&files::read_text(&args.page)?)?;
-    Ok(Answer::new(Exit::Yes, ReferenceAnswer { page: text.clone() }, text))
+#[test]
+fn the_options_and_fields_in_the_documents_are_fresh() {
+    for path in ["docs/cli.md", "docs/answers.md", "docs/design-files.md"] {
+        let page = std::fs::read_to_string(path).unwrap();
+        let fresh = written(&page).unwrap();
+        if std::env::var_os("WRITE_PAGES").is_some() {
+            std::fs::write(path, fresh).unwrap();
+        } else {
+            assert!(fresh == page, "{path} is stale: run .ci/generate");
+        }
+    }
+}
+
+#[test]
+fn stale_lines_and_bad_marks_are_found() {
+    let page = std::fs::read_to_string("docs/cli.md").unwrap();
+    let fields = std::fs::read_to_string("docs/answers.md").unwrap();
+    for (page, good, bad) in [(&page, "- `--lengths", "- `--length"), (&fields, "- `lengths`", "- `length`")]
+    {
+        let stale = page.replacen(good, bad, 1);
+        assert_ne!(stale, *page);
+        assert!(written(&stale).as_ref() == Ok(page));
+    }
+    for (what, changed) in [
+        ("a command", page.replacen("<!-- options of fk -->", "", 1)),
+        ("another command", page.replacen("options of fk", "options of verify", 1)),
+        ("an end", page.replace("<!-- end of options -->", "")),
+        ("records of something else", fields.replacen("<!-- all records -->", "<!-- all answers -->", 1)),
+        ("a table of design files", format!("{page}<!-- keys of design nothing -->\n<!-- end of keys -->\n")),
+    ] {
+        assert!(written(&changed).is_err(), "{what}");
+    }
 }
