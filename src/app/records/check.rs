@@ -36,6 +36,9 @@ pub struct CheckAnswer {
     pub architecturally_singular: Option<bool>,
     /// The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
     pub level: Option<Level>,
+    /// Whether a singular design may have been meant: it agrees within rounding or the digits given, and is
+    /// `nearest_singular`.
+    pub singular_within_rounding: bool,
     /// Exact decision for the joints as numbers; null: some joints are known only between bounds.
     pub singular_as_written: Option<bool>,
     /// Evidence that home is singular; null: it is regular, or the design states none.
@@ -122,6 +125,7 @@ impl From<&CheckReport> for CheckAnswer {
             joints: (&c.design.exactness()).into(),
             architecturally_singular: c.is_singular(),
             level: c.verdict.level(),
+            singular_within_rounding: c.verdict.meant.is_some(),
             singular_as_written: a.is_singular(),
             singular_home: c.singular_home.map(|home| home.evidence),
             reason: c.verdict.reason().map(str::to_owned),
@@ -195,15 +199,15 @@ fn headline(c: &CheckReport) -> String {
 /// The kind of singular design, in one sentence.
 fn explanation(c: &CheckReport) -> String {
     if let Some(n) = &c.verdict.meant {
-        let units = &c.design.units;
+        let (units, kind) = (&c.design.units, n.kind.replace('_', " "));
         return match n.within_digits {
             Some(half) => format!(
-                "a singular design ({}) is only {:.1e} {units} away: every coordinate agrees with it within half a unit of the last digit ({half} {units}). As written the design is regular",
-                n.kind, n.distance
+                "a singular design ({kind}) is only {:.1e} {units} away: every coordinate agrees with it within half a unit of the last digit ({half} {units}). As written the design is regular",
+                n.distance
             ),
             None => format!(
-                "a singular design ({}) is only {:.1e} {units} away, within rounding of the numbers. As written the design is regular",
-                n.kind, n.distance
+                "a singular design ({kind}) is only {:.1e} {units} away, within rounding of the numbers. As written the design is regular",
+                n.distance
             ),
         };
     }
@@ -417,8 +421,10 @@ impl GriffisDuffyRecord {
 /// The nearest singular design found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestSingularRecord {
-    /// Norm of the change of all joints, design units.
+    /// Norm of the change of all joints.
     pub distance: Number,
+    /// Unit of distances: that of the design.
+    pub unit: String,
     /// Always `upper`: an upper bound of the least distance.
     #[schemars(extend("const" = "upper"))]
     pub bound: String,
@@ -446,6 +452,7 @@ impl NearestSingularRecord {
     fn new(n: &NearestSingular, at_least: f64, design: &Design) -> Self {
         Self {
             distance: Number(n.distance),
+            unit: design.units.clone(),
             bound: "upper".into(),
             distance_at_least: Number(at_least),
             kind: n.kind.to_string(),

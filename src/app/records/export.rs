@@ -19,7 +19,7 @@ pub struct ExportAnswer {
     pub design_unit: LengthUnit,
     /// Formats.
     pub formats: Vec<FormatRecord>,
-    /// Dimensions chosen.
+    /// Dimensions chosen; empty: no format with parts of the machine was written.
     pub sizes: Vec<SizeChoice>,
     /// Assumptions of the simulator model about masses and units; empty: no model was written.
     pub assumptions: Vec<String>,
@@ -35,13 +35,15 @@ impl ExportAnswer {
         formats: Vec<FormatRecord>,
         assumptions: Vec<String>,
     ) -> Self {
+        let is_written = |format: ExportFormat| formats.iter().any(|f| f.format == format.name());
+        let has_parts = ExportFormat::ALL.into_iter().any(|format| format.has_parts() && is_written(format));
         Self {
             name: export.name.clone(),
             output,
             assessment,
             design_unit: export.unit,
             formats,
-            sizes: export.choices.clone(),
+            sizes: if has_parts { export.choices.clone() } else { Vec::new() },
             assumptions,
         }
     }

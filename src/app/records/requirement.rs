@@ -111,10 +111,12 @@ pub struct AssessAnswer {
     /// Role of the design here.
     pub role: DesignRoleWord,
     /// Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a violation or a
-    /// change of sign of det J. Null: neither is proved.
+    /// change of sign of det J. Null: neither is proved, or the design states no workspace.
     pub met: Option<bool>,
     /// Verdict in words.
     pub explanation: String,
+    /// Poses that the design states.
+    pub workspace: StatedPosesWord,
     /// The poses assessed.
     pub assessed_poses: AssessedPosesRecord,
     /// Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given pose proves
@@ -171,6 +173,7 @@ impl AssessAnswer {
             role: DesignRoleWord::Design,
             met: found.met(),
             explanation: found.to_string(),
+            workspace: found.assessed_poses.into(),
             assessed_poses: found.assessed_poses.into(),
             safety_margin_kept: proof.all_keep_safety_margin(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
@@ -187,6 +190,16 @@ impl AssessAnswer {
             lightest_drive: None,
             assumptions: design
                 .assumptions_of(AssessedForces::of(proof.bounds.iter().map(|b| b.found.term.kind))),
+        }
+    }
+
+    /// Whether the requirements are met at `assessed_poses`, which are home alone without a workspace.
+    #[must_use]
+    pub fn met_at_assessed_poses(&self) -> Option<bool> {
+        let each = || self.requirements.iter().map(|m| m.met).chain([self.regular.met]);
+        match self.met {
+            None if self.workspace == StatedPosesWord::None && each().all(|met| met == Some(true)) => Some(true),
+            met => met,
         }
     }
 
@@ -252,6 +265,28 @@ impl DesignRoleWord {
     /// The heading for a role, given by its word in a document.
     pub fn heading_of(word: &str) -> Option<&'static str> {
         serde_json::from_value(word.into()).ok().map(Self::heading)
+    }
+}
+
+/// The poses that a design states for its assessment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StatedPosesWord {
+    /// A region around home, or a trajectory.
+    Stated,
+    /// Single poses.
+    ListedPoses,
+    /// None: home alone is assessed.
+    None,
+}
+
+impl From<AssessedPoses> for StatedPosesWord {
+    fn from(poses: AssessedPoses) -> Self {
+        match poses {
+            AssessedPoses { region: false, trajectory: 0, listed: 0 } => Self::None,
+            AssessedPoses { region: false, trajectory: 0, .. } => Self::ListedPoses,
+            _ => Self::Stated,
+        }
     }
 }
 
