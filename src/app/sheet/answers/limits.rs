@@ -77,7 +77,11 @@ pub fn data_sheet(name: &str, answer: &LimitsAnswer) -> Sheet {
     };
     let columns = travel.into_iter().chain(capacity.into_iter().flatten());
     out.table(Table::new(columns).with_rows(answer.axes.iter().map(row)));
-    out.line(&answer.frames.sentence);
+    if answer.frames.is_usual() {
+        out.line("Rotations: R = Rz(yaw) Ry(pitch) Rx(roll).");
+    } else {
+        out.line(&answer.frames.sentence);
+    }
     if has_speed || has_effort {
         out.line("Speeds, forces and torques hold at this pose: one acts alone, and weights are left out.");
     }
