@@ -204,19 +204,11 @@ impl Verification {
         let (v, n) = (self, self.samples.len());
         match &v.verdict {
             Verdict::Equivalent => format!(
-                "proved {}: every leg vector of B is exactly a combination of those of A, and {} is not zero. Forward kinematics of both, solved \
-                 independently, agrees at {} of {n} sets of lengths, {}. The worst relative distance of matched poses is {:.1e}{}{}",
+                "proved {}: every leg vector of B is exactly a combination of those of A, and {} is not zero. {}{}",
                 v.map.level.words(),
                 exact_determinant(v),
-                v.agreeing(),
-                lists_proved(v),
-                v.worst_distance(),
-                beyond_in_words(v),
-                if v.agreeing() < n {
-                    ". At the other sets, doubles of the joints do not determine the poses"
-                } else {
-                    ""
-                }
+                agreement(v),
+                beyond_in_words(v)
             ),
             Verdict::Singular
             | Verdict::NotEquivalent(None)
@@ -273,12 +265,27 @@ fn exact_determinant(v: &Verification) -> String {
     }
 }
 
+/// The agreement of the independent forward kinematics of equivalent platforms.
+fn agreement(v: &Verification) -> String {
+    const UNKNOWN: &str = "doubles of the joints do not determine the poses";
+    match (v.agreeing(), v.samples.len()) {
+        (0, 0) => format!("Forward kinematics gives no comparison: {UNKNOWN}"),
+        (0, n) => format!("Forward kinematics agrees at none of {n} sets of lengths: {UNKNOWN}"),
+        (agreeing, n) => format!(
+            "Forward kinematics of both, solved independently, agrees at {agreeing} of {n} sets of lengths, {}. \
+             The worst relative distance of matched poses is {:.1e}{}",
+            lists_proved(v),
+            v.worst_distance(),
+            if agreeing < n { format!(". At the other sets, {UNKNOWN}") } else { String::new() }
+        ),
+    }
+}
+
 /// Number of length sets with both lists of poses proved complete, in words.
 fn lists_proved(v: &Verification) -> String {
     let proved =
         |s: &&Sample| [&s.solutions_a, &s.solutions_b].iter().all(|found| found.completeness.is_proved());
     match v.samples.iter().filter(proved).count() {
-        _ if v.samples.is_empty() => "none of which doubles can solve".to_owned(),
         count if count == v.samples.len() => "all poses of both proved to be found".to_owned(),
         0 => "without a proof that all poses of both are found".to_owned(),
         count => format!("all poses of both proved to be found at {count} of them"),

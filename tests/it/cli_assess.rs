@@ -270,23 +270,27 @@ fn fixture(folder: &Path, name: &str, edit: impl Fn(String) -> String) -> String
 fn limits_without_a_workspace_are_assessed_at_home_by_every_command() {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html").to_str().unwrap().to_owned();
-    let said = |words: &[&str]| {
+    let said_with = |code: i32, words: &[&str]| {
         let out = equipod(words);
-        assert!(matches!(out.status.code(), Some(0)), "{words:?}: {}", String::from_utf8_lossy(&out.stderr));
+        assert_eq!(out.status.code(), Some(code), "{words:?}: {}", String::from_utf8_lossy(&out.stderr));
         String::from_utf8(out.stdout).unwrap()
     };
+    let said = |words: &[&str]| said_with(0, words);
     for name in ["no-workspace", "servo-no-workspace"] {
         let path = fixture(folder.path(), name, |text| text);
         // the page of cranks has a test of its own
         let view = vec!["view", &path, "-o", &page];
         let view = (name == "no-workspace").then_some(view);
         for words in [vec!["assess", &path], vec!["compare", &path]].into_iter().chain(view) {
-            let text = said(&words);
+            // of one pose nothing follows about the machine
+            let text = said_with(if words[0] == "assess" { 3 } else { 0 }, &words);
             assert!(text.contains("at home; no workspace stated"), "{words:?}: {text}");
             assert!(!text.contains("pose of its workspace") && !text.contains("in the workspace"), "{text}");
             assert!(words[0] != "compare" || text.contains("met at home only"), "{text}");
         }
         let (_, doc) = assess(&path);
+        assert_eq!((&doc["met"], &doc["workspace"]), (&Value::Null, &"none".into()), "{name}");
+        assert!(doc["requirements"].as_array().unwrap().iter().all(|m| m["met"] == true), "{doc}");
         assert_eq!(
             (&doc["assessed_poses"]["stated"], &doc["assessed_poses"]["region"]),
             (&false.into(), &false.into())
@@ -339,10 +343,12 @@ fn a_list_of_poses_is_assessed_at_these_poses_and_not_between_them() {
     );
     assert!(!text.contains("every pose") && !text.contains("in the workspace"), "{text}");
     assert_eq!((&doc["met"], &doc["assessed_poses"]["listed"]), (&true.into(), &2.into()));
+    assert_eq!(doc["workspace"], "listed_poses");
     assert_eq!(doc["assessed_poses"]["met_in_words"], "met at 2 poses");
     // beside a region both are named
     let (text, doc) = listed(poses, "translation = [1, 1, 1]");
     assert!(text.contains("for every pose of its workspace, with the 2 poses listed"), "{text}");
+    assert_eq!((&doc["met"], &doc["workspace"]), (&true.into(), &"stated".into()));
     assert_eq!(doc["assessed_poses"]["met_in_words"], "met");
 }
 

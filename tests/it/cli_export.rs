@@ -101,6 +101,11 @@ wrote DIR/genhexkins.hal
         let row = sizes.lines().find(|line| line.starts_with(what)).unwrap_or_else(|| panic!("{sizes}"));
         assert!(row.contains(value) && row.ends_with(from), "{row}");
     }
+    // files of controllers have no parts whose sizes could be chosen
+    let path = folder.path().join("controller");
+    let out = equipod(&["export", "designs/rbt-octahedral.toml", "--to", "hal,matlab", "-o", path.to_str().unwrap()]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert!(text.contains("genhexkins.hal") && !text.contains("diameter"), "{text}");
 }
 
 #[test]

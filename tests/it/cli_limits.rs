@@ -158,3 +158,111 @@ fn the_workspace_has_its_sizes() {
     assert!(asked(&[BENCH]).1["workspace"].is_null());
     assert_eq!(equipod(&["limits", BENCH, "--rays", "70"]).status.code(), Some(2));
 }
+
+/// Three legs stand along z at (50, 0), (-50, 0) and (0, 50), two lie along y at x = +-40, and one along x. All are 100 mm long at home.
+const BY_HAND: &str = r#"
+name = "three, two and one"
+units = "mm"
+force_units = "N"
+legs = [["A1", "B1"], ["A2", "B2"], ["A3", "B3"], ["A4", "B4"], ["A5", "B5"], ["A6", "B6"]]
+[base]
+A1 = [50, 0, -100]
+A2 = [-50, 0, -100]
+A3 = [0, 50, -100]
+A4 = [40, -100, 0]
+A5 = [-40, -100, 0]
+A6 = [-100, 0, 0]
+[platform]
+B1 = [50, 0, 0]
+B2 = [-50, 0, 0]
+B3 = [0, 50, 0]
+B4 = [40, 0, 0]
+B5 = [-40, 0, 0]
+B6 = [0, 0, 0]
+[home]
+position = [0, 0, 0]
+rpy_deg = [0, 0, 0]
+[hardware]
+leg_length = [90, 115]
+max_leg_speed = 20
+max_leg_force = 100
+"#;
+
+fn design(text: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("design.toml");
+    std::fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn the_data_sheet_of_orthogonal_legs_is_that_of_a_sheet_of_paper() {
+    let (_folder, path) = design(BY_HAND);
+    let (code, doc) = asked(&[&path, "--table"]);
+    assert_eq!(code, Some(0), "{doc}");
+    let by_radius = |radius: f64| (20.0 / radius).to_degrees();
+    // roll strains the leg at y = 50 alone, pitch those at x = +-50, yaw those at x = +-40
+    let capacities = [
+        (20.0, 100.0),
+        (20.0, 200.0),
+        (20.0, 200.0),
+        (by_radius(50.0), 5_000.0),
+        (by_radius(50.0), 10_000.0),
+        (by_radius(40.0), 8_000.0),
+    ];
+    for (k, (axis, (speed, effort))) in doc["axes"].as_array().unwrap().iter().zip(capacities).enumerate() {
+        assert!((number(&axis["greatest_speed"]) / speed - 1.0).abs() < 1e-12, "{axis}");
+        assert!((number(&axis["greatest_effort"]) / effort - 1.0).abs() < 1e-12, "{axis}");
+        assert_eq!(axis["effort_unit"], if k < 3 { "N" } else { "N mm" });
+        let both = ["back", "forth"].map(|way| number(&axis[way]["free"]));
+        assert_eq!(number(&axis["symmetric"]), both[0].min(both[1]));
+    }
+    let ends = |k: usize| ["back", "forth"].map(|way| number(&doc["axes"][k][way]["value"]));
+    for (end, meant) in ends(0).into_iter().zip([-10.0, 15.0]) {
+        assert!((end - meant).abs() < 1e-6, "{end}");
+    }
+    let text = String::from_utf8(equipod(&["limits", &path, "--table"]).stdout).unwrap();
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with('|')).collect();
+    assert_eq!(rows[0], "| coordinate | minimum | maximum | symmetric | speed | force or torque |", "{text}");
+    assert_eq!(rows[2], "| x | -10 mm | 15 mm | +-10 mm | 20 mm/s | 100 N |");
+    assert!(rows[7].ends_with("| 28.6 deg/s | 8000 N mm |"), "{text}");
+    let text = String::from_utf8(equipod(&["limits", &path, "--table", "--digits", "6"]).stdout).unwrap();
+    assert!(text.contains("28.6479 deg/s"), "{text}");
+    // without limits of the drives there are no columns for them
+    let (_folder, path) = design(&BY_HAND.replace("max_leg_speed = 20\nmax_leg_force = 100\n", ""));
+    let text = String::from_utf8(equipod(&["limits", &path, "--table"]).stdout).unwrap();
+    assert!(text.contains("| coordinate | minimum | maximum | symmetric |\n"), "{text}");
+    // without any requirement only singular poses end the travel, and the answer says where limits are stated
+    let hint = "No requirement ends the travel";
+    assert!(!String::from_utf8(equipod(&["limits", &path]).stdout).unwrap().contains(hint));
+    let (_folder, path) = design(BY_HAND.split("[hardware]").next().unwrap());
+    let text = String::from_utf8(equipod(&["limits", &path]).stdout).unwrap();
+    assert!(text.contains(hint), "{text}");
+}
+
+/// At any pose, in any convention: the rates of `at --leg` and the forces of `at --wrench` reach the limits of the drives.
+#[test]
+fn speeds_and_forces_of_the_data_sheet_are_those_of_at() {
+    let frames = ["--rotation-order", "moving-xyz", "--pivot", "5,-3,20", "--relative-to", "home"];
+    let pose = ["--at", "3,-2,4,2,-3,5"];
+    let (_, doc) = asked(&[&[BENCH][..], &pose, &frames].concat());
+    let at = |more: &[&str]| {
+        document(&equipod(&[&["at", BENCH, "--json", "--pose", pose[1]], &frames[..], more].concat()))
+    };
+    let rates: Vec<Value> = (1..=6).map(|leg| at(&["--leg", &leg.to_string()])["stuck"]["rates"].clone()).collect();
+    for (k, axis) in doc["axes"].as_array().unwrap().iter().enumerate() {
+        let fastest = rates.iter().map(|rates| number(&rates[k]).abs()).fold(0.0, f64::max);
+        assert!((number(&axis["greatest_speed"]) * fastest / 10.0 - 1.0).abs() < 1e-9, "{axis} {fastest}");
+    }
+    for k in 0..3 {
+        let mut wrench = [0.0; 6];
+        wrench[k] = number(&doc["axes"][k]["greatest_effort"]);
+        let held = at(&["--wrench", &wrench.map(|x| x.to_string()).join(",")]);
+        let forces = held["held"].as_array().unwrap().last().unwrap()["forces"].as_array().unwrap().clone();
+        let greatest = forces.iter().map(|f| number(f).abs()).fold(0.0, f64::max);
+        assert!((greatest / 46.0 - 1.0).abs() < 1e-9, "{held}");
+    }
+    let (code, doc) = asked(&[BENCH, "--table", "--workspace"]);
+    assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("usage")));
+}

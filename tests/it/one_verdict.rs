@@ -72,6 +72,12 @@ fn a_design_that_rounds_to_a_singular_one_is_as_regular_as_its_exact_joints() {
     let expected = (Some(0), "equivalent".to_owned(), Value::from("exact_joints"));
     assert_eq!(compared(octahedral, it), expected);
     assert_eq!(compared(it, octahedral), expected);
+    // forward kinematics has no say about joints that doubles cannot tell apart
+    for (a, b) in [(octahedral, it), (it, octahedral)] {
+        let (_, doc) = asked(&["verify", &fixture(a), &fixture(b)]);
+        let said = doc["explanation"].as_str().unwrap();
+        assert!(said.contains("do not determine the poses") && !said.contains("worst"), "{said}");
+    }
     let (_, map) = asked(&["equivalents", "map", &fixture(octahedral), &fixture(it)]);
     assert_eq!(map["det_exact"], "-1/16000000000000000000000000000000");
     let (code, _) = asked(&["equivalents", "family", &fixture(it)]);
@@ -159,6 +165,10 @@ fn a_singular_design_typed_with_three_decimals_is_headlined_as_one() {
     assert_eq!((is_singular, level), (Value::Null, "within_rounding".into()));
     assert_eq!(doc["reason"], "singular_to_digits_given");
     assert_eq!(doc["nearest_singular"]["within_digits"], 0.0005);
+    assert_eq!((&doc["singular_within_rounding"], &doc["nearest_singular"]["unit"]), (&true.into(), &"mm".into()));
+    assert!(text.contains("A singular design (planar bodies) is only 5.5e-4 mm away"), "{text}");
+    let (_, doc) = asked(&["check", &fixture("edge-off-1e-9")]);
+    assert_eq!(doc["singular_within_rounding"], false);
     let (code, word, level) = compared("griffis-duffy-rounded", "griffis-duffy-rounded");
     assert_eq!((code, word.as_str(), level), (Some(3), "undecided", "within_rounding".into()));
     // a joint a hundredth off is no rounding

@@ -37,6 +37,9 @@ view! {
         pub architecturally_singular: Option<bool> = c.is_singular(),
         /// The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
         pub level: Option<Level> = c.verdict.level(),
+        /// Whether a singular design may have been meant: it agrees within rounding or the digits given, and is
+        /// `nearest_singular`.
+        pub singular_within_rounding: bool = c.verdict.meant.is_some(),
         /// Exact decision for the joints as numbers; null: some joints are known only between bounds.
         pub singular_as_written: Option<bool> = a.is_singular(),
         /// Evidence that home is singular; null: it is regular, or the design states none.
@@ -164,15 +167,15 @@ fn headline(c: &CheckReport) -> String {
 /// The kind of singular design, in one sentence.
 fn explanation(c: &CheckReport) -> String {
     if let Some(n) = &c.verdict.meant {
-        let units = &c.design.units;
+        let (units, kind) = (&c.design.units, n.kind.replace('_', " "));
         return match n.within_digits {
             Some(half) => format!(
-                "a singular design ({}) is only {:.1e} {units} away: every coordinate agrees with it within half a unit of the last digit ({half} {units}). As written the design is regular",
-                n.kind, n.distance
+                "a singular design ({kind}) is only {:.1e} {units} away: every coordinate agrees with it within half a unit of the last digit ({half} {units}). As written the design is regular",
+                n.distance
             ),
             None => format!(
-                "a singular design ({}) is only {:.1e} {units} away, within rounding of the numbers. As written the design is regular",
-                n.kind, n.distance
+                "a singular design ({kind}) is only {:.1e} {units} away, within rounding of the numbers. As written the design is regular",
+                n.distance
             ),
         };
     }
@@ -345,8 +348,10 @@ view! {
     /// The nearest singular design found.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct NearestSingularRecord {
-        /// Norm of the change of all joints, design units.
+        /// Norm of the change of all joints.
         pub distance: Number = Number(n.distance),
+        /// Unit of distances: that of the design.
+        pub unit: String = design.units.clone(),
         /// Always `upper`: an upper bound of the least distance.
         #[schemars(extend("const" = "upper"))]
         pub bound: String = "upper".into(),

@@ -174,7 +174,7 @@ impl CompareAnswer {
         let stiffness = format!("{force}/{length}");
         let torque = format!("{force} {length}");
         let mut out = vec![self.words("requirements", |d| {
-            d.assessment.as_ref().map(|a| match a.met {
+            d.assessment.as_ref().map(|a| match a.met_at_assessed_poses() {
                 Some(true) => a.assessed_poses.met_in_words.clone(),
                 Some(false) => "violated".to_owned(),
                 None => "undecided".to_owned(),

@@ -20,8 +20,8 @@ view! {
         pub design_unit: LengthUnit = export.unit,
         /// Formats.
         pub formats: Vec<FormatRecord> = formats,
-        /// Dimensions chosen.
-        pub sizes: Vec<SizeChoice> = export.choices.clone(),
+        /// Dimensions chosen; empty: no format with parts of the machine was written.
+        pub sizes: Vec<SizeChoice> = if has_parts { export.choices.clone() } else { Vec::new() },
         /// Assumptions of the simulator model about masses and units; empty: no model was written.
         pub assumptions: Vec<String> = assumptions,
     }
@@ -32,7 +32,10 @@ view! {
         output: String,
         formats: Vec<FormatRecord>,
         assumptions: Vec<String>,
-    ) {}
+    ) {
+        let is_written = |format: ExportFormat| formats.iter().any(|f| f.format == format.name());
+        let has_parts = ExportFormat::ALL.into_iter().any(|format| format.has_parts() && is_written(format));
+    }
 }
 
 /// The files of a format.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 use ask::{Design, FreeSize, FreeTurn, PoseFrames, WorkspaceSize};
 use machine::reach::{NearestPose, Reach, StraightPath, Travel};
-use machine::requirements::{Limit, TermKind};
+use machine::requirements::{Limit, Quantity, TermKind};
 use platform::geom::{Pose, RotationOrder};
 
 /// The answer of `limits`.
@@ -200,6 +200,15 @@ pub struct FreeRangeRecord {
     pub back: TravelRecord,
     /// Travel towards greater values.
     pub forth: TravelRecord,
+    /// Smaller one of both travels: the number can move by this much either way.
+    pub symmetric: f64,
+    /// Greatest speed of this number alone at the pose, `unit` per second; null: the drives have no speed limit.
+    pub greatest_speed: Option<Number>,
+    /// Greatest force along the axis, or torque about it at the pivot, that the drives hold at the pose without
+    /// weights. Null: the drives have no force limit.
+    pub greatest_effort: Option<Number>,
+    /// Unit of `greatest_effort`.
+    pub effort_unit: String,
 }
 
 /// A free travel and its end.
@@ -293,6 +302,7 @@ impl FreeRangeRecord {
         let written = frames.write(pose);
         let is_vector = convention.order() == RotationOrder::Vector;
         let words = convention.angle_words();
+        let capacities = design.axis_capacities(frames, pose);
         let range = |(k, way): (usize, StraightPath)| {
             let (axis, value, unit, of_way): (_, _, _, &dyn Fn(f64) -> f64) = match k.checked_sub(3) {
                 None => (["x", "y", "z"][k].to_owned(), written.position[k], design.units.clone(), &|x| x),
@@ -312,7 +322,19 @@ impl FreeRangeRecord {
                 TravelRecord { free, value: value + sign * free, binds }
             };
             let [back, forth] = reach.both_ways(&way);
-            Self { axis, unit, value, back: travel(&back, -1.0), forth: travel(&forth, 1.0) }
+            let (back, forth) = (travel(&back, -1.0), travel(&forth, 1.0));
+            let effort = if k < 3 { Quantity::Force } else { Quantity::Torque };
+            Self {
+                axis,
+                unit,
+                value,
+                symmetric: back.free.min(forth.free),
+                back,
+                forth,
+                greatest_speed: capacities[k].speed.map(|speed| Number(of_way(speed))),
+                greatest_effort: capacities[k].effort.map(Number),
+                effort_unit: design.unit_of(effort),
+            }
         };
         frames.ways(pose).into_iter().enumerate().map(range).collect()
     }

@@ -98,10 +98,12 @@ view! {
         /// Role of the design here.
         pub role: DesignRoleWord = DesignRoleWord::Design,
         /// Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a violation or
-        /// a change of sign of det J. Null: neither is proved.
+        /// a change of sign of det J. Null: neither is proved, or the design states no workspace.
         pub met: Option<bool> = found.met(),
         /// Verdict in words.
         pub explanation: String = found.to_string(),
+        /// Poses that the design states.
+        pub workspace: StatedPosesWord = found.assessed_poses.into(),
         /// The poses assessed.
         pub assessed_poses: AssessedPosesRecord = found.assessed_poses.into(),
         /// Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given pose
@@ -158,6 +160,16 @@ impl AssessAnswer {
     #[must_use]
     pub fn with_role(self, role: DesignRoleWord) -> Self {
         Self { role, ..self }
+    }
+
+    /// Whether the requirements are met at `assessed_poses`, which are home alone without a workspace.
+    #[must_use]
+    pub fn met_at_assessed_poses(&self) -> Option<bool> {
+        let each = || self.requirements.iter().map(|m| m.met).chain([self.regular.met]);
+        match self.met {
+            None if self.workspace == StatedPosesWord::None && each().all(|met| met == Some(true)) => Some(true),
+            met => met,
+        }
     }
 
     /// The answer inside another one that lists the assumptions itself.
@@ -222,6 +234,28 @@ impl DesignRoleWord {
     /// The heading for a role, given by its word in a document.
     pub fn heading_of(word: &str) -> Option<&'static str> {
         serde_json::from_value(word.into()).ok().map(Self::heading)
+    }
+}
+
+/// The poses that a design states for its assessment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StatedPosesWord {
+    /// A region around home, or a trajectory.
+    Stated,
+    /// Single poses.
+    ListedPoses,
+    /// None: home alone is assessed.
+    None,
+}
+
+impl From<AssessedPoses> for StatedPosesWord {
+    fn from(poses: AssessedPoses) -> Self {
+        match poses {
+            AssessedPoses { region: false, trajectory: 0, listed: 0 } => Self::None,
+            AssessedPoses { region: false, trajectory: 0, .. } => Self::ListedPoses,
+            _ => Self::Stated,
+        }
     }
 }
 

@@ -306,7 +306,7 @@ fn assessment(name: &str, role: &str, margin: f64) -> String {
     let pose = r#"{"p":[32.4443,14.3,371.8],"q":[1,0,0,0]}"#;
     format!(
         r#"{{"schema_version":1,"name":"{name}","role":"{role}","met":{met},"explanation":"meets all",
-            "assessed_poses":{{"stated":true,"region":true,"listed":0,"trajectory":0,"met_in_words":"met"}},"safety_margin_kept":null,
+            "workspace":"stated","assessed_poses":{{"stated":true,"region":true,"listed":0,"trajectory":0,"met_in_words":"met"}},"safety_margin_kept":null,
             "requirements":[{{"name":"max_leg_length","margin":{margin},"safety_margin":0,"net_margin":{margin},
             "safety_margin_kept":null,"met":{met},"at_limit":false,"status":"{status}","proved_margin":null,"unit":"mm",
             "between":["leg <1>"],"legs":[1],"pose":{pose}}}],

@@ -6,9 +6,15 @@ impl Sheet {
     /// The sheet as Markdown: paragraphs, lists of indented lines, and tables.
     #[must_use]
     pub fn markdown(&self) -> String {
+        self.markdown_with(DIGITS.into())
+    }
+
+    /// The same with numbers of so many significant digits.
+    #[must_use]
+    pub fn markdown_with(&self, digits: usize) -> String {
         let mut parts: Vec<String> = Vec::new();
         let mut listed = false;
-        for block in &self.rounded(DIGITS.into()).0 {
+        for block in &self.rounded(digits).0 {
             let part = match block {
                 Block::Space => continue,
                 Block::Line(line) => match line.strip_prefix("  ") {
@@ -24,7 +30,7 @@ impl Sheet {
                     None => escaped(line),
                 },
                 Block::Table(table) => rows(table),
-                Block::Part { title, sheet, .. } => format!("**{}**\n\n{}", escaped(title), sheet.markdown()),
+                Block::Part { title, sheet, .. } => format!("**{}**\n\n{}", escaped(title), sheet.markdown_with(digits)),
             };
             listed = false;
             parts.push(part.trim_end().to_owned());

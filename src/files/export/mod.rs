@@ -201,6 +201,12 @@ num::words! {
 }
 
 impl ExportFormat {
+    /// Whether its files show the parts of the machine; those of controllers have joint centres alone.
+    #[must_use]
+    pub fn has_parts(self) -> bool {
+        !matches!(self, Self::C | Self::Hal | Self::Matlab)
+    }
+
     /// Its writer.
     #[must_use]
     pub fn writer(self) -> &'static Writer {

@@ -301,6 +301,12 @@ impl Manipulator {
         [mean(|l| l.base.coords), mean(|l| l.platform.coords)]
     }
 
+    /// Greatest distance of a joint of a body from the centroid of its joints, design units.
+    #[must_use]
+    pub fn joints_radius(&self, body: Body) -> f64 {
+        spread(self.joints(body))
+    }
+
     /// RMS distance of the platform leg ends from their centroid, design units: the default characteristic length of
     /// [`jacobian`](super::jacobian()). It is [`size`](Self::size) if all platform joints coincide.
     #[must_use]

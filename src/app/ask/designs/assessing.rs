@@ -179,9 +179,16 @@ pub struct AssessReport {
 }
 
 impl AssessReport {
-    /// Whether the requirements are met: proved, or `None`.
+    /// Whether the design meets its requirements: proved, or `None`. Without a stated workspace it is never
+    /// `Some(true)`, because home alone is assessed.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
+        self.met_at_assessed_poses().filter(|met| !met || self.assessed_poses.are_stated())
+    }
+
+    /// The same about the assessed poses, which are home alone without a stated workspace. Searches ask this.
+    #[must_use]
+    pub fn met_at_assessed_poses(&self) -> Option<bool> {
         match (self.proof.all_met(), self.regularity.is_regular()) {
             (Some(false), _) | (_, Some(false)) => Some(false),
             (Some(true), Some(true)) => Some(true),
@@ -192,7 +199,7 @@ impl AssessReport {
     /// Whether the safety margin on every limit is kept too, which a search has to reach: proved, or `None`.
     #[must_use]
     pub fn met_with_safety_margin(&self) -> Option<bool> {
-        match (self.met(), self.proof.all_keep_safety_margin()) {
+        match (self.met_at_assessed_poses(), self.proof.all_keep_safety_margin()) {
             (Some(false), _) | (_, Some(false)) => Some(false),
             (Some(true), Some(true)) => Some(true),
             _ => None,
@@ -228,7 +235,8 @@ impl AssessReport {
 /// The verdict without its subject, in the words that every command and page uses.
 impl std::fmt::Display for AssessReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.met() {
+        let met = self.met_at_assessed_poses();
+        match met {
             Some(true) => write!(f, "meets all its requirements, proved {}", self.assessed_poses)?,
             Some(false) => write!(f, "violates requirements: {}", self.names(Some(false)))?,
             None => write!(
@@ -237,7 +245,7 @@ impl std::fmt::Display for AssessReport {
                 self.names(None)
             )?,
         }
-        if self.met() != Some(true) && !self.assessed_poses.are_stated() {
+        if met != Some(true) && !self.assessed_poses.are_stated() {
             f.write_str("; no workspace stated, assessed at home")?;
         }
         if self.proof.bounds.iter().any(|b| b.safety_margin.is_some()) {

@@ -9,6 +9,7 @@ use fk::{NearOutcome, NearSolver};
 use machine::requirements::LeastStiffness;
 use machine::rotary::OutOfReach;
 use machine::statics::{PoseStatics, Screw, both_in, in_axes};
+use machine::reach::StraightPath;
 use platform::geom::Pose;
 use platform::manipulator::{
     Body, LegLengths, Manipulator, inverse_condition, jacobian, jacobian_of_legs, leg_determinant,
@@ -82,6 +83,15 @@ pub struct StuckLeg {
     pub ways: [Vec<(f64, Pose)>; 2],
 }
 
+/// The greatest speed and effort of one of the six numbers of a pose; without the effort of weights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisCapacity {
+    /// Greatest speed, design units or radians per second; `None` without a speed limit of the drives.
+    pub speed: Option<f64>,
+    /// Greatest force along the axis or torque about it; `None` without a limit of the drives, or at a singular pose.
+    pub effort: Option<f64>,
+}
+
 /// The answer for a pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtPoseReport {
@@ -135,13 +145,8 @@ impl Design {
                 Err(missing) => (DrivesAt::OutOfReach(missing), None),
             },
         };
-        let rates = match (&drives, &cranks) {
-            (DrivesAt::Lengths(_), _) => Some(jacobian(self.manipulator(), pose, 1.0)),
-            (DrivesAt::Angles(angles), Some(platform)) => platform.crank_jacobian(pose, angles),
-            _ => None,
-        };
         let arm = pose.rotation * asked.point;
-        let statics = rates.map(|rates| PoseStatics::new(&rates, &arm, length));
+        let statics = self.statics_at(pose, &arm);
         let both = both_in(&axes);
         let shown = |v: Vector6<f64>| -> [f64; 6] { (both.transpose() * v).into() };
         let held = |load: Option<String>, wrench: Vector6<f64>| HeldWrench {
@@ -201,6 +206,39 @@ impl Design {
         })
     }
 
+    /// Greatest speed, force and torque of each of the six numbers of a pose under the limits of the drives. One number
+    /// moves alone, or one force or torque acts alone at the pivot.
+    #[must_use]
+    pub fn axis_capacities(&self, frames: &PoseFrames, pose: &Pose) -> [AxisCapacity; 6] {
+        let pivot = frames.convention.pivot_on_platform();
+        let statics = self.statics_at(pose, &(pose.rotation * pivot));
+        let [effort, speed] = self.drive_limits().map(|(_, greatest)| greatest);
+        // speeds of cranks are limited in degrees
+        let speed = if self.has_cranks() { speed.map(f64::to_radians) } else { speed };
+        let share = |limit: Option<f64>, drives: Option<Vector6<f64>>| {
+            Some(limit? / drives?.amax()).filter(|most| most.is_finite())
+        };
+        frames.ways(pose).map(|way| {
+            let alone = twist_along(&way, &pivot);
+            let statics = statics.as_ref();
+            AxisCapacity {
+                speed: share(speed, statics.map(|s| s.rates() * alone)),
+                effort: share(effort, statics.and_then(|s| s.efforts(&alone))),
+            }
+        })
+    }
+
+    /// The drives about a point at an arm from the platform origin; `None` if a rod does not reach or a crank is
+    /// singular.
+    fn statics_at(&self, pose: &Pose, arm: &Vector3<f64>) -> Option<PoseStatics> {
+        // cranks of a design that was read make a platform
+        let rates = match self.rotary().ok().flatten() {
+            None => jacobian(self.manipulator(), pose, 1.0),
+            Some(platform) => platform.crank_jacobian(pose, &platform.ik(pose).ok()?)?,
+        };
+        Some(PoseStatics::new(&rates, arm, self.characteristic_length()))
+    }
+
     fn stuck(
         &self,
         frames: &PoseFrames,
@@ -209,12 +247,7 @@ impl Design {
         leg: usize,
     ) -> StuckLeg {
         let (pose, point) = (&asked.pose, asked.point);
-        let rates = frames.ways(pose).map(|way| {
-            // the ways keep the pivot of the convention on its line, the statics have a point of their own
-            let at = way.velocity + way.turn.cross(&(pose.rotation * (point - way.pivot)));
-            let twist = Vector6::new(at.x, at.y, at.z, way.turn.x, way.turn.y, way.turn.z);
-            (statics.rates().row(leg) * twist)[0]
-        });
+        let rates = frames.ways(pose).map(|way| (statics.rates().row(leg) * twist_along(&way, &point))[0]);
         let axes = axes_of(frames, asked).transpose();
         let screw = statics.screw(leg).map(|screw| Screw {
             direction: axes * screw.direction,
@@ -249,6 +282,12 @@ impl Design {
             if (end - now).abs() > 0.0 { (1..=WAY_POSES).map_while(step).collect() } else { Vec::new() }
         })
     }
+}
+
+/// The twist of a point of the platform at the start of a path, whose own pivot stays on its line.
+fn twist_along(way: &StraightPath, point: &Vector3<f64>) -> Vector6<f64> {
+    let velocity = way.velocity + way.turn.cross(&(way.start.rotation * (point - way.pivot)));
+    Vector6::new(velocity.x, velocity.y, velocity.z, way.turn.x, way.turn.y, way.turn.z)
 }
 
 /// The axes of vectors in the base frame, by columns.

@@ -32,7 +32,7 @@ impl DriveFit {
         if !self.motions.iter().all(along) {
             return Some(false);
         }
-        self.assessed.met()
+        self.assessed.met_at_assessed_poses()
     }
 
     /// Whether the safety margin on every limit is kept too.
@@ -138,7 +138,7 @@ impl Design {
         order.sort_by(|a, b| mass(a).total_cmp(&mass(b)).then(a.line.cmp(&b.line)));
         let mut out = LightestDrive { drive: None, undecided: Vec::new(), rest: None };
         let rest = self.assessed_without_drives(seed);
-        out.rest = rest.met();
+        out.rest = rest.met_at_assessed_poses();
         if out.rest == Some(false) {
             return out;
         }

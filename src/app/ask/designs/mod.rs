@@ -36,7 +36,7 @@ pub mod whole;
 use crate::Error;
 
 pub use assessing::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
-pub use at_pose::{AtPoseOptions, AtPoseReport, DrivesAt, HeldWrench, NoAtPose, StuckLeg};
+pub use at_pose::{AtPoseOptions, AtPoseReport, AxisCapacity, DrivesAt, HeldWrench, NoAtPose, StuckLeg};
 pub use comparing::{CrankFigures, DesignFigures, FigureOptions, Separation};
 pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};

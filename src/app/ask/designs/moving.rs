@@ -262,17 +262,20 @@ impl Design {
         least.into_values().map(timed).collect()
     }
 
+    /// The greatest force and speed of a leg, or torque and speed (degrees per second) of a crank.
+    pub(super) fn drive_limits(&self) -> [(TermKind, Option<f64>); 2] {
+        if self.has_cranks() {
+            let cranks = self.crank_limits();
+            [(TermKind::CrankTorque, cranks.max_torque), (TermKind::CrankSpeed, cranks.max_speed_deg)]
+        } else {
+            [TermKind::LegForce, TermKind::LegSpeed].map(|kind| (kind, self.hardware.drive_limit(kind)))
+        }
+    }
+
     /// Margins of the drives: greatest speed minus speed, and greatest force minus force, or torque for cranks. A pose
     /// beyond the reach of a rod has none.
     fn drive_margins(&self, at: &MotionInstant) -> Vec<(Term, f64)> {
-        let cranks = self.crank_limits();
-        let (force, speed) = if self.has_cranks() {
-            ((TermKind::CrankTorque, cranks.max_torque), (TermKind::CrankSpeed, cranks.max_speed_deg))
-        } else {
-            [TermKind::LegForce, TermKind::LegSpeed]
-                .map(|kind| (kind, self.hardware.drive_limit(kind)))
-                .into()
-        };
+        let [force, speed] = self.drive_limits();
         let mut out = Vec::new();
         for i in 0..6 {
             if let (kind, Some(greatest)) = speed

@@ -78,7 +78,7 @@ impl MovedPlatform {
     /// Whether the requirements of the design are met; `Some(true)` without requirements.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
-        self.assessed.as_ref().map_or(Some(true), AssessReport::met)
+        self.assessed.as_ref().map_or(Some(true), AssessReport::met_at_assessed_poses)
     }
 
     /// Whether every property is fulfilled and every requirement proved.
@@ -97,7 +97,10 @@ impl MovedPlatform {
     /// Gives the platform a name and a description, and the leg lengths at the pose of the given design.
     fn finish(&mut self, given: &Design, number: usize) {
         let (c, assessed) = (&self.candidate, self.assessed.as_ref());
-        let words = targets_in_words(c.fulfilled, assessed.map(|a| (a.met(), a.names(a.met()))));
+        let words = targets_in_words(c.fulfilled, assessed.map(|a| {
+            let met = a.met_at_assessed_poses();
+            (met, a.names(met))
+        }));
         let Some(out) = &mut self.design else { return };
         out.name = format!("{}, rearranged {number}", given.name);
         out.description = Some(format!(

@@ -41,6 +41,9 @@ pub(crate) struct LimitsArgs {
     /// Fineness of this surface: 10 4^N + 2 paths
     #[arg(long, value_name = "N", default_value_t = 4, requires = "surface", value_parser = clap::value_parser!(u32).range(0..=8))]
     level: u32,
+    /// Print the table of a data sheet as Markdown: travel, speed, and force or torque of each coordinate
+    #[arg(long, conflicts_with_all = ["to", "workspace", "surface"])]
+    table: bool,
     #[command(flatten)]
     frames: FrameArgs,
 }
@@ -103,8 +106,13 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
         let found = triangles((&design, &frames), &reach.surface(&at, args.level));
         files::write_text(path, &found.text(format))?;
     }
+    let exit = if all { Exit::Yes } else { Exit::No };
+    if args.table && allowed {
+        let table = sheet::answers::data_sheet(&design.name, &answer).markdown_with(context.digits());
+        return Ok(Answer::new(exit, answer, table));
+    }
     let text = sheet::answers::limits(&design.name, &answer);
-    Ok(Answer::new(if all { Exit::Yes } else { Exit::No }, answer, text))
+    Ok(Answer::new(exit, answer, text))
 }
 
 fn surface_format(path: &Path) -> Result<SurfaceFormat, Failure> {

@@ -84,6 +84,7 @@ const JOBS: [CommandGroup; 10] = [
                 "limits",
                 &[
                     "limits designs/presets/bench-l16.toml",
+                    "limits designs/presets/bench-l16.toml --table",
                     "limits designs/presets/bench-l16.toml --at 0,0,215,3,0,0 --to 10,0,212,0,0,0 --json",
                 ],
                 &["limit", "range", "ranges", "reach", "reachable", "travel"],

@@ -16,7 +16,8 @@ const Limits = {
     if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not checked"];
     if (limits.regular.met === false) return ["bad", "singular pose in the workspace"];
     if (limits.met === false || limits.requirements.some((m) => m.met === false)) return ["bad", "violates requirements"];
-    if (limits.met) return limits.assessed_poses.region ? ["good", "meets all requirements"] : ["good", `requirements ${limits.assessed_poses.met_in_words}`];
+    const atHome = limits.workspace === "none" && limits.requirements.every((m) => m.met) && limits.regular.met;
+    if (limits.met || atHome) return limits.assessed_poses.region ? ["good", "meets all requirements"] : ["good", `requirements ${limits.assessed_poses.met_in_words}`];
     return ["", limits.whole ? "no violation found, not all proved" : "no violation found so far"];
   },
 

@@ -132,6 +132,7 @@ SourceWord = Literal["default", "design"]
 SpecialDemand = Literal["abs_det", "reach"]
 StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
 StartName = Literal["closed_form", "nominal"]
+StatedPosesWord = Literal["listed_poses", "none", "stated"]
 SymmetryWord = Literal["given_up", "kept"]
 TermKind = Literal[
     "angular_stiffness",
@@ -260,10 +261,12 @@ class AssessAnswer(Record):
     #: Role of the design here.
     role: DesignRoleWord
     #: Verdict for `assessed_poses`. True: every margin and det J are proved. False: one pose proves a
-    #: violation or a change of sign of det J. Null: neither is proved.
+    #: violation or a change of sign of det J. Null: neither is proved, or the design states no workspace.
     met: Union[bool, None]
     #: Verdict in words.
     explanation: str
+    #: Poses that the design states.
+    workspace: StatedPosesWord
     #: The poses assessed.
     assessed_poses: AssessedPosesRecord
     #: Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given
@@ -655,6 +658,9 @@ class CheckAnswer(Record):
     architecturally_singular: Union[bool, None]
     #: The level of the proof; "within rounding": a singular design may have been meant. Null: not decided.
     level: Union[Level, None]
+    #: Whether a singular design may have been meant: it agrees within rounding or the digits given, and is
+    #: `nearest_singular`.
+    singular_within_rounding: bool
     #: Exact decision for the joints as numbers; null: some joints are known only between bounds.
     singular_as_written: Union[bool, None]
     #: Evidence that home is singular; null: it is regular, or the design states none.
@@ -2290,6 +2296,16 @@ class FreeRangeRecord(Record):
     back: TravelRecord
     #: Travel towards greater values.
     forth: TravelRecord
+    #: Smaller one of both travels: the number can move by this much either way.
+    symmetric: float
+    #: Greatest speed of this number alone at the pose, `unit` per second; null: the drives have no speed
+    #: limit.
+    greatest_speed: Union[float, None]
+    #: Greatest force along the axis, or torque about it at the pivot, that the drives hold at the pose
+    #: without weights. Null: the drives have no force limit.
+    greatest_effort: Union[float, None]
+    #: Unit of `greatest_effort`.
+    effort_unit: str
 
 
 class FreeSizeRecord(Record):
@@ -3294,8 +3310,10 @@ class NearestSingularPoseRecord(Record):
 class NearestSingularRecord(Record):
     """The nearest singular design found."""
 
-    #: Norm of the change of all joints, design units.
+    #: Norm of the change of all joints.
     distance: Union[float, None]
+    #: Unit of distances: that of the design.
+    unit: str
     #: Always `upper`: an upper bound of the least distance.
     bound: Literal["upper"]
     #: A lower bound: no singular design is nearer, design units.

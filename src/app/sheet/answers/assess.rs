@@ -4,7 +4,7 @@ use super::poses::{POSE, place, pose, units};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use machine::requirements::{MarginVerdict, TermKind};
-use records::{AssessAnswer, MarginRecord};
+use records::{AssessAnswer, MarginRecord, StatedPosesWord};
 use synthesis::singularity::RegularityWord;
 
 /// The answer of `assess`: the verdict, the numbers that decide, the table, and what is assumed.
@@ -18,7 +18,9 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.space();
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
     sheet.line("The proved margin is a lower bound over the poses assessed; the least margin was found at the worst pose.");
-    if found.met.is_none() {
+    if found.workspace == StatedPosesWord::None {
+        sheet.line("Home alone was assessed: state [workspace] for a verdict about the machine.");
+    } else if found.met.is_none() {
         sheet.line(
             "Poses between the sampled ones may violate the unproved requirements; more --cells may prove them.",
         );

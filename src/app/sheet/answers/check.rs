@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::poses::full_sentence;
 use crate::figure::{figure, length};
 use crate::{Sheet, Table};
 use records::{
@@ -25,7 +26,7 @@ pub fn check(c: &CheckAnswer, with_details: bool) -> Sheet {
     match c.level.filter(|level| level.is_proved()) {
         Some(level) if said => say!(out, "Proved {}: {}.", level.words(), c.explanation),
         Some(level) => say!(out, "Proved {}.", level.words()),
-        None => say!(out, "{}.", c.explanation),
+        None => out.line(full_sentence(&c.explanation)),
     }
     generic_poses(&mut out, c);
     if let Some(n) = &c.nearest_singular {
@@ -201,13 +202,16 @@ fn lengths_in_words(g: &GriffisDuffyRecord) -> Option<String> {
 }
 
 fn nearest(out: &mut Sheet, n: &NearestSingularRecord, c: &CheckAnswer) {
+    let (kind, legs) = (n.kind.replace('_', " "), legs_in_words(&n.legs));
+    if n.distance.0 <= 0.0 {
+        say!(out, "The joints rounded to doubles are a singular design ({kind}, {legs}).");
+        return;
+    }
     say!(
         out,
-        "Nearest singular design found: {} away, {} % of the size ({}, {}); none is nearer than {}.",
+        "Nearest singular design found: {} away, {} % of the size ({kind}, {legs}); none is nearer than {}.",
         length(n.distance.0, &c.units),
         figure(100.0 * n.distance.0 / c.size.0),
-        n.kind.replace('_', " "),
-        legs_in_words(&n.legs),
         length(n.distance_at_least.0, &c.units)
     );
 }

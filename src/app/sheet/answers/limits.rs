@@ -5,8 +5,8 @@ use super::poses::{pose, units, words, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
 use records::{
-    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseInFrames,
-    PoseQuaternionRecord, RayEndRecord, StraightPathRecord, WorkspaceSizeRecord,
+    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, Number, PoseInFrames,
+    PoseQuaternionRecord, RayEndRecord, StraightPathRecord, TravelRecord, WorkspaceSizeRecord,
 };
 
 /// An end of a range below this share of the largest number of its row is rounding.
@@ -23,6 +23,10 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
         let columns = [left("axis", 6), right("value", 9), right("minimum", 9), left("limited by", 0).gap(2)];
         let more = [right("maximum", 9), left("limited by", 0).gap(2), left("unit", 0)];
         out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
+        let is_limit = |travel: &TravelRecord| travel.binds.as_ref().is_some_and(|limit| limit.name.is_some());
+        if !answer.axes.iter().any(|row| is_limit(&row.back) || is_limit(&row.forth)) {
+            out.line("No requirement ends the travel: state leg lengths and joint angles in [hardware].");
+        }
     } else {
         say!(out, "{name} is not allowed at {numbers} = {at}.");
         violations(&mut out, &answer.violated);
@@ -47,6 +51,43 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
     out
 }
 
+/// The free travel as the table of a data sheet, with speeds and forces if the drives have such limits.
+#[must_use]
+pub fn data_sheet(name: &str, answer: &LimitsAnswer) -> Sheet {
+    let mut out = Sheet::new();
+    let (numbers, at) = (words(&answer.frames), shown(answer, &answer.pose, &answer.in_frames));
+    say!(out, "Travel of {name} from {numbers} = {at}, one coordinate at a time:");
+    let has_speed = answer.axes.iter().any(|row| row.greatest_speed.is_some());
+    let has_effort = answer.axes.iter().any(|row| row.greatest_effort.is_some());
+    let travel = [left("coordinate", 0), right("minimum", 0), right("maximum", 0), right("symmetric", 0)];
+    let capacity = [has_speed.then(|| right("speed", 0)), has_effort.then(|| right("force or torque", 0))];
+    let with = |value: Option<Number>, unit: &str| {
+        value.map_or_else(|| "-".to_owned(), |x| format!("{} {unit}", figure(x.0)))
+    };
+    let row = |row: &FreeRangeRecord| {
+        let [least, most] = ends(row);
+        let (unit, axis) = (&row.unit, row.axis.clone());
+        let travel = [axis, format!("{least} {unit}"), format!("{most} {unit}")];
+        let capacity = [
+            has_speed.then(|| with(row.greatest_speed, &format!("{unit}/s"))),
+            has_effort.then(|| with(row.greatest_effort, &row.effort_unit)),
+        ];
+        let symmetric = format!("+-{} {unit}", figure(row.symmetric));
+        travel.into_iter().chain([symmetric]).chain(capacity.into_iter().flatten()).collect::<Vec<_>>()
+    };
+    let columns = travel.into_iter().chain(capacity.into_iter().flatten());
+    out.table(Table::new(columns).with_rows(answer.axes.iter().map(row)));
+    if answer.frames.is_usual() {
+        out.line("Rotations: R = Rz(yaw) Ry(pitch) Rx(roll).");
+    } else {
+        out.line(&answer.frames.sentence);
+    }
+    if has_speed || has_effort {
+        out.line("Speeds, forces and torques hold at this pose: one acts alone, and weights are left out.");
+    }
+    out
+}
+
 /// The requirement with the legs, joints or load concerned.
 pub(super) fn named(limit: &LimitRecord) -> String {
     if limit.between.is_empty() {
@@ -60,16 +101,21 @@ fn bound(limit: Option<&LimitRecord>) -> String {
     limit.map_or_else(|| "nothing".to_owned(), named)
 }
 
-fn axis(row: &FreeRangeRecord) -> [String; 7] {
+/// The least and the greatest value of a range, without rounding about zero.
+fn ends(row: &FreeRangeRecord) -> [String; 2] {
     let finite = [row.value, row.back.value, row.forth.value].into_iter().filter(|x| x.is_finite());
     let scale = finite.fold(0.0, |most: f64, x| most.max(x.abs()));
-    let end = |x: f64| figure(if x.abs() <= ROUNDING * scale { 0.0 } else { x });
+    [row.back.value, row.forth.value].map(|x| figure(if x.abs() <= ROUNDING * scale { 0.0 } else { x }))
+}
+
+fn axis(row: &FreeRangeRecord) -> [String; 7] {
+    let [least, most] = ends(row);
     [
         row.axis.clone(),
         figure(row.value),
-        end(row.back.value),
+        least,
         bound(row.back.binds.as_ref()),
-        end(row.forth.value),
+        most,
         bound(row.forth.binds.as_ref()),
         row.unit.clone(),
     ]

@@ -52,7 +52,7 @@ pub use export::export;
 pub use family::family;
 pub use fk::fk;
 pub use legs::legs;
-pub use limits::limits;
+pub use limits::{data_sheet, limits};
 pub use locus::locus;
 pub use map::{leg_map, map};
 pub use motion::motion;

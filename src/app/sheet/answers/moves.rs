@@ -126,8 +126,9 @@ pub fn move_search(r: &MoveSearchAnswer) -> Sheet {
 /// The targets and requirements that a platform meets and misses.
 fn met_and_missed(c: &CandidateRecord) -> String {
     let names = |a: &AssessAnswer| {
-        let kinds = a.requirements.iter().filter(|m| m.met == a.met).map(|m| m.name.label());
-        kinds.chain((a.regular.met == a.met).then_some("no singular pose")).collect::<Vec<_>>().join("; ")
+        let met = a.met_at_assessed_poses();
+        let kinds = a.requirements.iter().filter(|m| m.met == met).map(|m| m.name.label());
+        kinds.chain((a.regular.met == met).then_some("no singular pose")).collect::<Vec<_>>().join("; ")
     };
-    targets_in_words(c.targets_met, c.assessment.as_ref().map(|a| (a.met, names(a))))
+    targets_in_words(c.targets_met, c.assessment.as_ref().map(|a| (a.met_at_assessed_poses(), names(a))))
 }

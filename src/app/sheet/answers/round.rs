@@ -6,7 +6,7 @@ use crate::{Sheet, Table, left, right};
 use ask::rounding::RoundingWay;
 use machine::manufacture::Evaluation;
 use records::{
-    ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord,
+    AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord,
 };
 
 /// A line about a design; `met`: the verdict over the whole workspace, if there is one.
@@ -67,7 +67,9 @@ pub fn round(r: &RoundAnswer) -> Sheet {
     out.space();
     // the written design was assessed over the whole workspace; the line about its sampled poses must not claim more
     let written = r.chosen.or(r.least_missed);
-    let known = |way: RoundingWay| r.assessment.as_ref().filter(|_| written == Some(way)).and_then(|a| a.met);
+    let known = |way: RoundingWay| {
+        r.assessment.as_ref().filter(|_| written == Some(way)).and_then(AssessAnswer::met_at_assessed_poses)
+    };
     line(&mut out, "given", &r.given, None, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {

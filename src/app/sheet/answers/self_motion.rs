@@ -46,7 +46,9 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
             r.further_starts
         );
     }
-    if let (Some(c), Some(components)) = (&r.critical_points, &r.complex_components) {
+    if let (Some(c), Some(components)) = (&r.critical_points, &r.complex_components)
+        && !components.is_empty()
+    {
         let degrees: Vec<String> = components.iter().map(|d| d.degree.to_string()).collect();
         say!(
             out,

@@ -24,6 +24,8 @@ use platform::manipulator::Body;
 /// Differences below this, over the size of the design, count as rounding: machine coordinates are written to a
 /// thousandth of a millimetre or better.
 const TOLERANCE: f64 = 5e-6;
+/// The same over the radius of the smaller body: bodies of very different sizes keep the shape of both.
+const BODY_TOLERANCE: f64 = 1e-3;
 
 /// The relation of a joint to earlier ones, to the axes, or to the other body.
 #[derive(Debug, Clone, PartialEq)]
@@ -172,7 +174,12 @@ impl DesignModel {
             return None;
         }
         let size = self.manipulator().size();
-        let near = Closeness { distance: TOLERANCE * size, size };
+        let radius = Body::BOTH.map(|body| self.manipulator().joints_radius(body));
+        let distance = (TOLERANCE * size).min(BODY_TOLERANCE * radius[0].min(radius[1]));
+        if distance <= 0.0 {
+            return None;
+        }
+        let near = Closeness { distance, size };
         let mut bodies = Body::BOTH.map(|body| {
             let (joints, names) = (self.manipulator().joints(body), self.joint_names(body));
             SnappedBody::of(joints, names, &near)

@@ -55,6 +55,18 @@ fn ends_that_are_apart_by_noise_are_one_joint() {
     assert!(snapped.sentences("mm").iter().any(|s| s.starts_with("base: ")), "{:?}", snapped.sentences("mm"));
 }
 
+/// A millionth of a body that is a billion times larger is no rounding of the smaller body.
+#[test]
+fn a_small_body_keeps_its_shape_beside_a_large_one() {
+    let base = [[-6, -6, -7], [-3, 6, 4], [-9, -9, 7], [-8, 1, -1], [-5, 9, 5], [-2, -8, -5]];
+    let platform = [[-3, -8, 7], [-5, -2, -9], [-8, -9, 0], [1, 8, -9], [-2, 3, 1], [6, -7, -5]];
+    let rows = base.iter().zip(platform).map(|(a, b)| {
+        let numbers = a.iter().map(|x| f64::from(*x)).chain(b.iter().map(|x| 1e9 * f64::from(*x)));
+        numbers.map(|x| x.to_string()).collect::<Vec<_>>().join(",")
+    });
+    assert!(design(&rows.collect::<Vec<_>>().join("\n")).snapped().is_none());
+}
+
 #[test]
 fn nothing_is_found_where_nothing_is() {
     let mut rng = num::Rng::new(4);

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::text::decode;
+use super::text::{decode, is_workbook};
 
 /// A row of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +89,7 @@ impl CellTable {
         let Some((_, separator, decimal, records)) = best else {
             return Err(fault.unwrap_or(InvalidSheet::NoNumbers(least)));
         };
-        if separator != ',' {
+        if separator != ',' && !is_workbook(bytes) {
             let name = SEPARATORS.iter().find(|(c, _)| *c == separator).map_or("", |(_, name)| name);
             guesses.push(format!("The columns are separated by {name}."));
         }

@@ -9,9 +9,14 @@ pub(super) struct Decoded {
 /// Spreadsheet files are ZIP archives, which begin with these four bytes.
 const ZIP: &[u8] = b"PK\x03\x04";
 
+/// Whether the bytes are a spreadsheet, whose cells are no guess.
+pub(super) fn is_workbook(bytes: &[u8]) -> bool {
+    bytes.starts_with(ZIP)
+}
+
 /// The text of `bytes`, or the reason why there is none.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
-    if bytes.starts_with(ZIP) {
+    if is_workbook(bytes) {
         #[cfg(feature = "workbook")]
         return super::workbook::decode(bytes);
         #[cfg(not(feature = "workbook"))]

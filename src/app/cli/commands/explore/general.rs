@@ -172,7 +172,7 @@ fn requirements(run: &mut ExploreRun<'_>) -> Result<Option<bool>, Failure> {
         return Ok(None);
     };
     let answer = AssessAnswer::new(&near.beside, assessed).with_role(DesignRoleWord::NearestEquivalent);
-    let met = answer.met;
+    let met = answer.met_at_assessed_poses();
     let text = format!("the equivalent of the nearest octahedral platform {}", answer.explanation);
     run.folder.keep(folder::ASSESS, document(answer, run.provenance.clone(), &[])?);
     run.done(StageWord::Assess, text);
@@ -200,6 +200,9 @@ fn explanation(
 ) -> String {
     match (moves, found.chosen(), verified) {
         (Some(_), Some(_), Some(verified)) => verified.explanation.clone(),
+        (Some(moves), ..) if found.verdict() == ExploreVerdict::Violated => {
+            format!("{}; `equipod optimize` searches sizes and a height that meet them", moves.explanation)
+        }
         (Some(moves), ..) => moves.explanation.clone(),
         (None, ..) => match found.verdict() {
             ExploreVerdict::Compared(VerdictWord::Singular) => "the design is architecturally singular",

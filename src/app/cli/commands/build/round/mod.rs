@@ -237,7 +237,7 @@ pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer
     let assessment = rounded
         .as_ref()
         .and_then(|(_, d)| Some(AssessAnswer::of(d, context.seed())?.with_role(DesignRoleWord::OnHoles)));
-    let met = assessment.as_ref().map_or(Some(true), |a| a.met);
+    let met = assessment.as_ref().map_or(Some(true), AssessAnswer::met_at_assessed_poses);
     let rounded = rounded.as_ref().map(|(variant, d)| (*variant, d));
     // an exact rounding that is not equivalent is an error of the search
     let contradicted = found.exact.as_ref().is_ok_and(|e| {
