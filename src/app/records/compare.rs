@@ -106,7 +106,6 @@ view! {
     }
     /// The figures of a design.
     pub fn new(design: &Design, path: String, found: &DesignFigures, characteristic_length: f64) {
-        let number = |x: Option<f64>| x.map(Number);
         let [shortest, longest] = found.lengths;
         let turns = found.cranks.is_some();
         let (tolerance, no_tolerance) = match &found.allowance {
@@ -137,6 +136,10 @@ view! {
         pub motion_speed_deg: Option<Number> = number(found.motion.speed),
     }
     fn of(cranks: &CrankFigures, found: &DesignFigures) {}
+}
+
+fn number(x: Option<f64>) -> Option<Number> {
+    x.map(Number)
 }
 
 /// A column of the table: a figure of every design.
