@@ -135,7 +135,9 @@ view! {
         /// Greatest speed along the manoeuvres, degrees per second.
         pub motion_speed_deg: Option<Number> = number(found.motion.speed),
     }
-    fn of(cranks: &CrankFigures, found: &DesignFigures) {}
+    fn of(cranks: &CrankFigures, found: &DesignFigures) {
+        let number = |x: Option<f64>| x.map(Number);
+    }
 }
 
 fn number(x: Option<f64>) -> Option<Number> {

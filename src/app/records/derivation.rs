@@ -108,8 +108,8 @@ pub struct ExactNumberRecord {
 }
 
 impl DerivationRecord {
-    /// The steps to an equivalent platform, with forward kinematics of both platforms at sample poses, and the leg map of
-    /// the two; `None` where an edge of the original has no length.
+    /// The steps to an equivalent platform, with forward kinematics of both platforms at sample poses, and the leg map
+    /// of the two; `None` where an edge of the original has no length.
     ///
     /// # Errors
     /// The comparison gives these ([`ComparedDesigns::of`]).
