@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
+use super::{LightestDriveRecord, Number, PoseQuaternionRecord, RangeRecord};
 use ask::Design;
 use ask::{AssessReport, AssessedPoses};
 use files::design::AssessedForces;
@@ -115,6 +115,9 @@ pub struct AssessAnswer {
     pub met: Option<bool>,
     /// Verdict in words.
     pub explanation: String,
+    /// The kind of poses that the design states.
+    #[serde(default)]
+    pub workspace: AssessedWorkspaceWord,
     /// The poses assessed.
     pub assessed_poses: AssessedPosesRecord,
     /// Verdict for safety margins. True: every margin is proved to keep its safety margin. False: the given pose proves
@@ -130,6 +133,9 @@ pub struct AssessAnswer {
     pub regular_explanation: String,
     /// Worst conditioning over the sampled poses: a value found, without limit and proof.
     pub conditioning: LeastConditioningRecord,
+    /// Ranges of single coordinates with their free parts. Absent: the design states none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<RangeRecord>,
     /// Number of poses sampled.
     pub poses: usize,
     /// Number of workspace cells of the proof.
@@ -171,6 +177,7 @@ impl AssessAnswer {
             role: DesignRoleWord::Design,
             met: found.met(),
             explanation: found.to_string(),
+            workspace: found.assessed_poses.into(),
             assessed_poses: found.assessed_poses.into(),
             safety_margin_kept: proof.all_keep_safety_margin(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
@@ -182,6 +189,7 @@ impl AssessAnswer {
                 pose: (&found.conditioning.pose).into(),
                 characteristic_length,
             },
+            ranges: RangeRecord::all(design),
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
             lightest_drive: None,
@@ -255,6 +263,30 @@ impl DesignRoleWord {
     }
 }
 
+num::answer_words! {
+    /// The kind of poses for which requirements hold.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum AssessedWorkspaceWord as name {
+        /// A region, a trajectory or ranges, with all motions in them.
+        Stated = "stated",
+        /// Single poses, without the motions between them.
+        ListedPoses = "listed_poses",
+        /// No poses: home alone is assessed.
+        #[default]
+        None = "none",
+    }
+}
+
+impl From<AssessedPoses> for AssessedWorkspaceWord {
+    fn from(poses: AssessedPoses) -> Self {
+        match (poses.are_connected(), poses.are_stated()) {
+            (true, _) => Self::Stated,
+            (false, true) => Self::ListedPoses,
+            (false, false) => Self::None,
+        }
+    }
+}
+
 /// The poses of an assessment, with home.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct AssessedPosesRecord {
@@ -266,6 +298,9 @@ pub struct AssessedPosesRecord {
     pub listed: usize,
     /// Number of poses of a trajectory; the straight motions between them are assessed too.
     pub trajectory: usize,
+    /// Number of coordinates that move alone from home, each over the whole of its range.
+    #[serde(default)]
+    pub ranges: usize,
     /// Wording of the verdict if met.
     pub met_in_words: String,
 }
@@ -277,6 +312,7 @@ impl From<AssessedPoses> for AssessedPosesRecord {
             region: poses.region,
             listed: poses.listed,
             trajectory: poses.trajectory,
+            ranges: poses.ranges,
             met_in_words: poses.met_in_words(),
         }
     }
