@@ -263,18 +263,17 @@ impl DesignRoleWord {
     }
 }
 
-num::answer_words! {
-    /// The kind of poses for which requirements hold.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub enum AssessedWorkspaceWord as name {
-        /// A region, a trajectory or ranges, with all motions in them.
-        Stated = "stated",
-        /// Single poses, without the motions between them.
-        ListedPoses = "listed_poses",
-        /// No poses: home alone is assessed.
-        #[default]
-        None = "none",
-    }
+/// The kind of poses for which requirements hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AssessedWorkspaceWord {
+    /// A region, a trajectory or ranges, with all motions in them.
+    Stated,
+    /// Single poses, without the motions between them.
+    ListedPoses,
+    /// No poses: home alone is assessed.
+    #[default]
+    None,
 }
 
 impl From<AssessedPoses> for AssessedWorkspaceWord {

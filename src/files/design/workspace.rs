@@ -116,8 +116,8 @@ impl Workspace {
 
     /// All sampled poses. The home pose is first, then the grid with the last axis fastest, the single poses, those of
     /// the trajectory, and the ends of the ranges. On each axis of the cube ([`PoseSpace::pose`]) with a width above 0,
-    /// `grid` points are evenly spaced from -1 to 1. Two points are the corners; one point is the centre alone. A centre
-    /// at home is not repeated.
+    /// `grid` points are evenly spaced from -1 to 1. Two points are the corners; one point is the centre alone. A
+    /// centre at home is not repeated.
     #[must_use]
     pub fn sample(&self, home: &Pose) -> Vec<Pose> {
         let space = self.space(home);

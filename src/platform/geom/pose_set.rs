@@ -83,6 +83,12 @@ impl CoordinateRange {
         [half.x, half.y, half.z].map(Self::within)
     }
 
+    /// Whether home is exactly in the middle.
+    #[must_use]
+    pub fn is_about_home(self) -> bool {
+        self == Self::within(self.max)
+    }
+
     /// Whether the coordinate stays at home.
     #[must_use]
     pub fn is_still(self) -> bool {

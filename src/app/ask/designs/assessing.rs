@@ -501,8 +501,8 @@ impl Design {
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }
 
-    /// Options for the largest region without singular poses. Its shape is the region of the workspace, or a box of half
-    /// the size and 30 degrees in each direction. Intervals with home off their middle are extended to both sides.
+    /// Options for the largest region without singular poses. Its shape is the region of the workspace, or a box of
+    /// half the size and 30 degrees in each direction. Intervals with home off their middle are extended to both sides.
     pub fn box_options(&self, regions: usize, seed: u64) -> BoxOptions {
         let w = &self.workspace;
         let (region, translation, rotation_deg, pivot) = if w.has_box() {

@@ -26,7 +26,7 @@ use super::{Code, FoundKey, KeyTable, TEXT, axes, joint_models, key};
 use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
-use crate::design::{DesignModel, Warning, Workspace};
+use crate::design::{DesignModel, Warning};
 use machine::requirements::{ForceUnit, MassUnit};
 use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::found::{number, shown};
 use super::kind::{KeyKind, list, list_of, own, table, unit, vector, word};
 use super::poses::{POSE, poses};
-use super::stored::{Stored, StoredValue, Word};
+use super::stored::{StoredValue, Word};
 use super::{Code, FoundKey, KeyTable, TEXT, key};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
@@ -13,9 +13,9 @@ use crate::design::{Trajectory, Workspace};
 use machine::requirements::{CoordinateRange, ListedFrom, Region};
 use nalgebra::Vector3;
 
-const TRAVEL: KeyKind =
+const INTERVAL: KeyKind =
     own(r##"{"oneOf": [{"$ref": "#/$defs/not_negative"}, {"$ref": "#/$defs/around_home"}]}"##, unit::LENGTH);
-const TRAVEL_DEG: KeyKind = own(
+const ANGLE_INTERVAL: KeyKind = own(
     r##"{"oneOf": [{"type": "number", "minimum": 0, "maximum": 180}, {"$ref": "#/$defs/degrees_around_home"}]}"##,
     unit::DEGREES,
 );
@@ -29,7 +29,7 @@ macro_rules! range {
         key!($name: $kind,
             |found, to| {
                 let entry = found.entry;
-                to[$k] = travel(found.report, &entry.node, &entry.key, $most).unwrap_or_default();
+                to[$k] = interval(found.report, &entry.node, &entry.key, $most).unwrap_or_default();
             },
             |of: &[CoordinateRange; 6]| (!of[$k].is_still()).then(|| written(of[$k]));
             $says)
@@ -39,24 +39,24 @@ macro_rules! range {
 /// `ranges` of `[workspace]`.
 static RANGES: KeyTable<[CoordinateRange; 6]> = KeyTable {
     keys: &[
-        range!("x", TRAVEL, 0, f64::INFINITY; "along x of the base frame"),
-        range!("y", TRAVEL, 1, f64::INFINITY; "along y of the base frame"),
-        range!("z", TRAVEL, 2, f64::INFINITY; "along z of the base frame"),
-        range!("roll_deg", TRAVEL_DEG, 3, HALF_TURN; "about x of the base frame, degrees"),
-        range!("pitch_deg", TRAVEL_DEG, 4, HALF_TURN; "about y of the base frame, degrees"),
-        range!("yaw_deg", TRAVEL_DEG, 5, HALF_TURN; "about z of the base frame, degrees"),
+        range!("x", INTERVAL, 0, f64::INFINITY; "along x of the base frame"),
+        range!("y", INTERVAL, 1, f64::INFINITY; "along y of the base frame"),
+        range!("z", INTERVAL, 2, f64::INFINITY; "along z of the base frame"),
+        range!("roll_deg", ANGLE_INTERVAL, 3, HALF_TURN; "about x of the base frame, degrees"),
+        range!("pitch_deg", ANGLE_INTERVAL, 4, HALF_TURN; "about y of the base frame, degrees"),
+        range!("yaw_deg", ANGLE_INTERVAL, 5, HALF_TURN; "about z of the base frame, degrees"),
     ],
     ..KeyTable::EMPTY
 };
 
 pub(super) static WORKSPACE: KeyTable<Workspace> = KeyTable {
     keys: &[
-        key!("translation" { default = "[0, 0, 0]" }: list_of(3, &TRAVEL),
-            |found, to| to.translation = travels(found, f64::INFINITY).unwrap_or(to.translation),
+        key!("translation" { default = "[0, 0, 0]" }: list_of(3, &INTERVAL),
+            |found, to| to.translation = intervals(found, f64::INFINITY).unwrap_or(to.translation),
             |of| Some(json!(of.translation.map(written)));
             "intervals along x, y, z of the base frame, measured from home: half widths, or pairs `[min, max]`"),
-        key!("rotation_deg" { default = "[0, 0, 0]" }: list_of(3, &TRAVEL_DEG),
-            |found, to| to.rotation_deg = travels(found, HALF_TURN).unwrap_or(to.rotation_deg),
+        key!("rotation_deg" { default = "[0, 0, 0]" }: list_of(3, &ANGLE_INTERVAL),
+            |found, to| to.rotation_deg = intervals(found, HALF_TURN).unwrap_or(to.rotation_deg),
             |of| Some(json!(of.rotation_deg.map(written)));
             "intervals of the components of the rotation vector from home, degrees: half widths, or pairs `[min, max]`"),
         key!("pivot": vector(unit::LENGTH),
@@ -151,7 +151,7 @@ fn is_home_outside(workspace: &Workspace) -> bool {
 }
 
 /// The intervals of three coordinates.
-fn travels(found: &mut FoundKey<'_, '_>, most: f64) -> Option<[CoordinateRange; 3]> {
+fn intervals(found: &mut FoundKey<'_, '_>, most: f64) -> Option<[CoordinateRange; 3]> {
     let entry = found.entry;
     let Value::Array(nodes) = &entry.node.value else {
         let help = "write an array of 3 half widths or pairs [min, max]";
@@ -161,13 +161,13 @@ fn travels(found: &mut FoundKey<'_, '_>, most: f64) -> Option<[CoordinateRange; 
         let message = format!("`{}` has {} entries instead of 3", entry.key, nodes.len());
         found.refuse(Code::CoordinateCount, message, "give 3 half widths or pairs [min, max]");
     }
-    let read = nodes.iter().map(|node| travel(found.report, node, &entry.key, most));
+    let read = nodes.iter().map(|node| interval(found.report, node, &entry.key, most));
     let read: Vec<Option<CoordinateRange>> = read.collect();
     read.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
 }
 
 /// The interval of a coordinate: a half width, or its two ends with home between them.
-fn travel(report: &mut Findings<'_>, node: &Node, key: &str, most: f64) -> Option<CoordinateRange> {
+fn interval(report: &mut Findings<'_>, node: &Node, key: &str, most: f64) -> Option<CoordinateRange> {
     let key = format!("`{}`", shown(key));
     let found = match &node.value {
         Value::Array(ends) => {
@@ -204,17 +204,16 @@ fn travel(report: &mut Findings<'_>, node: &Node, key: &str, most: f64) -> Optio
         return report.refused(Code::OutOfRange, &node.span, message, help);
     }
     if found.reach() > most {
-        let what = if min == -max { "half width" } else { "end" };
-        let message =
-            format!("a{} {what} of {key} is {} degrees", if min == -max { "" } else { "n" }, found.reach());
+        let what = if found.is_about_home() { "a half width" } else { "an end" };
+        let message = format!("{what} of {key} is {} degrees", found.reach());
         return report.refused(Code::OutOfRange, &node.span, message, "give at most 180 degrees");
     }
     Some(found)
 }
 
 /// An interval as it stands in a file.
-fn written(travel: CoordinateRange) -> Json {
-    if travel.min == -travel.max { json!(travel.max) } else { json!([travel.min, travel.max]) }
+fn written(range: CoordinateRange) -> Json {
+    if range.is_about_home() { json!(range.max) } else { json!([range.min, range.max]) }
 }
 
 fn region(found: &mut FoundKey<'_, '_>) -> Region {

@@ -330,7 +330,8 @@ impl RodsOverChart<'_> {
 }
 
 /// Assesses the region, the single poses, the trajectory and the ranges of a workspace, on at most `cells` cells for
-/// each part, and counts them. It uses the lines of the rods, or the rates of drives with joint offsets. `None` for other designs.
+/// each part, and counts them. It uses the lines of the rods, or the rates of drives with joint offsets. `None` for
+/// other designs.
 ///
 /// A cell with the lines `A` is regular if `|I - K A| <= W` entry by entry and `W u < u` for a positive vector `u`
 /// (Neumaier 1990, sec. 4.1).

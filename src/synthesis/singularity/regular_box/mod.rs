@@ -120,8 +120,8 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
 pub enum Regularity {
     /// Proved: `det J` vanishes at no pose.
     Regular,
-    /// Proved: `det J` vanishes at some pose. It has opposite signs at this one and at another one of the same connected
-    /// part of the workspace.
+    /// Proved: `det J` vanishes at some pose. It has opposite signs at this one and at another one of the same
+    /// connected part of the workspace.
     ChangesSign(Pose),
     /// The independence of the leg lines at this pose is unproved, or cells ran out near it.
     Undecided(Pose),
@@ -171,8 +171,8 @@ impl Regularity {
     }
 }
 
-/// Assesses the region, the single poses, the trajectory and the ranges of a workspace on at most `cells` cells for each of its
-/// parts, and counts them.
+/// Assesses the region, the single poses, the trajectory and the ranges of a workspace on at most `cells` cells for each
+/// of its parts, and counts them.
 #[must_use]
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {
     let (mut doubt, mut tested) = (None, 0);

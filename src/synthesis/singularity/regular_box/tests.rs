@@ -154,6 +154,7 @@ fn wide_rotations_never_contradict_the_proved_set() {
             regions: 600,
             enough: 0.95,
             seed: k,
+            ..OPTIONS
         };
         let found = regular_box(&m, &home, &options);
         let sign = |pose: &Pose| plucker_matrix(&m, pose, m.size()).determinant();
