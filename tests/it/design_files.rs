@@ -3,7 +3,9 @@
 use equipod::methods::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
 use equipod::methods::geom::Pose;
 use equipod::methods::manipulator::{LegLengths, Manipulator};
-use equipod::methods::requirements::{ConeLimits, Hardware, JointAxes, LegBody, ListedFrom, Region};
+use equipod::methods::requirements::{
+    ConeLimits, CoordinateRange, Hardware, JointAxes, LegBody, ListedFrom, Region,
+};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -98,14 +100,20 @@ prop_compose! {
         numbers in [positive(), positive(), positive(), positive(), positive()],
         texts in (text(), text(), proptest::option::of(text())),
     ) -> (Pose, Workspace, Option<LegLengths>, [Option<f64>; 5], (String, String, Option<String>)) {
+        // an ellipsoid of intervals to one side might leave out home
+        let share = if grid > 3 { 1.0 } else { 0.25 };
+        let travels = widths.map(|w| CoordinateRange { min: -share * w, max: w });
+        let [x, y, z, roll, pitch, yaw] = travels;
         let workspace = Workspace {
-            translation: Vector3::new(widths[0], widths[1], widths[2]),
-            rotation_deg: Vector3::new(widths[3], widths[4], widths[5]),
+            translation: [x, y, z],
+            rotation_deg: [roll, pitch, yaw],
+            ranges: if grid > 1 { [CoordinateRange::default(), y, z, CoordinateRange::default(), pitch, yaw] } else { [CoordinateRange::default(); 6] },
+            pivot: (grid > 2).then(|| Vector3::new(widths[0], -1.0, 0.5)),
             grid,
             listed_from: if grid > 2 && !poses.is_empty() { ListedFrom::Home } else { ListedFrom::Base },
             poses,
             region: if grid > 3 { Region::Ellipsoid } else { Region::Box },
-            trajectory: None,
+            ..Workspace::default()
         };
         (home, workspace, lengths.map(|l| LegLengths::try_new(l).unwrap()), numbers, texts)
     }

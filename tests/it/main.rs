@@ -33,6 +33,7 @@ mod cli_new;
 mod cli_optimize;
 mod cli_plot;
 mod cli_provenance;
+mod cli_ranges;
 mod cli_round;
 mod cli_singularities;
 mod cli_streams;

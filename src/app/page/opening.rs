@@ -128,10 +128,10 @@ const LEAST_SLIDE: (f64, f64) = (0.25, 30.0);
 
 /// The range shown by the page to either side of home: positions in design units, and angles in degrees.
 pub(super) fn reach(design: &Design) -> ([f64; 3], [f64; 3]) {
-    let workspace = design.workspace_or_default();
+    let (translation, rotation_deg) = design.workspace_or_default().space(&design.home_or_default()).reach();
     let least = LEAST_SLIDE.0 * design.manipulator().size();
-    let position = workspace.translation.map(|x| (BEYOND * x).max(least));
-    (position.into(), workspace.rotation_deg.map(|x| (BEYOND * x).max(LEAST_SLIDE.1)).into())
+    let position = translation.map(|x| (BEYOND * x).max(least));
+    (position.into(), rotation_deg.map(|x| (BEYOND * x).max(LEAST_SLIDE.1)).into())
 }
 
 impl SlidesRecord {

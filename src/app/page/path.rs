@@ -21,8 +21,7 @@ impl Session {
     pub(super) fn along(&self, at: f64) -> Pose {
         let at = if at.is_finite() { at.rem_euclid(1.0) } else { 0.0 };
         let space = self.design.workspace_or_default().space(&self.home);
-        let listed = if space.trajectory.len() > 1 { space.listed(STEPS) } else { Vec::new() };
-        let steps = listed.split_at(space.poses.len().min(listed.len())).1;
+        let steps = if space.trajectory.len() > 1 { space.along_trajectory(STEPS) } else { Vec::new() };
         let there_and_back = (1.0 - (2.0 * at - 1.0).abs()) * (steps.len() as f64 - 1.0);
         let off = |k: &usize| (*k as f64 - there_and_back).abs();
         if let Some(k) = (0..steps.len()).min_by(|a, b| off(a).total_cmp(&off(b))) {

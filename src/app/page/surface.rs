@@ -46,7 +46,7 @@ impl SurfaceRecord {
 pub(super) struct LocusRecord {
     /// Whether every pose is singular: there is no surface.
     everywhere: bool,
-    /// Half widths of the workspace about home, design units.
+    /// The greatest translations of the workspace to either side of home, design units.
     workspace: [f64; 3],
     home: [f64; 3],
     surface: SurfaceRecord,
@@ -125,7 +125,7 @@ pub(super) fn locus(
     };
     Ok(LocusRecord {
         everywhere,
-        workspace: design.workspace_or_default().translation.into(),
+        workspace: design.workspace_or_default().space(home).reach().0.into(),
         home: home.position.into(),
         surface: SurfaceRecord::new(found, ends, points),
     })

@@ -136,7 +136,6 @@ view! {
         pub motion_speed_deg: Option<Number> = number(found.motion.speed),
     }
     fn of(cranks: &CrankFigures, found: &DesignFigures) {
-        let number = |x: Option<f64>| x.map(Number);
     }
 }
 

@@ -7,7 +7,7 @@ use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
 use ask::{Design, FreeSize, FreeTurn, PoseFrames, WorkspaceSize};
 use machine::reach::{NearestPose, Reach, StraightPath, Travel};
 use machine::requirements::{Limit, Quantity, TermKind};
-use platform::geom::{Pose, RotationOrder};
+use platform::geom::{CoordinateRange, Pose, RotationOrder};
 
 /// The answer of `limits`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -211,6 +211,23 @@ pub struct FreeRangeRecord {
     pub effort_unit: String,
 }
 
+/// A range of a single coordinate from home, and the part of it that is free.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RangeRecord {
+    /// The coordinate, as in `[workspace]`: `x`, `y`, `z`, `roll_deg`, `pitch_deg` or `yaw_deg`.
+    pub coordinate: String,
+    /// `deg`, or the unit of length.
+    pub unit: String,
+    /// Stated lower end, measured from home.
+    pub min: f64,
+    /// Stated upper end, measured from home.
+    pub max: f64,
+    /// Free part of the range towards smaller values; computed in doubles, without proof.
+    pub back: TravelRecord,
+    /// Free part of the range towards greater values; computed in doubles, without proof.
+    pub forth: TravelRecord,
+}
+
 /// A free travel and its end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TravelRecord {
@@ -218,7 +235,7 @@ pub struct TravelRecord {
     pub free: f64,
     /// The value at the end.
     pub value: f64,
-    /// Requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
+    /// Requirement violated beyond the end; null: none within the range, half a turn, or ten sizes of the design.
     pub binds: Option<LimitRecord>,
 }
 
@@ -337,6 +354,43 @@ impl FreeRangeRecord {
             }
         };
         frames.ways(pose).into_iter().enumerate().map(range).collect()
+    }
+}
+
+/// The names of the coordinates of ranges, as in `[workspace]`.
+const COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
+
+impl RangeRecord {
+    /// The ranges of the design's workspace, with their free parts.
+    #[must_use]
+    pub fn all(design: &Design) -> Vec<Self> {
+        if design.workspace.ranged_coordinates() == 0 {
+            return Vec::new();
+        }
+        let (required, space) = (design.requirements(), design.workspace.space(&design.home_or_default()));
+        let reach = design.reach(&required);
+        let stated = space.ranges.iter().enumerate().filter(|(_, range)| !range.is_still());
+        let record = |(k, range): (usize, &CoordinateRange)| {
+            let way = StraightPath::coordinate(&space, k);
+            let (of_way, to_way): (fn(f64) -> f64, fn(f64) -> f64) =
+                if k < 3 { (|x| x, |x| x) } else { (f64::to_degrees, f64::to_radians) };
+            let travel = |way: &StraightPath, most: f64, sign: f64| {
+                let found = reach.along(way, to_way(most));
+                // a whole part ends at the stated number
+                let free = found.binding.map_or(most, |_| of_way(found.amount));
+                let binds = found.binding.map(|limit| LimitRecord::at(design, &reach, limit, &found.pose));
+                TravelRecord { free, value: sign * free, binds }
+            };
+            Self {
+                coordinate: COORDINATES[k].to_owned(),
+                unit: if k < 3 { design.units.clone() } else { "deg".to_owned() },
+                min: range.min,
+                max: range.max,
+                back: travel(&way.reversed(), -range.min, -1.0),
+                forth: travel(&way, range.max, 1.0),
+            }
+        };
+        stated.map(record).collect()
     }
 }
 

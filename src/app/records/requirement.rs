@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LightestDriveRecord, Number, PoseQuaternionRecord};
+use super::{LightestDriveRecord, Number, PoseQuaternionRecord, RangeRecord};
 use ask::Design;
 use ask::{AssessReport, AssessedPoses};
 use files::design::AssessedForces;
@@ -124,6 +124,9 @@ view! {
             pose: (&found.conditioning.pose).into(),
             characteristic_length,
         },
+        /// Ranges of single coordinates with their free parts. Absent: the design states none.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        pub ranges: Vec<RangeRecord> = RangeRecord::all(design),
         /// Number of poses sampled.
         pub poses: usize = proof.poses,
         /// Number of workspace cells of the proof.
@@ -167,7 +170,9 @@ impl AssessAnswer {
     pub fn met_at_assessed_poses(&self) -> Option<bool> {
         let each = || self.requirements.iter().map(|m| m.met).chain([self.regular.met]);
         match self.met {
-            None if self.workspace == StatedPosesWord::None && each().all(|met| met == Some(true)) => Some(true),
+            None if self.workspace == StatedPosesWord::None && each().all(|met| met == Some(true)) => {
+                Some(true)
+            }
             met => met,
         }
     }
@@ -241,9 +246,9 @@ impl DesignRoleWord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StatedPosesWord {
-    /// A region around home, or a trajectory.
+    /// A region, a trajectory or ranges, with all motions in them.
     Stated,
-    /// Single poses.
+    /// Single poses, without the motions between them.
     ListedPoses,
     /// None: home alone is assessed.
     None,
@@ -251,10 +256,10 @@ pub enum StatedPosesWord {
 
 impl From<AssessedPoses> for StatedPosesWord {
     fn from(poses: AssessedPoses) -> Self {
-        match poses {
-            AssessedPoses { region: false, trajectory: 0, listed: 0 } => Self::None,
-            AssessedPoses { region: false, trajectory: 0, .. } => Self::ListedPoses,
-            _ => Self::Stated,
+        match (poses.are_connected(), poses.are_stated()) {
+            (true, _) => Self::Stated,
+            (false, true) => Self::ListedPoses,
+            (false, false) => Self::None,
         }
     }
 }
@@ -271,6 +276,9 @@ view! {
         pub listed: usize = poses.listed,
         /// Number of poses of a trajectory; the straight motions between them are assessed too.
         pub trajectory: usize = poses.trajectory,
+        /// Number of coordinates that move alone from home, each over the whole of its range.
+        #[serde(default)]
+        pub ranges: usize = poses.ranges,
         /// Wording of the verdict if met.
         pub met_in_words: String = poses.met_in_words(),
     }

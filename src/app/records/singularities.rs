@@ -58,6 +58,8 @@ pub struct RegularBoxRecord {
     pub translation: [f64; 3],
     /// Half widths of the rotation vector at scale 1, base frame, degrees.
     pub rotation_deg: [f64; 3],
+    /// Point of the platform about which it rotates, platform frame, design units.
+    pub pivot: [f64; 3],
     /// Shape.
     pub region: Region,
     /// Scale proved free of singular poses.

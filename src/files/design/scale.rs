@@ -202,7 +202,7 @@ mod tests {
         let near = |a: f64, b: f64| (a - 25.4 * b).abs() < 1e-12 * a.abs();
         assert!(near(mm.home.unwrap().position.z, inches.home.unwrap().position.z));
         assert!(near(mm.lengths.unwrap().get()[3], inches.lengths.unwrap().get()[3]));
-        assert!(near(mm.workspace.translation.x, inches.workspace.translation.x));
+        assert!(near(mm.workspace.translation[0].max, inches.workspace.translation[0].max));
         assert!(near(mm.hardware.joint_diameter.unwrap(), inches.hardware.joint_diameter.unwrap()));
         // the file states the same design, which converts back to equal bits
         let back = design(&inches.to_toml()).in_units("mm").unwrap();

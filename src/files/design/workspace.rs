@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::DesignModel;
-use machine::requirements::{ListedFrom, PoseSpace, Region};
+use machine::requirements::{CoordinateRange, ListedFrom, PoseSpace, Region};
 use platform::geom::Pose;
 use platform::manipulator::default_home;
 
@@ -12,17 +12,25 @@ const TRANSLATION_SHARE: f64 = 0.15;
 /// Half width of the default box of rotation vectors, degrees.
 const ROTATION_DEG: f64 = 10.0;
 
-/// A region of poses around the home pose, sampled on a grid, single poses, and a trajectory.
+/// A region of poses around the home pose, sampled on a grid, single poses, a trajectory, and ranges of single
+/// coordinates.
 ///
-/// With home `(R0, p0)` the box holds `(exp([w]x) R0, p0 + d)`, `|d_k| <= translation_k` (base frame,
-/// design units), `|w_k| <= rotation_deg_k` (rotation vector, base frame, degrees).
+/// With home `(R0, p0)` and pivot `q` the box holds `(exp([w]x) R0, p0 + d + R0 q - R q)`. `d_k` is in `translation_k`
+/// (base frame, design units), `w_k` in `rotation_deg_k` (rotation vector, base frame, degrees).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workspace {
-    /// Half widths of the translations `d`, design units.
-    pub translation: Vector3<f64>,
-    /// Half widths of the components of the rotation vector `w`, degrees.
-    pub rotation_deg: Vector3<f64>,
-    /// Points per axis of the grid, 1 to 5. An axis of half width zero has one point.
+    /// Intervals of the translations `d`, design units.
+    pub translation: [CoordinateRange; 3],
+    /// Intervals of the components of the rotation vector `w`, degrees.
+    pub rotation_deg: [CoordinateRange; 3],
+    /// The point of the platform about which region and ranges rotate, platform frame, if the table states one.
+    pub pivot: Option<Vector3<f64>>,
+    /// The pivot otherwise: the one of `[frames]`, or the origin.
+    pub frames_pivot: Vector3<f64>,
+    /// Ranges over which each coordinate moves alone from home: translations along the axes of the base frame in design
+    /// units, rotations about these axes in degrees.
+    pub ranges: [CoordinateRange; 6],
+    /// Points per axis of the grid, 1 to 5. An axis of width zero has one point.
     pub grid: usize,
     /// Box or ellipsoids with these half axes.
     pub region: Region,
@@ -47,8 +55,11 @@ impl Default for Workspace {
     /// No box, no poses, two points per axis (the corners).
     fn default() -> Self {
         Self {
-            translation: Vector3::zeros(),
-            rotation_deg: Vector3::zeros(),
+            translation: [CoordinateRange::default(); 3],
+            rotation_deg: [CoordinateRange::default(); 3],
+            pivot: None,
+            frames_pivot: Vector3::zeros(),
+            ranges: [CoordinateRange::default(); 6],
             grid: 2,
             region: Region::Box,
             poses: Vec::new(),
@@ -59,26 +70,38 @@ impl Default for Workspace {
 }
 
 impl Workspace {
-    /// `true` if some half width is not zero.
+    /// `true` if some interval of the region has a width.
     #[must_use]
     pub fn has_box(&self) -> bool {
-        self.translation.iter().chain(self.rotation_deg.iter()).any(|w| *w > 0.0)
+        !self.translation.iter().chain(&self.rotation_deg).all(|travel| travel.is_still())
+    }
+
+    /// The number of coordinates with a range of their own.
+    #[must_use]
+    pub fn ranged_coordinates(&self) -> usize {
+        self.ranges.iter().filter(|range| !range.is_still()).count()
     }
 
     /// `true` if nothing is stated about poses.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        !self.has_box() && self.poses.is_empty() && self.trajectory.is_none()
+        !self.has_box()
+            && self.poses.is_empty()
+            && self.trajectory.is_none()
+            && self.ranged_coordinates() == 0
+    }
+
+    /// `true` if some key of the table differs from its default.
+    pub(super) fn states_anything(&self) -> bool {
+        *self != Self { frames_pivot: self.frames_pivot, ..Self::default() }
     }
 
     /// All poses to reach, around `home`.
     #[must_use]
     pub fn space(&self, home: &Pose) -> PoseSpace {
         PoseSpace {
-            home: *home,
-            region: self.region,
-            translation: self.translation,
-            rotation_deg: self.rotation_deg,
+            pivot: self.pivot.unwrap_or(self.frames_pivot),
+            ranges: self.ranges,
             poses: self.poses.iter().map(|p| self.listed_from.in_base_frame(p, home)).collect(),
             trajectory: self
                 .trajectory
@@ -87,24 +110,28 @@ impl Workspace {
                 .map(|p| self.listed_from.in_base_frame(p, home))
                 .collect(),
             listed_from: self.listed_from,
+            ..PoseSpace::at(*home).with_region(self.region, &self.translation, &self.rotation_deg)
         }
     }
 
-    /// All sampled poses. The home pose (the centre) is first, then the grid with the last axis fastest, the single
-    /// poses, and those of the trajectory. On each axis of the cube ([`PoseSpace::pose`]) with a half width above 0,
-    /// `grid` points are evenly spaced from -1 to 1. Two points are the corners; one point is the centre alone. The
-    /// centre is not repeated.
+    /// All sampled poses. The home pose is first, then the grid with the last axis fastest, the single poses, those of
+    /// the trajectory, and the ends of the ranges. On each axis of the cube ([`PoseSpace::pose`]) with a width above 0,
+    /// `grid` points are evenly spaced from -1 to 1. Two points are the corners; one point is the centre alone. A
+    /// centre at home is not repeated.
     #[must_use]
     pub fn sample(&self, home: &Pose) -> Vec<Pose> {
         let space = self.space(home);
         let mut poses = vec![*home];
-        poses.extend(self.grid_points(&space.axes()).iter().map(|x| space.pose(x)));
+        let points = self.grid_points(&space.axes());
+        let is_home = |x: &Vector6<f64>| space.home_in_cube().is_none() && *x == Vector6::zeros();
+        poses.extend(points.iter().filter(|x| !is_home(x)).map(|x| space.pose(x)));
         poses.extend_from_slice(&space.poses);
         poses.extend_from_slice(&space.trajectory);
+        poses.extend(space.along_ranges(1));
         poses
     }
 
-    /// Grid points of the cube, without the centre.
+    /// Grid points of the cube.
     fn grid_points(&self, axes: &[usize]) -> Vec<Vector6<f64>> {
         // 2k - (n-1) is exactly zero in the middle, so that the centre is recognised
         let last = self.grid as f64 - 1.0;
@@ -124,7 +151,6 @@ impl Workspace {
             };
             points = points.iter().flat_map(extend).collect();
         }
-        points.retain(|p| p.iter().any(|x| *x != 0.0));
         points
     }
 }
@@ -143,8 +169,12 @@ impl DesignModel {
         if !self.workspace.is_empty() {
             return self.workspace.clone();
         }
-        let translation = Vector3::repeat(TRANSLATION_SHARE * self.manipulator().size());
-        Workspace { translation, rotation_deg: Vector3::repeat(ROTATION_DEG), ..Workspace::default() }
+        Workspace {
+            translation: [CoordinateRange::within(TRANSLATION_SHARE * self.manipulator().size()); 3],
+            rotation_deg: [CoordinateRange::within(ROTATION_DEG); 3],
+            frames_pivot: self.workspace.frames_pivot,
+            ..Workspace::default()
+        }
     }
 }
 
@@ -158,8 +188,8 @@ mod tests {
         let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 5.0) };
         let far = Pose { rotation: Rotation3::identity(), position: Vector3::new(9.0, 0.0, 5.0) };
         let mut box_ = Workspace {
-            translation: Vector3::new(1.0, 0.0, 2.0),
-            rotation_deg: Vector3::new(0.0, 0.0, 90.0),
+            translation: CoordinateRange::each_within(Vector3::new(1.0, 0.0, 2.0)),
+            rotation_deg: CoordinateRange::each_within(Vector3::new(0.0, 0.0, 90.0)),
             grid: 2,
             poses: vec![far],
             ..Workspace::default()

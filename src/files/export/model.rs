@@ -265,10 +265,9 @@ impl Export {
     /// The errors of [`new`](Self::new).
     pub fn of(design: &DesignModel, options: &ExportOptions) -> Result<Self, NoExport> {
         let (home, mut workspace) = (design.home_or_default(), design.workspace_or_default());
-        let mut path = workspace.space(&home);
-        path.poses.clear();
+        let path = workspace.space(&home).along_trajectory(STEPS);
         workspace.trajectory = None;
-        let listed = (workspace.sample(&home), path.listed(STEPS));
+        let listed = (workspace.sample(&home), path);
         Self::new(design, home, listed, options)
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use platform::geom::{Pose, turn_between};
+use platform::geom::{Pose, PoseSpace, turn_between};
 
 num::answer_words! {
     /// The six numbers of a machine's pose: position, and `R = Rz(yaw) Ry(pitch) Rx(roll)`.
@@ -67,6 +67,15 @@ impl StraightPath {
             _ => still,
         };
         Self { start: *start, velocity, turn, pivot: still }
+    }
+
+    /// The path from home on which one coordinate of a region grows (design units, radians): the pivot moves along an
+    /// axis of the base frame, or the platform rotates about this axis at the pivot.
+    #[must_use]
+    pub fn coordinate(space: &PoseSpace, k: usize) -> Self {
+        let along = Vector3::ith(k % 3, 1.0);
+        let [velocity, turn] = if k < 3 { [along, Vector3::zeros()] } else { [Vector3::zeros(), along] };
+        Self { start: space.home, velocity, turn, pivot: space.pivot }
     }
 
     /// The straight path between two poses, which ends at `t = 1`. The origin moves on a line; the platform rotates

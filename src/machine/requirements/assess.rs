@@ -136,8 +136,8 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
     terms.of_kind(pose, kind).map(|(_, x)| x).fold(f64::INFINITY, f64::min)
 }
 
-/// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory. It then
-/// searches for worse poses near the worst ones found.
+/// Evaluates every requirement at home, densely over the region, at the listed poses, and along trajectory and ranges.
+/// It then searches for worse poses near the worst ones found.
 ///
 /// Random steps move one to all coordinates of the cube and shrink from a tenth to a millionth of its width. The search
 /// needs no derivatives, since margins have kinks. Deterministic for a seed.

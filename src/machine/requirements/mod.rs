@@ -59,7 +59,7 @@ pub use plate::{
 };
 pub use plate::{PlateBody, on_circle};
 pub use plate::{frame_of, plate_normal};
-pub use platform::geom::{ListedFrom, PoseSpace, Region};
+pub use platform::geom::{CoordinateRange, ListedFrom, PoseSpace, Region};
 pub use safety_margin::{SafetyMargin, SafetyMargins};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};

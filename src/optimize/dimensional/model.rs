@@ -11,7 +11,7 @@ use super::shape::Shape;
 use super::terms::RequirementTerms;
 use super::worst_pose::PointJudging;
 use crate::climb::{Climbable, Effort, Linearised, PointValues, Run, Task, climb};
-use machine::requirements::{ListedFrom, Objective};
+use machine::requirements::Objective;
 use num::Rng;
 use num::conic::ConicTally;
 
@@ -71,7 +71,9 @@ impl<'a> Model<'a> {
         let mut sample = listed(problem);
         let points = problem.space.cube_points(SAMPLE, &mut Rng::new(AVERAGED));
         sample.extend(points.iter().map(|x| HeldPose { pose: problem.space.pose(x), follows: true }));
-        let continuous = !problem.space.axes().is_empty() || problem.space.trajectory.len() > 1;
+        let continuous = !problem.space.axes().is_empty()
+            || problem.space.trajectory.len() > 1
+            || problem.space.ranges_alone().next().is_some();
         Ok(Self {
             problem,
             terms: RequirementTerms::new(&problem.requirements, m.size(), home, &shape),
@@ -201,6 +203,6 @@ impl Model<'_> {
 }
 
 fn listed(problem: &DimensionalProblem) -> Vec<HeldPose> {
-    let follows = problem.space.listed_from == ListedFrom::Home;
-    problem.listed().into_iter().map(|pose| HeldPose { pose, follows }).collect()
+    let listed = problem.listed().into_iter().map(|(pose, follows)| HeldPose { pose, follows });
+    listed.collect()
 }

@@ -3,7 +3,9 @@
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
-use machine::requirements::{JointAxes, KeptSymmetry, Objective, PoseSpace, Requirements, VariableKind};
+use machine::requirements::{
+    JointAxes, KeptSymmetry, ListedFrom, Objective, PoseSpace, Requirements, VariableKind,
+};
 use platform::geom::Pose;
 use platform::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
 use synthesis::components::ComponentsError;
@@ -317,11 +319,17 @@ impl DimensionalProblem {
         [wanted(0, h.base_cone_angle), wanted(1, h.platform_cone_angle)]
     }
 
-    /// The single poses, and those along the trajectory.
-    pub fn listed(&self) -> Vec<Pose> {
-        self.space.listed(4)
+    /// The single poses and those along trajectory and ranges, and whether each moves with home.
+    pub fn listed(&self) -> Vec<(Pose, bool)> {
+        let space = &self.space;
+        let stated = space.poses.iter().copied().chain(space.along_trajectory(STEPS));
+        let stated = stated.map(|pose| (pose, space.listed_from == ListedFrom::Home));
+        stated.chain(space.along_ranges(STEPS).into_iter().map(|pose| (pose, true))).collect()
     }
 }
+
+/// Steps between two poses of a trajectory, and from home to each end of a range.
+const STEPS: usize = 4;
 
 /// Tolerance of a symmetry, in sizes of the design.
 const SYMMETRIC: f64 = 1e-9;

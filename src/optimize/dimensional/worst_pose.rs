@@ -12,7 +12,7 @@ use super::model::Model;
 use super::shape::JointEnds;
 use super::terms::PoseTerm;
 use crate::climb::{ConstraintGroup, PointValues, Task};
-use machine::requirements::{Objective, TermKind};
+use machine::requirements::{Objective, PoseSpace, TermKind};
 use num::{Purpose, Rng};
 
 /// Number of sampled points.
@@ -43,6 +43,8 @@ struct Seen {
 
 struct PoseScan<'a> {
     model: &'a Model<'a>,
+    /// The region, or a range of a single coordinate.
+    space: &'a PoseSpace,
     ends: JointEnds,
     x: &'a [f64],
     task: &'a Task,
@@ -50,7 +52,7 @@ struct PoseScan<'a> {
 
 impl PoseScan<'_> {
     fn lines(&self, cube: &Vector6<f64>) -> LegLines {
-        let pose = self.model.problem.space.pose(cube);
+        let pose = self.space.pose(cube);
         LegLines::new(&self.ends, &HeldPose { pose, follows: true })
     }
 
@@ -150,8 +152,8 @@ impl PoseScan<'_> {
     }
 }
 
-/// Poses at which a constraint is violated, or an objective is worse than at the held poses, by more than a hundredth
-/// of the spare.
+/// Poses of the region and of the ranges at which a constraint is violated, or an objective is worse than at the held
+/// poses, by more than a hundredth of the spare.
 pub(crate) fn worse_poses(
     model: &Model<'_>,
     x: &[f64],
@@ -160,12 +162,26 @@ pub(crate) fn worse_poses(
     sign: f64,
     seed: u64,
 ) -> Vec<HeldPose> {
-    let space = &model.problem.space;
+    let mut out = worse_poses_of(model, &model.problem.space, (x, task), held, (sign, seed));
+    for range in model.problem.space.ranges_alone() {
+        out.extend(worse_poses_of(model, &range, (x, task), held, (sign, seed)));
+    }
+    out
+}
+
+/// Such poses of a region.
+fn worse_poses_of(
+    model: &Model<'_>,
+    space: &PoseSpace,
+    (x, task): (&[f64], &Task),
+    held: &[HeldPose],
+    (sign, seed): (f64, u64),
+) -> Vec<HeldPose> {
     let axes = space.axes();
     if axes.is_empty() {
         return Vec::new();
     }
-    let look = PoseScan { model, ends: model.shape.ends(x), x, task };
+    let look = PoseScan { model, space, ends: model.shape.ends(x), x, task };
     let judged = model.judge(held, x, task, sign);
     let mut seen: BTreeMap<PoseQuantity, Seen> = BTreeMap::new();
     for cube in space.cube_points(POINTS, &mut Purpose::WORSE_POSES.rng(seed)) {

@@ -1,33 +1,44 @@
 //! A set of poses as coordinates with enclosures; proofs about all poses of a workspace use these.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 
-use super::enclosed::{IntervalVector, Rotation, exact_rotation};
+use super::enclosed::{IntervalVector, Rotation, apply, exact_rotation};
+use super::pose_set::displaced;
 use super::rotation_vector::turn_between;
 use super::{Pose, PoseSpace, Region};
 use num::interval::Interval;
 use num::interval::radians;
 
-/// A part of a pose space: `R = exp([w]x) R_0`, `p = p_0 + d` with `(d, w) = sum_k x_k column_k`. The coordinates `x`
-/// are in a cell and in the unit balls of some groups.
+/// A part of a pose space: `R = exp([w]x) R_0`, and the pivot `q` of the platform is at `p_0 + d`, with
+/// `(d, w) = middle + sum_k x_k column_k`. The coordinates `x` are in a cell and in the unit balls of some groups.
 ///
+/// Most charts have the origin of the platform as pivot.
 /// All quantities are enclosed, since angles are in degrees and a home rotation is orthogonal only within rounding.
 #[derive(Debug, Clone)]
 pub struct Chart {
     /// `R_0`.
     pub rotation: Rotation,
-    /// `p_0`, design units.
+    /// `p_0`, design units: the position of the pivot for `d = w = 0`.
     pub position: IntervalVector,
+    /// The pivot `q`, platform frame, if it is not the origin.
+    pub pivot: Option<IntervalVector>,
+    /// `d` (design units) and `w` (radians) where all coordinates are 0.
+    pub middle: [Interval; 6],
     /// `d` (design units) and `w` (radians) by coordinate, six coordinates at most.
     pub columns: Vec<[Interval; 6]>,
     /// Groups of coordinates with `|x| <= 1`.
     pub balls: Vec<Vec<usize>>,
     /// The cell of all coordinates.
     pub root: ChartCell,
-    /// Rounded `R_0`, `p_0` and columns.
+    /// Rounded pose with `d = w = 0`, pivot, middle and columns.
     home: Pose,
-    steps: Vec<(Vector3<f64>, Vector3<f64>)>,
+    rounded_pivot: Vector3<f64>,
+    rounded_middle: Step,
+    steps: Vec<Step>,
 }
+
+/// Rounded `d` and `w`.
+type Step = (Vector3<f64>, Vector3<f64>);
 
 /// A box of coordinates; missing ones of the chart are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,9 +102,9 @@ impl ChartCell {
     }
 }
 
-/// `sum_k x_k column_k` over a cell.
-pub fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6] {
-    let mut out = [Interval::ZERO; 6];
+/// `middle + sum_k x_k column_k` over a cell.
+pub fn combination(middle: &[Interval; 6], columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6] {
+    let mut out = *middle;
     for (k, column) in columns.iter().enumerate() {
         for (sum, c) in out.iter_mut().zip(column) {
             *sum = *sum + *c * cell.side(k);
@@ -111,6 +122,12 @@ pub enum Bisection {
     Refuted([f64; 6]),
     /// Cells ran out, or became too narrow, near this point.
     Open([f64; 6]),
+}
+
+/// The middles of a displacement.
+fn rounded(displacement: &[Interval; 6]) -> Step {
+    let part = |from: usize| Vector3::from_fn(|k, _| displacement[from + k].centre_and_radius().0);
+    (part(0), part(3))
 }
 
 impl Chart {
@@ -163,11 +180,37 @@ impl Chart {
     }
 
     fn new(home: &Pose, columns: Vec<[Interval; 6]>, balls: Vec<Vec<usize>>, root: ChartCell) -> Self {
-        let middle =
-            |c: &[Interval; 6], from: usize| Vector3::from_fn(|k, _| c[from + k].centre_and_radius().0);
-        let steps = columns.iter().map(|c| (middle(c, 0), middle(c, 3))).collect();
+        let steps = columns.iter().map(rounded).collect();
         let position = std::array::from_fn(|k| Interval::from(home.position[k]));
-        Self { rotation: Self::home_rotation(home), position, columns, balls, root, home: *home, steps }
+        Self {
+            rotation: Self::home_rotation(home),
+            position,
+            pivot: None,
+            middle: [Interval::ZERO; 6],
+            columns,
+            balls,
+            root,
+            home: *home,
+            rounded_pivot: Vector3::zeros(),
+            rounded_middle: (Vector3::zeros(), Vector3::zeros()),
+            steps,
+        }
+    }
+
+    /// The same coordinates about another point of the platform, which `R_0` and `p_0` leave in place.
+    fn about_pivot(mut self, pivot: &Vector3<f64>) -> Self {
+        if *pivot != Vector3::zeros() {
+            let exact = std::array::from_fn(|k| Interval::from(pivot[k]));
+            let arm = apply(&self.rotation, &exact);
+            self.position = std::array::from_fn(|k| self.position[k] + arm[k]);
+            (self.pivot, self.rounded_pivot) = (Some(exact), *pivot);
+        }
+        self
+    }
+
+    /// The same coordinates about another middle.
+    fn about_middle(self, middle: [Interval; 6]) -> Self {
+        Self { rounded_middle: rounded(&middle), middle, ..self }
     }
 
     /// One pose.
@@ -197,7 +240,11 @@ impl Chart {
         for j in 0..axes.len() {
             (root.lo[j], root.hi[j]) = (-1.0, 1.0);
         }
-        Self::new(&space.home, axes.iter().map(column).collect(), balls, root)
+        let middle = std::array::from_fn(|k| {
+            if k < 3 { Interval::from(space.middle[k]) } else { radians(space.middle[k]) }
+        });
+        let chart = Self::new(&space.home, axes.iter().map(column).collect(), balls, root);
+        chart.about_middle(middle).about_pivot(&space.pivot)
     }
 
     /// The poses between two of a trajectory, `x` from 0 to 1.
@@ -220,12 +267,23 @@ impl Chart {
         Self::new(from, vec![column], Vec::new(), root)
     }
 
-    /// All poses of a space: its region, its single poses, the steps of its trajectory.
+    /// All poses of a space: its region, its single poses, the steps of its trajectory, its ranges.
     pub fn all(space: &PoseSpace) -> Vec<Self> {
         let mut out = vec![Self::of_region(space)];
         out.extend(space.poses.iter().chain(&space.trajectory).map(Self::of_pose));
         out.extend(space.trajectory.windows(2).map(|w| Self::of_step(&w[0], &w[1])));
+        out.extend(space.ranges_alone().map(|range| Self::of_region(&range)));
         out
+    }
+
+    /// `d` (design units) and `w` (radians) over a cell.
+    pub fn displacement(&self, cell: &ChartCell) -> [Interval; 6] {
+        combination(&self.middle, &self.columns, cell)
+    }
+
+    /// A point of the platform frame, measured from the pivot.
+    pub fn relative_to_pivot(&self, point: &IntervalVector) -> IntervalVector {
+        self.pivot.map_or(*point, |pivot| std::array::from_fn(|k| point[k] - pivot[k]))
     }
 
     /// Number of coordinates.
@@ -235,12 +293,12 @@ impl Chart {
 
     /// The pose at a point, rounded.
     pub fn pose(&self, x: &[f64; 6]) -> Pose {
-        let (mut d, mut w) = (Vector3::zeros(), Vector3::zeros());
+        let (mut d, mut w) = self.rounded_middle;
         for ((shift, turn), x) in self.steps.iter().zip(x) {
             d += shift * *x;
             w += turn * *x;
         }
-        Pose { rotation: Rotation3::new(w) * self.home.rotation, position: self.home.position + d }
+        displaced(&self.home, d, w, &self.rounded_pivot)
     }
 
     /// Whether a cell lies in the balls of radius `scale`.
@@ -284,8 +342,9 @@ impl Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::enclosed::apply;
+    use crate::geom::CoordinateRange;
     use crate::geom::turn::turn;
+    use nalgebra::{Point3, Rotation3};
     use num::Rng;
 
     fn space(region: Region) -> PoseSpace {
@@ -318,7 +377,7 @@ mod tests {
                 let q = [d.x / 2.0, d.z, w.x / 10.0, w.y / 20.0, w.z / 150.0, 0.0];
                 assert!(charts[0].scale_of(&q) < 1.0 + 1e-12);
                 let cell = ChartCell { lo: q.map(|x| x - 1e-9), hi: q.map(|x| x + 1e-9) };
-                let there = combination(&charts[0].columns, &cell);
+                let there = charts[0].displacement(&cell);
                 let turned = turn(&[there[3], there[4], there[5]]);
                 for k in 0..3 {
                     assert!((there[k] + charts[0].position[k]).contains(pose.position[k]));
@@ -326,6 +385,75 @@ mod tests {
                     assert!((0..3).all(|i| column[i].contains(pose.rotation[(i, k)])));
                 }
                 assert!((charts[0].pose(&q).rotation.matrix() - pose.rotation.matrix()).norm() < 1e-12);
+            }
+        }
+    }
+
+    /// Regions to one side of home that rotate about a pivot, and ranges of single coordinates.
+    #[test]
+    fn charts_hold_the_poses_about_a_pivot() {
+        let mut rng = Rng::new(4);
+        for region in [Region::Box, Region::Ellipsoid] {
+            let mut s = PoseSpace { pivot: Vector3::new(1.0, -2.0, 30.0), ..space(region) };
+            let travels = [
+                CoordinateRange { min: -0.1, max: 0.3 },
+                CoordinateRange::default(),
+                CoordinateRange { min: -1.0, max: 0.0 },
+            ];
+            let angles = [
+                CoordinateRange { min: -5.0, max: 0.1 },
+                CoordinateRange::within(20.0),
+                CoordinateRange { min: -40.0, max: 70.0 },
+            ];
+            s = s.with_region(region, &travels, &angles);
+            s.ranges[2] = CoordinateRange { min: -4.0, max: 1.0 };
+            s.ranges[3] = CoordinateRange { min: 0.0, max: 33.0 };
+            let charts = Chart::all(&s);
+            assert_eq!((charts.len(), charts[4].coordinates(), charts[5].coordinates()), (6, 1, 1));
+            let half = |k: usize| if k < 3 { s.translation[k] } else { s.rotation_deg[k - 3].to_radians() };
+            let middle = |k: usize| if k < 3 { s.middle[k] } else { s.middle[k].to_radians() };
+            let holds = |chart: &Chart, x: [f64; 6], pose: &Pose| {
+                let cell = ChartCell { lo: x.map(|x| x - 1e-9), hi: x.map(|x| x + 1e-9) };
+                let there = chart.displacement(&cell);
+                let turned = turn(&[there[3], there[4], there[5]]);
+                // a point of the platform
+                let point = [0.3, 0.2, -0.7];
+                let arm = chart.relative_to_pivot(&point.map(Interval::from));
+                let arm = apply(&turned, &apply(&chart.rotation, &arm));
+                let at = pose.transform(&Point3::from(point));
+                assert!((0..3).all(|k| (arm[k] + chart.position[k] + there[k]).contains(at[k])), "{x:?}");
+                let rounded = chart.pose(&x);
+                assert!((rounded.position - pose.position).norm() < 1e-12);
+                assert!((rounded.rotation.matrix() - pose.rotation.matrix()).norm() < 1e-12);
+            };
+            for x in s.cube_points(100, &mut rng) {
+                let pose = s.pose(&x);
+                let at = s.coordinates(&pose);
+                let mut q = [0.0; 6];
+                for (j, k) in s.axes().into_iter().enumerate() {
+                    q[j] = (at[k] - middle(k)) / half(k);
+                }
+                holds(&charts[0], q, &pose);
+            }
+            // along z alone, and about x alone: the pivot stays in place
+            let along = s.along_ranges(3);
+            assert_eq!(along.len(), 9);
+            let pivot = |pose: &Pose| pose.transform(&Point3::from(s.pivot));
+            for (k, pose) in along.iter().enumerate() {
+                let (shift, at) = (pivot(pose) - pivot(&s.home), s.coordinates(pose));
+                let (chart, x) = match k {
+                    0..6 => {
+                        let z = [-4.0, 1.0][k / 3] * (k % 3 + 1) as f64 / 3.0;
+                        assert!((shift - Vector3::z() * z).norm() < 1e-12 && at[3].abs() < 1e-12);
+                        (&charts[4], (z + 1.5) / 2.5)
+                    }
+                    _ => {
+                        let angle = 11.0 * (k - 5) as f64;
+                        assert!(shift.norm() < 1e-12 && (at[3].to_degrees() - angle).abs() < 1e-9);
+                        (&charts[5], (angle - 16.5) / 16.5)
+                    }
+                };
+                holds(chart, [x, 0.0, 0.0, 0.0, 0.0, 0.0], pose);
             }
         }
     }

@@ -32,7 +32,7 @@ pub use num::interval::radians;
 pub use pose::{ComplexPose, Pose};
 pub use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
-pub use pose_set::{ListedFrom, PoseSpace, Region};
+pub use pose_set::{CoordinateRange, ListedFrom, PoseSpace, Region};
 #[cfg(feature = "serde")]
 pub use pose_written::{ByQuaternion, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord, PoseRecord};
 pub use quaternion::rotation_from_quaternion;

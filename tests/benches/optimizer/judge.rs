@@ -6,6 +6,7 @@ use equipod::methods::manipulator::{
     Leg, Manipulator, Octahedral, default_home, inverse_condition, jacobian,
 };
 use equipod::methods::offsets::OffsetProblem;
+use equipod::methods::requirements::CoordinateRange;
 use nalgebra::{Point3, Vector3};
 
 use super::verdict::Judged;
@@ -107,8 +108,8 @@ pub(crate) fn offset_problem(design: &Design, extension: f64) -> Option<OffsetPr
     let mut workspace = design.workspace.clone();
     if workspace.is_empty() {
         // the documented default: 15 % of the size, 10 degrees
-        workspace.translation = Vector3::repeat(0.15 * design.manipulator().size());
-        workspace.rotation_deg = Vector3::repeat(10.0);
+        workspace.translation = [CoordinateRange::within(0.15 * design.manipulator().size()); 3];
+        workspace.rotation_deg = [CoordinateRange::within(10.0); 3];
     }
     let default = OffsetProblem::with_defaults(octahedral, workspace.sample(&home));
     let table = &design.optimize;

@@ -88,6 +88,8 @@ pub struct AssessedPoses {
     pub listed: usize,
     /// Poses of a trajectory, with the straight motions between them.
     pub trajectory: usize,
+    /// Coordinates that move alone from home, each over the whole of its range.
+    pub ranges: usize,
 }
 
 impl AssessedPoses {
@@ -95,13 +97,24 @@ impl AssessedPoses {
     #[must_use]
     pub fn of(workspace: &Workspace) -> Self {
         let trajectory = workspace.trajectory.as_ref().map_or(0, |t| t.poses.len());
-        Self { region: workspace.has_box(), listed: workspace.poses.len(), trajectory }
+        Self {
+            region: workspace.has_box(),
+            listed: workspace.poses.len(),
+            trajectory,
+            ranges: workspace.ranged_coordinates(),
+        }
     }
 
     /// Whether the design states any poses; otherwise only home is assessed.
     #[must_use]
     pub fn are_stated(self) -> bool {
-        self.region || self.listed > 0 || self.trajectory > 0
+        self.are_connected() || self.listed > 0
+    }
+
+    /// Whether some motions are assessed as a whole, rather than single poses only.
+    #[must_use]
+    pub fn are_connected(self) -> bool {
+        self.region || self.trajectory > 0 || self.ranges > 0
     }
 
     /// The wording of the verdict if the requirements are met at these poses, in two or three words.
@@ -109,31 +122,44 @@ impl AssessedPoses {
     pub fn met_in_words(self) -> String {
         match self {
             _ if !self.are_stated() => "met at home only".to_owned(),
-            Self { region: false, trajectory: 0, listed } => format!("met at {}", poses(listed)),
+            _ if !self.are_connected() => format!("met at {}", poses(self.listed)),
+            Self { region: false, trajectory: 0, listed: 0, .. } => "met along its ranges".to_owned(),
             _ => "met".to_owned(),
         }
     }
 
     /// A sentence without full stop, which says that none of these poses is singular.
     fn regular_in_words(self) -> String {
-        let among = match (self.region, self.listed, self.trajectory) {
-            (false, 0, 0) => return "Home is not a singular pose: proved; no workspace stated".to_owned(),
-            (true, ..) => "in the workspace",
-            (false, 0, _) => "on the trajectory",
-            (false, n, 0) => {
-                return format!("No singular pose among the {} listed: proved; {BETWEEN}", poses(n));
-            }
-            (false, ..) => "on the trajectory and among the poses listed",
-        };
-        let between = if self.listed > 0 { format!("; {BETWEEN_LISTED}") } else { String::new() };
-        format!("No singular pose {among}: proved{between}")
+        if !self.are_stated() {
+            return "Home is not a singular pose: proved; no workspace stated".to_owned();
+        }
+        if !self.are_connected() {
+            return format!("No singular pose among the {} listed: proved; {BETWEEN}", poses(self.listed));
+        }
+        let mut places = Vec::new();
+        places.extend(self.region.then_some("in the workspace"));
+        places.extend((!self.region && self.trajectory > 0).then_some("on the trajectory"));
+        places.extend((self.ranges > 0).then_some(ALONG));
+        places.extend((!self.region && self.listed > 0).then_some("among the poses listed"));
+        format!("No singular pose {}: proved{}", places.join(" and "), self.limitation())
+    }
+
+    /// The motions that the answer leaves out, at the end of a sentence.
+    fn limitation(self) -> String {
+        let mut left_out = Vec::new();
+        left_out.extend((!self.region && self.trajectory == 0).then_some("combined motions"));
+        left_out.extend((self.listed > 0).then_some("motions between the poses listed"));
+        if left_out.is_empty() {
+            return String::new();
+        }
+        format!("; {} are not assessed", left_out.join(" and "))
     }
 }
 
 /// The limitation of a list of poses.
 const BETWEEN: &str = "poses between them are not assessed";
-/// The same limitation beside a region or a trajectory.
-const BETWEEN_LISTED: &str = "motions between the poses listed are not assessed";
+/// The poses of ranges.
+const ALONG: &str = "along the ranges of single coordinates";
 
 /// A number of poses in words.
 fn poses(n: usize) -> String {
@@ -143,22 +169,23 @@ fn poses(n: usize) -> String {
 /// The poses as the end of a sentence.
 impl std::fmt::Display for AssessedPoses {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match (self.region, self.listed, self.trajectory) {
-            (false, 0, 0) => f.write_str("at home; no workspace stated"),
-            (false, n, 0) => write!(f, "at the {} listed; {BETWEEN}", poses(n)),
-            (true, 0, _) => f.write_str("for every pose of its workspace"),
-            (true, n, _) => {
-                write!(f, "for every pose of its workspace, with the {} listed; {BETWEEN_LISTED}", poses(n))
-            }
-            (false, 0, _) => f.write_str("for every pose of its trajectory"),
-            (false, n, _) => {
-                write!(
-                    f,
-                    "for every pose of its trajectory, and at the {} listed; {BETWEEN_LISTED}",
-                    poses(n)
-                )
-            }
+        if !self.are_stated() {
+            return f.write_str("at home; no workspace stated");
         }
+        if !self.are_connected() {
+            return write!(f, "at the {} listed; {BETWEEN}", poses(self.listed));
+        }
+        let mut whole = Vec::new();
+        whole.extend(self.region.then_some("for every pose of its workspace"));
+        whole.extend((!self.region && self.trajectory > 0).then_some("for every pose of its trajectory"));
+        whole.extend((self.ranges > 0).then_some(ALONG));
+        f.write_str(&whole.join(" and "))?;
+        match (self.region, self.listed) {
+            (_, 0) => {}
+            (true, n) => write!(f, ", with the {} listed", poses(n))?,
+            (false, n) => write!(f, ", and at the {} listed", poses(n))?,
+        }
+        f.write_str(&self.limitation())
     }
 }
 
@@ -482,16 +509,18 @@ impl Design {
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))
     }
 
-    /// Options for the largest region without singular poses. Its shape is the box of the workspace, or a box of half
-    /// the size and 30 degrees in each direction.
+    /// Options for the largest region without singular poses. Its shape is the region of the workspace, or a box of
+    /// half the size and 30 degrees in each direction. Intervals with home off their middle are extended to both sides.
     pub fn box_options(&self, regions: usize, seed: u64) -> BoxOptions {
         let w = &self.workspace;
-        let (region, translation, rotation_deg) = if w.has_box() {
-            (w.region, w.translation.into(), w.rotation_deg.into())
+        let (region, translation, rotation_deg, pivot) = if w.has_box() {
+            let own = w.space(&self.home_or_default()).scaled_region(1.0);
+            let (translation, rotation_deg) = own.reach();
+            (w.region, translation.into(), rotation_deg.into(), own.pivot.into())
         } else {
-            (Region::Box, [0.5 * self.manipulator().size(); 3], [30.0; 3])
+            (Region::Box, [0.5 * self.manipulator().size(); 3], [30.0; 3], [0.0; 3])
         };
-        BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed }
+        BoxOptions { region, translation, rotation_deg, pivot, regions, enough: 0.9, seed }
     }
 
     /// All platforms equivalent to this one: the class of the octahedral platform that the design is, or is made from.

@@ -13,11 +13,16 @@ use verify::{Sample, Verification, VerifyError, VerifyRun, decide_map, verify_ea
 /// The default number of sample poses.
 pub const SAMPLES: usize = 10;
 
-/// Random poses in the workspace box of the design about its home pose. Without these, poses about the default home
-/// pose, within a quarter of the size and 20 degrees in each direction.
+/// Random poses in a box about the home pose of the design, which holds the region and the ranges of its workspace.
+/// Without these, poses within a quarter of the size and 20 degrees in each direction.
 pub fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
-    let widths = (design.workspace.translation, design.workspace.rotation_deg);
-    SamplePlan::about(design.manipulator(), design.home_or_default(), widths, (count, seed))
+    let home = design.home_or_default();
+    SamplePlan::about(
+        design.manipulator(),
+        home,
+        design.workspace.space(&home).box_about_home(),
+        (count, seed),
+    )
 }
 
 type OnSample<'a> = Box<dyn FnMut(&Sample) -> ControlFlow<()> + 'a>;

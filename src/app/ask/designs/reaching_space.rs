@@ -221,14 +221,8 @@ impl Around<'_> {
             return None;
         }
         let own = w.space(&self.home);
-        let space = |t: f64| PoseSpace {
-            translation: own.translation * t,
-            rotation_deg: own.rotation_deg * t,
-            poses: Vec::new(),
-            trajectory: Vec::new(),
-            ..own.clone()
-        };
-        let most = (HALF_TURN / own.rotation_deg.max()).min(LARGEST);
+        let space = |t: f64| own.scaled_region(t);
+        let most = (HALF_TURN / space(1.0).reach().1.max()).min(LARGEST);
         // the first violated factor
         let mut first = FreeRay { direction: Vector3::z(), free: most, binding: None };
         let mut factor = 0.5;

@@ -185,7 +185,7 @@ impl Design {
         let own = self.box_options(cells, seed);
         let (options, space) = match asked.half_widths {
             Some([translation, rotation_deg]) => (
-                BoxOptions { region: Region::Box, translation, rotation_deg, ..own },
+                BoxOptions { region: Region::Box, translation, rotation_deg, pivot: [0.0; 3], ..own },
                 Some(PoseSpace {
                     region: Region::Box,
                     translation: translation.into(),

@@ -17,7 +17,7 @@ pub(crate) struct AssessArgs {
     /// Number of Halton points in the region of poses, and of random ones
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     points: u32,
-    /// Number of steps between two poses of a trajectory
+    /// Number of steps between two poses of a trajectory, and from home to each end of a range
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     steps: u32,
     /// Number of local searches for each worst pose
@@ -40,8 +40,8 @@ pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Fa
             "without `offset` and `screw_lead`, or without masses of the legs, the frequency is assessed";
         return Err(Failure::refused("design::not_ideal", message).with_help(help));
     }
-    if design.workspace.trajectory.is_none() {
-        context.no_effect("steps", "the workspace of the design has no trajectory")?;
+    if design.workspace.trajectory.is_none() && design.workspace.ranged_coordinates() == 0 {
+        context.no_effect("steps", "the workspace of the design has neither trajectory nor ranges")?;
     }
     let options = AssessOptions::new()
         .points(args.points as usize)

@@ -12,6 +12,7 @@ from ._record import Record
 ActiveBoundWord = Literal["limit", "range", "safety_margin"]
 AlignmentUndecided = Literal["no_axes", "unclear_dimension", "within_errors"]
 AlignmentWord = Literal["found", "none", "undecided"]
+AssessedWorkspaceWord = Literal["listed_poses", "none", "stated"]
 Body = Literal["base", "platform"]
 BranchWord = Literal["best", "bounded", "dominated", "infeasible", "solver_failure", "unproved"]
 CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted", "undecided"]
@@ -293,6 +294,8 @@ class AssessAnswer(Record):
     provenance: ProvenanceRecord
     #: Warnings about the design files read.
     warnings: tuple[WarningRecord, ...]
+    #: Ranges of single coordinates with their free parts. Absent: the design states none.
+    ranges: Union[tuple[RangeRecord, ...], None]
     #: Assumptions about masses, one sentence each. Absent: no force, torque or natural frequency is
     #: assessed, or the enclosing answer has the list.
     assumptions: Union[tuple[str, ...], None]
@@ -309,6 +312,8 @@ class AssessedPosesRecord(Record):
     listed: int
     #: Number of poses of a trajectory; the straight motions between them are assessed too.
     trajectory: int
+    #: Number of coordinates that move alone from home, each over the whole of its range.
+    ranges: int
     #: Wording of the verdict if met.
     met_in_words: str
 
@@ -3988,6 +3993,23 @@ class QuantilesRecord(Record):
     max: Union[float, None]
 
 
+class RangeRecord(Record):
+    """A range of a single coordinate from home, and the part of it that is free."""
+
+    #: The coordinate, as in `[workspace]`: `x`, `y`, `z`, `roll_deg`, `pitch_deg` or `yaw_deg`.
+    coordinate: str
+    #: `deg`, or the unit of length.
+    unit: str
+    #: Stated lower end, measured from home.
+    min: float
+    #: Stated upper end, measured from home.
+    max: float
+    #: Free part of the range towards smaller values; computed in doubles, without proof.
+    back: TravelRecord
+    #: Free part of the range towards greater values; computed in doubles, without proof.
+    forth: TravelRecord
+
+
 class RayEndRecord(Record):
     """A limit that ends paths."""
 
@@ -4033,6 +4055,8 @@ class RegularBoxRecord(Record):
     translation: tuple[float, ...]
     #: Half widths of the rotation vector at scale 1, base frame, degrees.
     rotation_deg: tuple[float, ...]
+    #: Point of the platform about which it rotates, platform frame, design units.
+    pivot: tuple[float, ...]
     #: Shape.
     region: RegionWord
     #: Scale proved free of singular poses.
@@ -4769,7 +4793,8 @@ class TravelRecord(Record):
     free: float
     #: The value at the end.
     value: float
-    #: Requirement violated beyond the end; null: none within half a turn, or ten sizes of the design.
+    #: Requirement violated beyond the end; null: none within the range, half a turn, or ten sizes of the
+    #: design.
     binds: Union[LimitRecord, None]
 
 
@@ -4982,6 +5007,10 @@ class WrenchRecord(Record):
 
 
 DemandWord = Union[TermKind, Objective, SpecialDemand]
+
+DesignAroundHome = tuple[float, float]
+
+DesignDegreesAroundHome = tuple[float, float]
 
 DesignNotNegative = float
 

@@ -1,10 +1,11 @@
 //! Margins of the requirements of a design; this table leads every answer that assesses a design.
 
+use super::limits::named;
 use super::poses::{POSE, place, pose, units};
 use crate::figure::figure;
 use crate::{Cell, Sheet, Table, Tone, left, right};
 use machine::requirements::{MarginVerdict, TermKind};
-use records::{AssessAnswer, MarginRecord, StatedPosesWord};
+use records::{AssessAnswer, MarginRecord, RangeRecord, StatedPosesWord, TravelRecord};
 use synthesis::singularity::RegularityWord;
 
 /// The answer of `assess`: the verdict, the numbers that decide, the table, and what is assumed.
@@ -16,6 +17,7 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     sheet.space();
     sheet.table(requirements_table(Some(found), &[]));
     sheet.space();
+    ranges(&mut sheet, found);
     sheet.line("A margin below 0 is a violation (!); = marks a margin of 0 to rounding, which is met.");
     sheet.line("The proved margin is a lower bound over the poses assessed; the least margin was found at the worst pose.");
     if found.workspace == StatedPosesWord::None {
@@ -27,6 +29,31 @@ pub fn assess(found: &AssessAnswer) -> Sheet {
     }
     sheet.add(assumptions(found));
     sheet
+}
+
+/// The free part of each range of a single coordinate.
+fn ranges(sheet: &mut Sheet, found: &AssessAnswer) {
+    if found.ranges.is_empty() {
+        return;
+    }
+    sheet.line("Ranges of single coordinates from home, and the part that is free (computed in doubles):\n");
+    let side = |title: &str| [right(title, 9), right("free to", 9).gap(2), left("limited by", 0).gap(2)];
+    let columns = [left("coordinate", 10)].into_iter().chain(side("minimum")).chain(side("maximum"));
+    let end = |stated: f64, free: &TravelRecord| {
+        let limit = free.binds.as_ref().map_or_else(|| "nothing".to_owned(), named);
+        // the whole side of a range is zero if home is its end
+        [figure(stated), figure(free.value + 0.0), limit]
+    };
+    let row = |range: &RangeRecord| {
+        let sides = end(range.min, &range.back).into_iter().chain(end(range.max, &range.forth));
+        [range.coordinate.trim_end_matches("_deg").to_owned()]
+            .into_iter()
+            .chain(sides)
+            .chain([range.unit.clone()])
+            .collect::<Vec<_>>()
+    };
+    sheet.table(Table::new(columns.chain([left("unit", 0)])).with_rows(found.ranges.iter().map(row)));
+    sheet.space();
 }
 
 /// The tightest requirement, singular poses, conditioning and the lightest drive, a line each.

@@ -26,7 +26,7 @@ use super::{Code, FoundKey, KeyTable, TEXT, axes, joint_models, key};
 use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
-use crate::design::{DesignModel, Warning, Workspace};
+use crate::design::{DesignModel, Warning};
 use machine::requirements::{ForceUnit, MassUnit};
 use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
@@ -70,7 +70,7 @@ pub(super) static TOP: KeyTable<DesignModel> = KeyTable {
             },
             |of| FRAMES.put(&of.frames);
             "convention of the poses that commands read and write"),
-        key!("workspace": table(&WORKSPACE), |_, _| (), |of| Some(&of.workspace).filter(|w| **w != Workspace::default()).and_then(|w| WORKSPACE.put(w));
+        key!("workspace": table(&WORKSPACE), |_, _| (), |of| Some(&of.workspace).filter(|w| w.states_anything()).and_then(|w| WORKSPACE.put(w));
             "the poses to reach"),
         key!("optimize": table(&OPTIMIZE), |_, _| (), |of| OPTIMIZE.put(&OptimizeKeys::of(of));
             "variables and objectives of the optimiser"),
@@ -170,6 +170,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     }
     let bodies = [base.as_ref(), platform.as_ref()];
     design.workspace = workspace(report, entries);
+    design.workspace.frames_pivot = design.frames.pivot_on_platform();
     (design.optimize, design.search) = optimize(report, entries, bodies);
     (design.hardware, design.drive_table) = hardware(report, entries);
     joint_models::refuse_coupled(report, entries, &design.hardware, takes_cranks);

@@ -24,6 +24,19 @@ const DEFINITIONS: &str = r##"{
     "quaternion": {"type": "array", "minItems": 4, "maxItems": 4, "items": {"$ref": "#/$defs/number"}},
     "rows": {"type": "array", "minItems": 3, "maxItems": 3, "items": {"$ref": "#/$defs/vector"}},
     "range": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"$ref": "#/$defs/number"}},
+    "around_home": {
+        "type": "array", "minItems": 2, "maxItems": 2,
+        "prefixItems": [
+            {"type": "number", "maximum": 0, "exclusiveMinimum": -1e60},
+            {"type": "number", "minimum": 0, "exclusiveMaximum": 1e60}
+        ]
+    },
+    "degrees_around_home": {
+        "type": "array", "minItems": 2, "maxItems": 2,
+        "prefixItems": [
+            {"type": "number", "maximum": 0, "minimum": -180}, {"type": "number", "minimum": 0, "maximum": 180}
+        ]
+    },
     "quantity": {
         "oneOf": [{"$ref": "#/$defs/number"}, {"type": "string", "pattern": "\\S", "maxLength": 2000}],
         "description": "a decimal, or an expression such as \"6*sqrt(3)\": numbers, names of parameters, + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg(); a length may have a unit behind it, \"12/5 mm\""

@@ -332,8 +332,7 @@ fn plate_of(plates: &[PlateHoles; 2], body: Body) -> &PlateHoles {
 /// width.
 fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
     let space = problem.space;
-    let widths = (space.translation, space.rotation_deg);
-    SamplePlan::about(problem.manipulator, space.home, widths, (SAMPLES, problem.seed))
+    SamplePlan::about(problem.manipulator, space.home, space.box_about_home(), (SAMPLES, problem.seed))
 }
 
 /// The quality of a design.

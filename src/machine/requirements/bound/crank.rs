@@ -329,8 +329,9 @@ impl RodsOverChart<'_> {
     }
 }
 
-/// Assesses the region, the single poses and the trajectory of a workspace, on at most `cells` cells for each part, and
-/// counts them. It uses the lines of the rods, or the rates of drives with joint offsets. `None` for other designs.
+/// Assesses the region, the single poses, the trajectory and the ranges of a workspace, on at most `cells` cells for
+/// each part, and counts them. It uses the lines of the rods, or the rates of drives with joint offsets. `None` for
+/// other designs.
 ///
 /// A cell with the lines `A` is regular if `|I - K A| <= W` entry by entry and `W u < u` for a positive vector `u`
 /// (Neumaier 1990, sec. 4.1).
@@ -354,7 +355,7 @@ pub fn regular_rods(
     let (mut doubt, mut tested) = (None, 0);
     for chart in Chart::all(space) {
         let lines = RodsOverChart { pushing, m, chart: &chart };
-        // home, or an end of a step
+        // the middle of a region, or an end of a step
         let starts = [[0.0; 6], chart.root.hi].map(|x| chart.pulled_inside(x));
         let Some((start, sign)) = starts.iter().find_map(|x| Some((*x, lines.sign_at(x)?))) else {
             doubt = doubt.or(Some(chart.pose(&starts[0])));

@@ -6,7 +6,7 @@ use super::joint_offsets::JointOffsets;
 use num::interval::Interval;
 use num::jet::{Jet, JetVector, cross, dot, norm_squared};
 use platform::geom::enclosed::{IntervalVector, apply};
-use platform::geom::{Chart, ChartCell, TurnCoefficients, combination};
+use platform::geom::{Chart, ChartCell, TurnCoefficients};
 use platform::manipulator::Manipulator;
 
 /// The poses of a cell: translation `d` and the parts of `exp([w]x) = I + C_1 [w]x + C_2 (w w^T - (w.w) I)`.
@@ -26,7 +26,7 @@ impl<'a> CellFrame<'a> {
     /// The frame over a cell, with second derivatives if needed.
     pub(super) fn over(chart: &'a Chart, cell: &ChartCell, second: bool) -> Self {
         let variables = chart.coordinates();
-        let values = combination(&chart.columns, cell);
+        let values = chart.displacement(cell);
         let coordinate = |k: usize| {
             let mut slope = [Interval::ZERO; 6];
             for (s, column) in slope.iter_mut().zip(&chart.columns) {
@@ -87,15 +87,37 @@ impl<'a> CellFrame<'a> {
         })
     }
 
-    /// `p_0 + d`.
-    pub(super) fn origin(&self) -> JetVector {
+    /// `p_0 + d`, the position of the pivot.
+    pub(super) fn pivot(&self) -> JetVector {
         std::array::from_fn(|k| self.shift[k] + self.constant(self.chart.position[k]))
+    }
+
+    /// A point of the platform frame, measured from the pivot.
+    pub(super) fn relative_to_pivot(&self, point: &IntervalVector) -> IntervalVector {
+        self.chart.relative_to_pivot(point)
+    }
+
+    /// The position of the platform origin.
+    pub(super) fn origin(&self) -> JetVector {
+        if self.chart.pivot.is_some() { self.moved(&Point3::origin()) } else { self.pivot() }
     }
 
     /// A point of the platform frame in the base frame.
     pub(super) fn moved(&self, point: &Point3<f64>) -> JetVector {
-        let (arm, origin) = (self.turned(&enclosed(point)), self.origin());
-        std::array::from_fn(|k| arm[k] + origin[k])
+        // the pivot enters once, so that the enclosure is as tight as for rotations about the origin
+        let (arm, pivot) = (self.turned(&self.relative_to_pivot(&enclosed(point))), self.pivot());
+        std::array::from_fn(|k| arm[k] + pivot[k])
+    }
+
+    /// The coordinates along rotated axes: `c . R^T (x - p)` for a vector `c` of the platform frame, with the platform
+    /// origin `p`.
+    pub(super) fn along(&self, c: &IntervalVector, x: &JetVector) -> Jet {
+        let pivot = self.pivot();
+        let from_pivot = dot(&self.turned(c), &std::array::from_fn(|k| x[k] - pivot[k]));
+        match &self.chart.pivot {
+            None => from_pivot,
+            Some(q) => from_pivot + self.constant(c[0] * q[0] + c[1] * q[1] + c[2] * q[2]),
+        }
     }
 
     /// A leg of a manipulator: from joint to joint, or from second axis to second axis for universal joints with
@@ -113,9 +135,11 @@ impl<'a> CellFrame<'a> {
     pub(super) fn bare_leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
         let [base, platform] = m.enclosed_ends(i);
         let arm = self.turned(&platform);
-        let origin = self.origin();
+        let from_pivot =
+            if self.chart.pivot.is_some() { self.turned(&self.relative_to_pivot(&platform)) } else { arm };
+        let pivot = self.pivot();
         let base = self.fixed(&base);
-        let line: JetVector = std::array::from_fn(|k| arm[k] + (origin[k] - base[k]));
+        let line: JetVector = std::array::from_fn(|k| from_pivot[k] + (pivot[k] - base[k]));
         LegOverCell { base, arm, line, square: norm_squared(&line) }
     }
 }

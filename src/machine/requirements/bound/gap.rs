@@ -150,7 +150,7 @@ pub(super) fn plate_gap(
     let support = support(plate, &u);
     let along = |frame: &CellFrame<'_>, x: &JetVector| match body {
         Body::Base => dot(&frame.fixed(&u), x),
-        Body::Platform => dot(&frame.turned(&u), &less(x, &frame.origin())),
+        Body::Platform => frame.along(&u, x),
     };
     let bound = |k: usize| {
         local::below(chart, cell, z, &along(frames.0, &at.points[k]), &along(frames.1, &over.points[k]))

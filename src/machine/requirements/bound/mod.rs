@@ -51,8 +51,8 @@ pub use verdict::{MarginBound, MarginProof, MarginVerdict};
 /// [`assess()`], with proved bounds of its margins by at most `cells` cells for each kind.
 /// [`AssessOptions::patient_cells`] adds more if a kind is undecided and nothing is violated.
 ///
-/// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight
-/// motions between those of its trajectory, whatever the number of steps.
+/// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, the straight motions
+/// between those of its trajectory, and its ranges, whatever the number of steps.
 #[must_use]
 pub fn prove(
     m: &Manipulator,

@@ -152,7 +152,7 @@ impl<'a> SoftestMotion<'a> {
         let axes: [JetVector; 3] = std::array::from_fn(|a| {
             frame.turned(&std::array::from_fn(|i| Interval::from(if i == a { 1.0 } else { 0.0 })))
         });
-        let origin = frame.origin();
+        let pivot = frame.pivot();
         for i in 0..6 {
             if let Some(joints) = frame.joints() {
                 let along = along_drive(&joints.rates(frame, self.m, i)?, &axes, &columns);
@@ -165,9 +165,10 @@ impl<'a> SoftestMotion<'a> {
             let [base, platform] = self.m.enclosed_ends(i);
             let square = frame.leg(self.m, i).square;
             let over = square.inverse_root()?;
-            let away: JetVector = std::array::from_fn(|j| origin[j] - frame.constant(base[j]));
+            let away: JetVector = std::array::from_fn(|j| pivot[j] - frame.constant(base[j]));
+            let from_pivot = frame.relative_to_pivot(&platform);
             let e: JetVector =
-                std::array::from_fn(|j| (dot_jets(&axes[j], &away) + frame.constant(platform[j])) * over);
+                std::array::from_fn(|j| (dot_jets(&axes[j], &away) + frame.constant(from_pivot[j])) * over);
             // D_i of each column
             let ends: [IntervalVector; 6] = columns.map(|(v, w)| {
                 let turned = cross(&w, &platform);

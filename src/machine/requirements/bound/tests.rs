@@ -1,6 +1,6 @@
 //! Proved margins against dense sampling by separate formulas, planted violations, and margins known by hand.
 
-use nalgebra::{Point3, Rotation3, Unit, Vector3};
+use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::frame::enclosed;
 use super::*;
@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 use crate::requirements::hardware::Housing;
 use crate::requirements::term::TermKind;
 use crate::requirements::{
-    ConeLimits, Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody,
-    LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness,
-    SafetyMargin, SafetyMargins, UniversalJoint, VibratingMasses,
+    ConeLimits, CoordinateRange, Envelope, Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape,
+    LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MovingBodies, PlatformSpeed,
+    PlatformStiffness, SafetyMargin, SafetyMargins, UniversalJoint, VibratingMasses,
 };
 use num::Rng;
 use platform::geom::{ChartCell, Pose, Region};
@@ -55,13 +55,17 @@ pub(super) fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Po
         reached.component_mul(half)
     };
     let pose = |k: usize| {
-        let (d, w) = (draw(k, &space.translation), draw(k, &space.rotation_deg).map(f64::to_radians));
+        let middle = |from: usize| Vector3::from_fn(|k, _| space.middle[from + k]);
+        let d = middle(0) + draw(k, &space.translation);
+        let w = (middle(3) + draw(k, &space.rotation_deg)).map(f64::to_radians);
         let turn = if w.norm() > 0.0 {
             Rotation3::from_axis_angle(&Unit::new_normalize(w), w.norm())
         } else {
             Rotation3::identity()
         };
-        Pose { rotation: turn * space.home.rotation, position: space.home.position + d }
+        let rotation = turn * space.home.rotation;
+        let pivot = space.home.transform(&Point3::from(space.pivot)).coords + d;
+        Pose { rotation, position: pivot - rotation * space.pivot }
     };
     (0..count).map(pose).collect()
 }
@@ -162,6 +166,77 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
         assert_eq!(proof.bounds.len(), 11);
     }
     assert!(close > all * 3 / 4, "{close} of {all}");
+}
+
+/// A region to one side of home, rotated about a pivot, and ranges of single coordinates.
+fn one_sided_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpace {
+    let mut space = random_space(home, rng, region);
+    let half = |k: usize| if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3] };
+    let middle = Vector6::from_fn(|k, _| 0.5 * half(k) * rng.uniform(-1.0, 1.0));
+    (space.middle, space.pivot) = (middle, Vector3::new(0.5, -1.0, 4.0));
+    space.ranges[0] = CoordinateRange { min: -3.0, max: 1.0 };
+    space.ranges[4] = CoordinateRange { min: 0.0, max: 20.0 };
+    space
+}
+
+#[test]
+fn no_pose_about_a_pivot_or_along_a_range_is_below_a_proved_margin() {
+    let mut rng = Rng::new(41);
+    for region in [Region::Box, Region::Ellipsoid] {
+        let (m, home) = random_platform(&mut rng);
+        let space = one_sided_space(home, &mut rng, region);
+        let required = everything();
+        let proof = prove(&m, &required, &space, &quick(), 40);
+        let terms = Terms::new(&m, &required, &home);
+        let mut poses = poses_of(&space, 1000, &mut rng);
+        poses.extend(space.along_ranges(200));
+        let least = sampled(&terms, &poses);
+        let mut finite = 0;
+        for bound in proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed()) {
+            let kind = bound.found.term.kind;
+            let slack = terms.rounding(kind, bound.found.pose.as_ref());
+            assert!(bound.below <= least[&kind] + slack, "{kind:?}: {bound:?} {}", least[&kind]);
+            assert!(bound.found.value <= least[&kind] + 0.02 * least[&kind].abs(), "{kind:?}: {bound:?}");
+            finite += usize::from(bound.below > 0.0);
+        }
+        assert!(finite >= 5, "{finite}");
+        // the negative control: the same region about the origin has other least margins
+        let about_origin = PoseSpace { pivot: Vector3::zeros(), ..space };
+        let other = sampled(&terms, &poses_of(&about_origin, 1000, &mut rng));
+        assert!((other[&TermKind::MaxLegLength] - least[&TermKind::MaxLegLength]).abs() > 0.1);
+    }
+}
+
+/// The platform frame moved to the pivot makes a region without pivot.
+#[test]
+fn a_pivot_is_the_origin_of_a_moved_platform_frame() {
+    let mut rng = Rng::new(42);
+    for region in [Region::Box, Region::Ellipsoid] {
+        let (m, home) = random_platform(&mut rng);
+        let space = one_sided_space(home, &mut rng, region);
+        let q = space.pivot;
+        let platform = m.joints(Body::Platform).iter().map(|b| b - q).collect();
+        let moved = Manipulator::try_new(m.joints(Body::Base).to_vec(), platform, m.pairs()).unwrap();
+        let there = PoseSpace {
+            home: Pose { position: home.position + home.rotation * q, ..home },
+            pivot: Vector3::zeros(),
+            ..space.clone()
+        };
+        // loads and speeds are about the origin of the platform
+        let everything = everything();
+        let keep_outs = everything.keep_outs[..1].to_vec();
+        let hardware = Hardware { max_leg_force: None, max_leg_speed: None, ..everything.hardware };
+        let required = Requirements { hardware, keep_outs, ..Requirements::default() };
+        let [own, other] = [(&m, &space), (&moved, &there)]
+            .map(|(m, space)| prove(m, &required, space, &quick(), 60).bounds);
+        assert_eq!(own.len(), other.len());
+        for (a, b) in own.iter().zip(&other) {
+            let kind = a.found.term.kind;
+            assert_eq!(kind, b.found.term.kind);
+            assert!((a.below - b.below).abs() < 1e-6 * (1.0 + a.below.abs()), "{kind:?}: {a:?} {b:?}");
+            assert!((a.found.value - b.found.value).abs() < 1e-6 * (1.0 + a.below.abs()), "{kind:?}");
+        }
+    }
 }
 
 /// A proof without time bounds hardly any cell, and is no stronger than the whole one.

@@ -3,7 +3,7 @@
 //! Poses are those of a workspace, `R = exp([w]x) R_0`, `p = p_0 + d`, and the set of scale `t` is `|d_k| <= t D_k`,
 //! `|w_k| <= t theta_k`, or the two ellipsoids with these half axes. From below: cells in which `det J != 0` is proved
 //! by interval arithmetic, shell by shell. From above: a pose with the other sign of `det J`. The segment in `(d, w)`
-//! from home to it stays in the set and contains a singular pose.
+//! from home to it stays in the set and contains a singular pose. With a pivot `q`, `p = p_0 + d + R_0 q - R q`.
 //!
 //! `J` is the matrix of leg lines without division by the leg lengths. For a leg map, `det J' = det A det J` at every
 //! pose, so the sets are those of all equivalent platforms.
@@ -43,6 +43,8 @@ pub struct BoxOptions {
     pub translation: [f64; 3],
     /// Half widths `theta_k` of the components of the rotation vector at `t = 1`, base frame, degrees; not negative.
     pub rotation_deg: [f64; 3],
+    /// The point of the platform about which it rotates, platform frame; the origin keeps `p` apart from `R`.
+    pub pivot: [f64; 3],
     /// Greatest number of tested cells.
     pub regions: usize,
     /// The search stops if the proved scale is at least this share of the refuted one, below 1.
@@ -83,6 +85,7 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
         region: options.region,
         translation: options.translation.into(),
         rotation_deg: options.rotation_deg.into(),
+        pivot: options.pivot.into(),
         ..PoseSpace::at(*home)
     };
     let chart = Chart::of_region(&space);
@@ -117,7 +120,7 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
 pub enum Regularity {
     /// Proved: `det J` vanishes at no pose.
     Regular,
-    /// Proved: `det J` vanishes at some pose. It has opposite signs at the home pose and at this one, of the same
+    /// Proved: `det J` vanishes at some pose. It has opposite signs at this one and at another one of the same
     /// connected part of the workspace.
     ChangesSign(Pose),
     /// The independence of the leg lines at this pose is unproved, or cells ran out near it.
@@ -168,14 +171,14 @@ impl Regularity {
     }
 }
 
-/// Assesses the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its
-/// parts, and counts them.
+/// Assesses the region, the single poses, the trajectory and the ranges of a workspace on at most `cells` cells for each
+/// of its parts, and counts them.
 #[must_use]
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {
     let (mut doubt, mut tested) = (None, 0);
     for chart in Chart::all(space) {
         let lines = LegsOverChart::new(m, &chart);
-        // home, or an end of a step
+        // the middle of a region, or an end of a step
         let starts = [[0.0; 6], chart.root.hi].map(|x| chart.pulled_inside(x));
         let Some(sign) = starts.iter().find_map(|x| lines.sign_at(x)) else {
             doubt = doubt.or(Some(chart.pose(&starts[0])));
@@ -303,11 +306,12 @@ struct LegsOverChart<'a> {
     manipulator: &'a Manipulator,
     /// Base joints, from their mean.
     base: [IntervalVector; 6],
-    /// `R_0 b`.
+    /// `R_0 (b - q)` with the pivot `q`.
     arm: [IntervalVector; 6],
     /// `p_0` minus the mean base joint.
     home: IntervalVector,
-    /// Columns of the chart, lengths over the size.
+    /// Middle and columns of the chart, lengths over the size.
+    middle: [Interval; 6],
     columns: Vec<[Interval; 6]>,
 }
 
@@ -319,11 +323,11 @@ impl<'a> LegsOverChart<'a> {
         let over = |x: Interval| x.checked_div(unit).unwrap_or(Interval::WHOLE);
         let ends: [[IntervalVector; 2]; 6] = std::array::from_fn(|i| manipulator.enclosed_ends(i));
         let base = ends.map(|[a, _]| std::array::from_fn(|k| over(a[k] - Interval::from(mean[k]))));
-        let arm = ends.map(|[_, b]| apply(&chart.rotation, &b.map(over)));
+        let arm = ends.map(|[_, b]| apply(&chart.rotation, &chart.relative_to_pivot(&b).map(over)));
         let home = std::array::from_fn(|k| over(chart.position[k] - Interval::from(mean[k])));
         let column = |c: &[Interval; 6]| std::array::from_fn(|k| if k < 3 { over(c[k]) } else { c[k] });
-        let columns = chart.columns.iter().map(column).collect();
-        Self { chart, manipulator, base, arm, home, columns }
+        let (middle, columns) = (column(&chart.middle), chart.columns.iter().map(column).collect());
+        Self { chart, manipulator, base, arm, home, middle, columns }
     }
 
     /// `det J` of rounded numbers.
@@ -342,7 +346,7 @@ impl<'a> LegsOverChart<'a> {
 
     /// Encloses `J` over a cell.
     fn over(&self, cell: &ChartCell) -> IntervalMatrix {
-        let q = combination(&self.columns, cell);
+        let q = combination(&self.middle, &self.columns, cell);
         let r = turn(&[q[3], q[4], q[5]]);
         self.rows(|i| {
             let arm = apply(&r, &self.arm[i]);
@@ -352,7 +356,7 @@ impl<'a> LegsOverChart<'a> {
 
     /// Enclosures of `dJ / dx_k` over the cell, by coordinate.
     fn slopes(&self, cell: &ChartCell) -> Vec<IntervalMatrix> {
-        let q = combination(&self.columns, cell);
+        let q = combination(&self.middle, &self.columns, cell);
         let turning = |c: &[Interval; 6]| c[3..].iter().any(|x| *x != Interval::ZERO);
         let needed = self.columns.iter().any(turning);
         let turns: Vec<_> =

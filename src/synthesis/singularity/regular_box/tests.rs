@@ -2,6 +2,7 @@ use super::*;
 use crate::fixtures::symmetric_hexapod;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 use num::Rng;
+use platform::geom::CoordinateRange;
 use platform::manipulator::{Leg, default_home, plucker_matrix};
 
 fn home(m: &Manipulator) -> Pose {
@@ -14,6 +15,7 @@ const OPTIONS: BoxOptions = BoxOptions {
     region: Region::Box,
     translation: [60.0; 3],
     rotation_deg: [17.0; 3],
+    pivot: [0.0; 3],
     regions: 12_000,
     enough: 0.7,
     seed: 1,
@@ -152,6 +154,7 @@ fn wide_rotations_never_contradict_the_proved_set() {
             regions: 600,
             enough: 0.95,
             seed: k,
+            ..OPTIONS
         };
         let found = regular_box(&m, &home, &options);
         let sign = |pose: &Pose| plucker_matrix(&m, pose, m.size()).determinant();
@@ -181,7 +184,7 @@ fn a_workspace_is_regular_as_its_scale_is() {
         let region = if k % 4 < 2 { Region::Ellipsoid } else { Region::Box };
         let rotation_deg = [40.0, 40.0, 30.0];
         let options =
-            BoxOptions { region, translation: [0.0; 3], rotation_deg, regions: 600, enough: 0.9, seed: 1 };
+            BoxOptions { region, translation: [0.0; 3], rotation_deg, regions: 600, enough: 0.9, ..OPTIONS };
         let found = regular_box(&m, &home, &options);
         let space = |scale: f64| PoseSpace {
             region,
@@ -216,6 +219,65 @@ fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
     assert_eq!(regular_workspace(&m, &space, 1000, 1).0, Regularity::Regular);
     space.trajectory.push(turned(120.0));
     assert!(matches!(regular_workspace(&m, &space, 1000, 1).0, Regularity::ChangesSign(_)));
+}
+
+/// A range of yaw reaches a singular pose from one side only, and a pivot off the axis changes nothing by itself.
+#[test]
+fn ranges_of_single_coordinates_are_regular_up_to_the_singular_yaw() {
+    let m = symmetric_hexapod(200.0, 120.0);
+    let home = home(&m);
+    let with = |range: CoordinateRange, pivot: Vector3<f64>| {
+        let mut space = PoseSpace { pivot, ..PoseSpace::at(home) };
+        space.ranges[5] = range;
+        regular_workspace(&m, &space, 1000, 1).0
+    };
+    let zero = Vector3::zeros();
+    assert_eq!(with(CoordinateRange { min: -60.0, max: 60.0 }, zero), Regularity::Regular);
+    let Regularity::ChangesSign(pose) = with(CoordinateRange { min: -10.0, max: 120.0 }, zero) else {
+        panic!()
+    };
+    let sign = |pose: &Pose| leg_determinant(&m, pose).signum();
+    assert!(sign(&pose) * sign(&home) < 0.0 && (pose.position - home.position).norm() < 1e-9);
+    // about a point of the axis the platform does the same
+    assert_eq!(
+        with(CoordinateRange { min: -60.0, max: 60.0 }, Vector3::new(0.0, 0.0, 50.0)),
+        Regularity::Regular
+    );
+}
+
+/// The platform frame moved to the pivot makes a region without pivot.
+#[test]
+fn regions_about_a_pivot_are_those_of_a_moved_platform_frame() {
+    let m = symmetric_hexapod(200.0, 120.0);
+    let (home, q) = (home(&m), Vector3::new(10.0, 0.0, 80.0));
+    let legs = m.legs().map(|leg| Leg { platform: leg.platform - q, ..leg });
+    let moved = Manipulator::from_legs(legs).unwrap();
+    let there = Pose { position: home.position + home.rotation * q, ..home };
+    let mut verdicts = Vec::new();
+    for most in [20.0, 80.0] {
+        let travels = [
+            CoordinateRange { min: -most, max: 10.0 },
+            CoordinateRange::within(10.0),
+            CoordinateRange::within(20.0),
+        ];
+        let angles = [
+            CoordinateRange::within(10.0),
+            CoordinateRange { min: 0.0, max: most },
+            CoordinateRange::within(5.0),
+        ];
+        let region = |space: PoseSpace| space.with_region(Region::Box, &travels, &angles);
+        let own = region(PoseSpace { pivot: q, ..PoseSpace::at(home) });
+        let [a, b] = [(&m, own), (&moved, region(PoseSpace::at(there)))]
+            .map(|(m, space)| regular_workspace(m, &space, 3000, 1).0);
+        assert_eq!(a.word(), b.word());
+        // poses are stated in the frame of the design
+        if let (Some(a), Some(b)) = (a.pose(), b.pose()) {
+            assert!(a.rotation.angle_to(&b.rotation) < 1e-6, "{a:?} {b:?}");
+            assert!((a.position + a.rotation * q - b.position).norm() < 1e-6 * m.size());
+        }
+        verdicts.push(a.word());
+    }
+    assert_eq!(verdicts, [RegularityWord::Proved, RegularityWord::ChangesSign]);
 }
 
 #[test]

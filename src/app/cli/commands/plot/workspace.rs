@@ -2,14 +2,16 @@
 
 use std::path::PathBuf;
 
+use nalgebra::{Vector3, Vector6};
+
 use crate::app::cli::freedoms::{Freedoms, PoseGrid};
 use crate::app::cli::numbers;
 use crate::app::cli::poses;
 use crate::app::cli::{Context, Failure};
 use ask::Design;
 use files::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
-use machine::requirements::{Limit, Limits, Region};
-use platform::geom::{Pose, PoseConvention, turn_between};
+use machine::requirements::{Limit, Limits, PoseSpace, Region};
+use platform::geom::{Pose, PoseConvention};
 
 /// Default half width for rotations, degrees.
 const DEGREES: f64 = 90.0;
@@ -111,13 +113,6 @@ const SAME: f64 = 1e-6;
 /// Number of corners of the polygon for an ellipse.
 const ELLIPSE: usize = 96;
 
-/// Translation and rotation vector (radians) from home to a pose, base frame.
-fn from_home(home: &Pose, pose: &Pose) -> [f64; 6] {
-    let d = pose.position - home.position;
-    let w = turn_between(&home.rotation, &pose.rotation);
-    [d.x, d.y, d.z, w.x, w.y, w.z]
-}
-
 /// The section of the design's required workspace with the slice; `None` if it requires none.
 fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection> {
     if design.workspace.is_empty() {
@@ -125,23 +120,25 @@ fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection>
     }
     let home = poses::home(design);
     let space = design.workspace.space(&home);
-    let widths: [f64; 6] = std::array::from_fn(|k| {
-        if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3].to_radians() }
-    });
     let [across, up] = grid.freedoms.places();
-    let middle = from_home(&home, &grid.middle);
-    let at_home = middle.iter().all(|x| *x == 0.0);
+    let at_home = space.coordinates(&grid.middle).iter().all(|x| *x == 0.0);
+    // rotations about another point than the origin also move the origin
+    let moves_origin = space.pivot != Vector3::zeros() && (across >= 3 || up >= 3);
+    let has_home_off_axes = space.region == Region::Ellipsoid && space.home_in_cube().is_some();
     let outline = match () {
         () if !design.workspace.has_box() => None,
-        () if at_home => Some(SectionOutline::Through(section_at_home(space.region, &widths, grid))),
+        () if at_home && !moves_origin && !has_home_off_axes => {
+            Some(SectionOutline::Through(section_at_home(&space, grid)))
+        }
         // rotation vectors about different poses do not add, so the section is the zero line of a function
         () => Some(SectionOutline::Zero(
-            grid.poses().map(|pose| inside(space.region, &widths, &from_home(&home, &pose))).collect(),
+            grid.poses().map(|pose| inside(&space, &space.coordinates(&pose))).collect(),
         )),
     };
+    let about_middle = PoseSpace::at(grid.middle);
     let scale = |k: usize| if k < 3 { design.manipulator().size() } else { 1.0 };
     let in_slice = |pose: &Pose| {
-        let x = from_home(&grid.middle, pose);
+        let x = about_middle.coordinates(pose);
         let fixed = (0..6).filter(|k| *k != across && *k != up).all(|k| x[k].abs() <= SAME * scale(k));
         let centre = grid.centre();
         let place = |k: usize, middle: f64| middle + if k < 3 { x[k] } else { x[k].to_degrees() };
@@ -149,16 +146,18 @@ fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection>
         let shown = (at.0 - centre.0).abs() <= grid.half[0] && (at.1 - centre.1).abs() <= grid.half[1];
         (fixed && shown).then_some(at)
     };
-    let poses = space.poses.iter().chain(&space.trajectory).filter_map(in_slice).collect();
+    let ends = space.along_ranges(1);
+    let poses = space.poses.iter().chain(&space.trajectory).chain(&ends).filter_map(in_slice).collect();
     Some(RequiredSection { outline, poses })
 }
 
 /// The section of the region through home: a rectangle, or an ellipse if both freedoms belong to one ellipsoid.
-fn section_at_home(region: Region, widths: &[f64; 6], grid: &PoseGrid) -> Vec<(f64, f64)> {
+fn section_at_home(space: &PoseSpace, grid: &PoseGrid) -> Vec<(f64, f64)> {
     let [across, up] = grid.freedoms.places();
-    let shown = |k: usize| if k < 3 { widths[k] } else { widths[k].to_degrees() };
-    let (a, b, centre) = (shown(across), shown(up), grid.centre());
-    let round = region == Region::Ellipsoid && (across < 3) == (up < 3);
+    let shown = |k: usize| if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3] };
+    let (a, b, home) = (shown(across), shown(up), grid.centre());
+    let centre = (home.0 + space.middle[across], home.1 + space.middle[up]);
+    let round = space.region == Region::Ellipsoid && (across < 3) == (up < 3);
     let corners: Vec<(f64, f64)> = if round {
         (0..ELLIPSE).map(|k| (std::f64::consts::TAU * k as f64 / ELLIPSE as f64).sin_cos()).collect()
     } else {
@@ -167,14 +166,18 @@ fn section_at_home(region: Region, widths: &[f64; 6], grid: &PoseGrid) -> Vec<(f
     corners.into_iter().map(|(s, t)| (centre.0 + a * s, centre.1 + b * t)).collect()
 }
 
-/// Positive inside the region; a freedom of width zero is inside only at home.
-fn inside(region: Region, widths: &[f64; 6], x: &[f64; 6]) -> f64 {
-    let share = |k: usize| match widths[k] {
-        w if w > 0.0 => (x[k] / w).abs(),
-        _ if x[k].abs() <= SAME * widths.iter().fold(0.0, |m: f64, w| m.max(*w)) => 0.0,
+/// Positive inside the region; a freedom of width zero is inside only at home. The coordinates are those of
+/// [`PoseSpace::coordinates`].
+fn inside(space: &PoseSpace, x: &Vector6<f64>) -> f64 {
+    let width = |k: usize| if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3].to_radians() };
+    let middle = |k: usize| if k < 3 { space.middle[k] } else { space.middle[k].to_radians() };
+    let greatest = (0..6).map(width).fold(0.0, f64::max);
+    let share = |k: usize| match width(k) {
+        w if w > 0.0 => ((x[k] - middle(k)) / w).abs(),
+        _ if x[k].abs() <= SAME * greatest => 0.0,
         _ => f64::MAX.sqrt(),
     };
-    let norm = |range: std::ops::Range<usize>| match region {
+    let norm = |range: std::ops::Range<usize>| match space.region {
         Region::Ellipsoid => range.map(|k| share(k).powi(2)).sum::<f64>().sqrt(),
         Region::Box => range.map(share).fold(0.0, f64::max),
     };
@@ -199,11 +202,11 @@ fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Rotation3, Vector3};
+    use nalgebra::Rotation3;
 
     use super::*;
     use crate::app::cli::freedoms::Freedoms;
-    use machine::requirements::TermKind;
+    use machine::requirements::{CoordinateRange, TermKind};
 
     #[test]
     fn every_limit_has_its_colour() {
@@ -222,25 +225,39 @@ mod tests {
     /// The zero line of the function for other poses is the section that is drawn at home.
     #[test]
     fn the_boundary_of_the_region_is_where_the_function_is_zero() {
-        let widths = [2.0, 3.0, 0.0, 0.1, 0.2, 0.3];
         let middle = Pose { rotation: Rotation3::identity(), position: Vector3::new(5.0, 6.0, 7.0) };
-        for region in [Region::Box, Region::Ellipsoid] {
+        let space_of = |region: Region, translation: &[CoordinateRange; 3]| {
+            let half_angles = CoordinateRange::each_within(Vector3::new(6.0, 12.0, 18.0));
+            PoseSpace::at(middle).with_region(region, translation, &half_angles)
+        };
+        let about_home = CoordinateRange::each_within(Vector3::new(2.0, 3.0, 0.0));
+        let to_one_side = [
+            CoordinateRange { min: -1.0, max: 3.0 },
+            CoordinateRange { min: 0.0, max: 2.0 },
+            CoordinateRange::default(),
+        ];
+        for (region, travels) in
+            [(Region::Box, about_home), (Region::Ellipsoid, about_home), (Region::Box, to_one_side)]
+        {
+            let space = space_of(region, &travels);
             for (slice, half) in [("x,y", [4.0, 4.0]), ("y,rz", [4.0, 30.0]), ("rx,ry", [20.0, 20.0])] {
                 let freedoms = Freedoms::parse(slice).unwrap();
                 let grid = PoseGrid { freedoms, middle, half, side: 3 };
                 let (centre, places) = (grid.centre(), freedoms.places());
-                for (a, b) in section_at_home(region, &widths, &grid) {
+                for (a, b) in section_at_home(&space, &grid) {
                     for (share, sign) in [(0.98, 1.0), (1.02, -1.0)] {
-                        let mut x = [0.0; 6];
+                        let mut x = Vector6::zeros();
                         for (k, d) in places.into_iter().zip([a - centre.0, b - centre.1]) {
-                            x[k] = share * if k < 3 { d } else { d.to_radians() };
+                            let at = space.middle[k] + share * (d - space.middle[k]);
+                            x[k] = if k < 3 { at } else { at.to_radians() };
                         }
-                        assert!(inside(region, &widths, &x) * sign > 0.0, "{region:?} {slice} {a} {b}");
+                        assert!(inside(&space, &x) * sign > 0.0, "{region:?} {slice} {a} {b}");
                     }
                 }
             }
         }
         // no pose leaves a freedom of width zero
-        assert!(inside(Region::Box, &widths, &[0.0, 0.0, 0.1, 0.0, 0.0, 0.0]) < 0.0);
+        let along_z = Vector6::ith(2, 0.1);
+        assert!(inside(&space_of(Region::Box, &about_home), &along_z) < 0.0);
     }
 }

@@ -33,6 +33,7 @@ pub(super) fn answer(design: &Design, found: &SingularPoses, frames: &PoseFrames
         regular_box: RegularBoxRecord {
             translation: report.options.translation,
             rotation_deg: report.options.rotation_deg,
+            pivot: report.options.pivot,
             region: report.options.region,
             proved_scale: Number(regular.proved),
             singular_within: regular
