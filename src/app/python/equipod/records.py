@@ -172,7 +172,6 @@ TermKind = Literal[
 ]
 VariantWord = Literal["exact", "nearest"]
 VerdictWord = Literal["equivalent", "inconclusive", "not_equivalent", "singular"]
-WorkspaceWord = Literal["default", "design"]
 
 
 class AccuracyRecord(Record):
@@ -470,7 +469,7 @@ class BudgetPosesRecord(Record):
     #: Number of poses.
     count: int
     #: Source of the workspace.
-    workspace: WorkspaceWord
+    workspace: SourceWord
 
 
 class CalibrateAnswer(Record):
