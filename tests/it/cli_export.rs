@@ -103,7 +103,14 @@ wrote DIR/genhexkins.hal
     }
     // files of controllers have no parts whose sizes could be chosen
     let path = folder.path().join("controller");
-    let out = equipod(&["export", "designs/rbt-octahedral.toml", "--to", "hal,matlab", "-o", path.to_str().unwrap()]);
+    let out = equipod(&[
+        "export",
+        "designs/rbt-octahedral.toml",
+        "--to",
+        "hal,matlab",
+        "-o",
+        path.to_str().unwrap(),
+    ]);
     let text = String::from_utf8(out.stdout).unwrap();
     assert!(text.contains("genhexkins.hal") && !text.contains("diameter"), "{text}");
 }

@@ -250,7 +250,8 @@ fn speeds_and_forces_of_the_data_sheet_are_those_of_at() {
     let at = |more: &[&str]| {
         document(&equipod(&[&["at", BENCH, "--json", "--pose", pose[1]], &frames[..], more].concat()))
     };
-    let rates: Vec<Value> = (1..=6).map(|leg| at(&["--leg", &leg.to_string()])["stuck"]["rates"].clone()).collect();
+    let rates: Vec<Value> =
+        (1..=6).map(|leg| at(&["--leg", &leg.to_string()])["stuck"]["rates"].clone()).collect();
     for (k, axis) in doc["axes"].as_array().unwrap().iter().enumerate() {
         let fastest = rates.iter().map(|rates| number(&rates[k]).abs()).fold(0.0, f64::max);
         assert!((number(&axis["greatest_speed"]) * fastest / 10.0 - 1.0).abs() < 1e-9, "{axis} {fastest}");

@@ -165,7 +165,10 @@ fn a_singular_design_typed_with_three_decimals_is_headlined_as_one() {
     assert_eq!((is_singular, level), (Value::Null, "within_rounding".into()));
     assert_eq!(doc["reason"], "singular_to_digits_given");
     assert_eq!(doc["nearest_singular"]["within_digits"], 0.0005);
-    assert_eq!((&doc["singular_within_rounding"], &doc["nearest_singular"]["unit"]), (&true.into(), &"mm".into()));
+    assert_eq!(
+        (&doc["singular_within_rounding"], &doc["nearest_singular"]["unit"]),
+        (&true.into(), &"mm".into())
+    );
     assert!(text.contains("A singular design (planar bodies) is only 5.5e-4 mm away"), "{text}");
     let (_, doc) = asked(&["check", &fixture("edge-off-1e-9")]);
     assert_eq!(doc["singular_within_rounding"], false);

@@ -198,7 +198,9 @@ impl AssessAnswer {
     pub fn met_at_assessed_poses(&self) -> Option<bool> {
         let each = || self.requirements.iter().map(|m| m.met).chain([self.regular.met]);
         match self.met {
-            None if self.workspace == StatedPosesWord::None && each().all(|met| met == Some(true)) => Some(true),
+            None if self.workspace == StatedPosesWord::None && each().all(|met| met == Some(true)) => {
+                Some(true)
+            }
             met => met,
         }
     }

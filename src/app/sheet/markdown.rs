@@ -30,7 +30,9 @@ impl Sheet {
                     None => escaped(line),
                 },
                 Block::Table(table) => rows(table),
-                Block::Part { title, sheet, .. } => format!("**{}**\n\n{}", escaped(title), sheet.markdown_with(digits)),
+                Block::Part { title, sheet, .. } => {
+                    format!("**{}**\n\n{}", escaped(title), sheet.markdown_with(digits))
+                }
             };
             listed = false;
             parts.push(part.trim_end().to_owned());

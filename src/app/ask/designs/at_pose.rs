@@ -6,10 +6,10 @@ use thiserror::Error;
 use super::PoseFrames;
 use crate::Design;
 use fk::{NearOutcome, NearSolver};
+use machine::reach::StraightPath;
 use machine::requirements::LeastStiffness;
 use machine::rotary::OutOfReach;
 use machine::statics::{PoseStatics, Screw, both_in, in_axes};
-use machine::reach::StraightPath;
 use platform::geom::Pose;
 use platform::manipulator::{
     Body, LegLengths, Manipulator, inverse_condition, jacobian, jacobian_of_legs, leg_determinant,

@@ -97,10 +97,13 @@ impl MovedPlatform {
     /// Gives the platform a name and a description, and the leg lengths at the pose of the given design.
     fn finish(&mut self, given: &Design, number: usize) {
         let (c, assessed) = (&self.candidate, self.assessed.as_ref());
-        let words = targets_in_words(c.fulfilled, assessed.map(|a| {
-            let met = a.met_at_assessed_poses();
-            (met, a.names(met))
-        }));
+        let words = targets_in_words(
+            c.fulfilled,
+            assessed.map(|a| {
+                let met = a.met_at_assessed_poses();
+                (met, a.names(met))
+            }),
+        );
         let Some(out) = &mut self.design else { return };
         out.name = format!("{}, rearranged {number}", given.name);
         out.description = Some(format!(

@@ -184,7 +184,10 @@ const GROWTH: f64 = 1.25;
 #[cfg(feature = "optimize")]
 fn rank(assessed: Option<&AssessReport>) -> [u8; 2] {
     let known = |x: Option<bool>| x.map_or(1, |x| if x { 2 } else { 0 });
-    [known(assessed.map_or(Some(true), AssessReport::met_at_assessed_poses)), known(met_or_nothing_required(assessed))]
+    [
+        known(assessed.map_or(Some(true), AssessReport::met_at_assessed_poses)),
+        known(met_or_nothing_required(assessed)),
+    ]
 }
 
 #[cfg(feature = "optimize")]

@@ -23,7 +23,8 @@ pub fn limits(name: &str, answer: &LimitsAnswer) -> Sheet {
         let columns = [left("axis", 6), right("value", 9), right("minimum", 9), left("limited by", 0).gap(2)];
         let more = [right("maximum", 9), left("limited by", 0).gap(2), left("unit", 0)];
         out.table(Table::new(columns.into_iter().chain(more)).with_rows(answer.axes.iter().map(axis)));
-        let is_limit = |travel: &TravelRecord| travel.binds.as_ref().is_some_and(|limit| limit.name.is_some());
+        let is_limit =
+            |travel: &TravelRecord| travel.binds.as_ref().is_some_and(|limit| limit.name.is_some());
         if !answer.axes.iter().any(|row| is_limit(&row.back) || is_limit(&row.forth)) {
             out.line("No requirement ends the travel: state leg lengths and joint angles in [hardware].");
         }

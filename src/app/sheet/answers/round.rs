@@ -6,7 +6,8 @@ use crate::{Sheet, Table, left, right};
 use ask::rounding::RoundingWay;
 use machine::manufacture::Evaluation;
 use records::{
-    AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord,
+    AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, NearestRoundingOutcome, RoundAnswer,
+    RoundedJointRecord,
 };
 
 /// A line about a design; `met`: the verdict over the whole workspace, if there is one.
