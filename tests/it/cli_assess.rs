@@ -200,17 +200,18 @@ fn a_stiffness_that_cells_do_not_decide_is_not_called_met() {
         "{text}"
     );
     // on a single pose the same requirement is decided
-    let home = text_of_home(&path);
+    let home = text_of_home(path.to_str().unwrap());
     std::fs::write(&path, home).unwrap();
     let doc = document(&equipod(&[&words[..], &["--json"]].concat()));
     assert_eq!(doc["met"].as_bool(), Some(true), "{doc}");
 }
 
-/// A design without its workspace: home alone.
-fn text_of_home(path: &std::path::Path) -> String {
+/// A design with home as the only pose of its workspace.
+fn text_of_home(path: &str) -> String {
     let text = std::fs::read_to_string(path).unwrap();
     let (before, after) = text.split_once("[workspace]").unwrap();
-    format!("{before}{}", &after[after.find("[hardware]").unwrap()..])
+    let home = "relative_to = \"home\"\nposes = [{ position = [0, 0, 0], rpy_deg = [0, 0, 0] }]\n";
+    format!("{before}[workspace]\n{home}{}", &after[after.find("[hardware]").unwrap()..])
 }
 
 /// The masses are a payload of 300 kg on legs of 1e5 N/mm; `motion` computes the same numbers at home by its own
@@ -218,17 +219,15 @@ fn text_of_home(path: &std::path::Path) -> String {
 #[test]
 fn stiffness_and_frequency_have_rows_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
-    let text = std::fs::read_to_string("designs/worked/positioner-octahedral.toml").unwrap();
     let path = folder.path().join("design.toml");
     let path = path.to_str().unwrap();
     // at home alone, where nothing has to be bounded between poses
-    let (before, after) = text.split_once("[workspace]").unwrap();
-    let hardware = &after[after.find("[hardware]").unwrap()..];
+    let text = text_of_home("designs/worked/positioner-octahedral.toml");
     let with = |linear: f64, hertz: f64| {
         let tables = format!(
             "\n[payload]\nmass = 300\ncenter = [0, 0, -150]\ninertia = [1.2e7, 1.2e7, 1.5e7]\n[stiffness]\nlinear = {linear}\nnatural_frequency = {hertz}\n"
         );
-        std::fs::write(path, format!("{before}{hardware}{tables}")).unwrap();
+        std::fs::write(path, format!("{text}{tables}")).unwrap();
         assess(path)
     };
     let (code, doc) = with(60000.0, 60.0);

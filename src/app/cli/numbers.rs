@@ -74,8 +74,10 @@ fn one_length(text: &str, units: &str) -> Result<f64, String> {
 /// The fault of the text.
 pub(crate) fn lengths<const N: usize>(text: &str, word: &str, units: &str) -> Result<[f64; N], String> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let fields: [&str; N] =
-        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of {word}", f.len()))?;
+    let fields: [&str; N] = fields.try_into().map_err(|f: Vec<_>| match f.len() {
+        1 => format!("one value instead of {word}"),
+        n => format!("{n} values instead of {word}"),
+    })?;
     let mut values = [0.0; N];
     for (i, field) in fields.iter().enumerate() {
         values[i] =

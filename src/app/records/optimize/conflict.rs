@@ -100,7 +100,7 @@ pub(super) fn words(design: &Design, d: Demand) -> (String, String) {
         Demand::Requirement(kind) => (kind.label().to_owned(), design.unit_of(kind.quantity())),
         Demand::Determinant => {
             let default =
-                if design.optimize.min_abs_det.is_none() { ", a default of the search," } else { "" };
+                if design.optimize.min_abs_det.is_none() { " (a default of the search)" } else { "" };
             (format!("the least |det A|{default}"), String::new())
         }
         Demand::Reach => ("the reach of sliding joints".to_string(), "reaches".to_string()),

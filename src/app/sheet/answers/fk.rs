@@ -1,5 +1,7 @@
 //! All poses for given lengths, or one pose that is tracked.
 
+use std::fmt::Display;
+
 use super::poses::{POSE, angle, numbers, pose, units as pose_units, written};
 use crate::figure::figure;
 use crate::{Sheet, Table, left, right};
@@ -119,8 +121,8 @@ fn position(near: &NearRecord) -> String {
 }
 
 /// A number with its noun, in the plural unless it is one.
-fn counted(count: u32, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+fn counted<N: Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
+    if count == N::from(1) { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
 /// The tracking of the pose, before the list of poses.
@@ -197,9 +199,9 @@ fn counts(out: &mut Sheet, name: &str, s: &SolvedRecord) {
         let what = if *dimension_at_least == 1 { "curve" } else { "set" };
         say!(
             out,
-            "{name}: self-motion, a {what} of poses of dimension at least {dimension_at_least}, with {} points found on it and {} isolated poses (method {})",
-            witness_points.len(),
-            s.finite_count,
+            "{name}: self-motion, a {what} of poses of dimension at least {dimension_at_least}, with {} found on it and {} (method {})",
+            counted(witness_points.len(), "point"),
+            counted(s.finite_count, "isolated pose"),
             s.method
         );
     } else {
