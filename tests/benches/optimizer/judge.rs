@@ -7,7 +7,7 @@ use equipod::methods::manipulator::{
 };
 use equipod::methods::offsets::OffsetProblem;
 use equipod::methods::requirements::CoordinateRange;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use super::verdict::Judged;
 
