@@ -171,8 +171,8 @@ impl Regularity {
     }
 }
 
-/// Assesses the region, the single poses, the trajectory and the ranges of a workspace on at most `cells` cells for each
-/// of its parts, and counts them.
+/// Assesses the region, the single poses, the trajectory and the ranges of a workspace, on at most `cells` cells for
+/// each part, and counts them.
 #[must_use]
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {
     let (mut doubt, mut tested) = (None, 0);
