@@ -1,0 +1,301 @@
+//! Tilings of a region of poses: cells, on each of which one inequality proves a requirement.
+//!
+//! Points of the region have coordinates in the cube `[-1, 1]^6`: translation and rotation vector over their half
+//! widths. A cell with the middle `z` and half widths `h` is proved by the mean value form
+//!
+//! ```text
+//! f(x) >= f(z) - sum_k |df/dx_k| h_k,       slopes enclosed over the cell.
+//! ```
+//!
+//! Cells of `det J` are proved by `|I - K J(x)| < 1` with `K` near the inverse of `J(z)`. The bounds of
+//! [`prove_telling`](super::prove_telling) need fewer cells; these are so simple that another program can check them.
+//! The program `equipod-check` does, with the same formulas in integers.
+
+use nalgebra::{Matrix6, Vector3};
+
+use super::{PoseSpace, Region};
+use num::interval::{Interval, radians};
+use num::vector::{cross, dot, minus};
+use platform::geom::enclosed::{
+    IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times,
+};
+use platform::geom::{cosine, turn, turn_slope};
+use platform::manipulator::{Body, Manipulator};
+
+/// Greatest number of cells of a tiling: a second of the program that checks it is about a thousand cells.
+const MOST_CELLS: usize = 3000;
+/// Greatest square of a rotation vector; the coefficients of rotations are monotone up to it.
+const LARGEST_TURN: f64 = 20.0;
+/// Cells of `det J` are split until the norm is below this, so that another inverse proves them too.
+const CONTRACTION: f64 = 0.99;
+/// Cells count as outside an ellipsoid if their least norm is above this square.
+const OUTSIDE: f64 = 1.0 + 1e-9;
+
+/// A requirement on one leg, with its margin already taken off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LegRequirement {
+    /// The length is at least this.
+    MinLength(f64),
+    /// The length is at most this.
+    MaxLength(f64),
+    /// The angle between the leg and the axis of its joint on the body is at most this.
+    ConeAngle {
+        /// The body.
+        body: Body,
+        /// The axis, body frame.
+        axis: Vector3<f64>,
+        /// Degrees.
+        limit_deg: f64,
+    },
+}
+
+/// The region of a workspace, ready for tilings.
+#[derive(Debug)]
+pub struct TiledRegion {
+    region: Region,
+    home: Rotation,
+    position: IntervalVector,
+    /// Half widths: translation, then rotation in radians.
+    widths: [Interval; 6],
+    base: [IntervalVector; 6],
+    /// Platform joints rotated to home.
+    platform: [IntervalVector; 6],
+    /// Length by which moments are divided.
+    unit: f64,
+}
+
+/// The poses of a cell.
+struct Cell {
+    rotation: Rotation,
+    slopes: [Rotation; 3],
+    position: IntervalVector,
+}
+
+/// A cell in coordinates of the cube.
+#[derive(Clone, Copy)]
+struct Ends {
+    low: [f64; 6],
+    high: [f64; 6],
+}
+
+impl Ends {
+    fn middle(&self) -> Self {
+        let middle = std::array::from_fn(|k| 0.5 * (self.low[k] + self.high[k]));
+        Self { low: middle, high: middle }
+    }
+
+    fn half(&self, k: usize) -> f64 {
+        0.5 * (self.high[k] - self.low[k])
+    }
+
+    /// Least square of the norm of three coordinates.
+    fn least_square(&self, first: usize) -> f64 {
+        (first..first + 3).map(|k| self.low[k].max(-self.high[k]).max(0.0).powi(2)).sum()
+    }
+}
+
+/// `None` for a proved cell, otherwise the coordinate along which to split it.
+type Split = Option<usize>;
+
+fn sum(u: &IntervalVector, v: &IntervalVector) -> IntervalVector {
+    std::array::from_fn(|i| u[i] + v[i])
+}
+
+impl TiledRegion {
+    /// `None` without a region, and for rotations too large for the formulas.
+    #[must_use]
+    pub fn new(m: &Manipulator, space: &PoseSpace) -> Option<Self> {
+        let turns = [0, 1, 2].map(|k| radians(space.rotation_deg[k]));
+        let largest: f64 = turns.iter().map(|w| w.hi() * w.hi()).sum();
+        if space.axes().is_empty() || largest > 0.99 * LARGEST_TURN {
+            return None;
+        }
+        let home = exact_rotation(&space.home);
+        let ends: [[IntervalVector; 2]; 6] = std::array::from_fn(|i| m.enclosed_ends(i));
+        let translation = [0, 1, 2].map(|k| Interval::from(space.translation[k]));
+        Some(Self {
+            region: space.region,
+            home,
+            position: <[f64; 3]>::from(space.home.position).map(Interval::from),
+            widths: std::array::from_fn(|k| if k < 3 { translation[k] } else { turns[k - 3] }),
+            base: ends.map(|[base, _]| base),
+            platform: ends.map(|[_, platform]| apply(&home, &platform)),
+            unit: 2f64.powi(m.platform_rms_radius().max(f64::MIN_POSITIVE).log2().round() as i32),
+        })
+    }
+
+    /// The length by which the moments of leg lines are divided in the tilings of `det J`, design units.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// A tiling that proves a requirement on one leg at every pose of the region; `None` if it is violated or needs too
+    /// many cells.
+    ///
+    /// The text is a binary tree: a digit splits the cell in halves along a coordinate, from 0, and the lower half
+    /// follows. A point is a proved cell, an `x` one outside the ellipsoid.
+    #[must_use]
+    pub fn leg_tiling(&self, leg: usize, required: LegRequirement) -> Option<String> {
+        self.tiling(&|ends| self.leg_cell(leg, required, ends))
+    }
+
+    /// A tiling that proves `det J` nonzero at every pose of the region.
+    #[must_use]
+    pub fn regular_tiling(&self) -> Option<String> {
+        self.tiling(&|ends| self.regular_cell(ends))
+    }
+
+    fn tiling(&self, prove: &dyn Fn(&Ends) -> Split) -> Option<String> {
+        let half = self.widths.map(|w| if w == Interval::ZERO { 0.0 } else { 1.0 });
+        let mut open = vec![Ends { low: half.map(|h| -h), high: half }];
+        let (mut tree, mut cells) = (String::new(), 0);
+        while let Some(ends) = open.pop() {
+            if self.is_outside(&ends) {
+                tree.push('x');
+                continue;
+            }
+            match prove(&ends) {
+                None => {
+                    tree.push('.');
+                    cells += 1;
+                }
+                Some(k) if cells + open.len() < MOST_CELLS => {
+                    tree.push(char::from(b'0' + k as u8));
+                    let middle = ends.middle().low[k];
+                    let (mut lower, mut upper) = (ends, ends);
+                    (lower.high[k], upper.low[k]) = (middle, middle);
+                    open.extend([upper, lower]);
+                }
+                Some(_) => return None,
+            }
+        }
+        Some(tree)
+    }
+
+    fn is_outside(&self, ends: &Ends) -> bool {
+        self.region == Region::Ellipsoid && [0, 3].iter().any(|first| ends.least_square(*first) > OUTSIDE)
+    }
+
+    fn cell(&self, ends: &Ends) -> Cell {
+        let x: [Interval; 6] = std::array::from_fn(|k| {
+            let ends = Interval::new(ends.low[k], ends.high[k]).unwrap_or(Interval::WHOLE);
+            ends * self.widths[k]
+        });
+        let w = [x[3], x[4], x[5]];
+        let position = sum(&self.position, &[x[0], x[1], x[2]]);
+        Cell { rotation: turn(&w), slopes: [0, 1, 2].map(|k| turn_slope(&w, k)), position }
+    }
+
+    fn leg_cell(&self, leg: usize, required: LegRequirement, ends: &Ends) -> Split {
+        let value = self.leg_function(leg, required, &self.cell(&ends.middle())).0;
+        let slopes = self.leg_function(leg, required, &self.cell(ends)).1;
+        let off = (0..6).fold(value, |sum, k| sum + slopes[k] * Interval::about_zero(ends.half(k)));
+        let proved = off.lo() >= 0.0;
+        (!proved).then(|| widest(&|k| (slopes[k].hi() - slopes[k].lo()) * ends.half(k)))
+    }
+
+    /// The function that has to be non-negative, and its slopes along the coordinates of the cube.
+    fn leg_function(&self, leg: usize, required: LegRequirement, cell: &Cell) -> (Interval, [Interval; 6]) {
+        let (arm, joint) = (apply(&cell.rotation, &self.platform[leg]), &self.platform[leg]);
+        let n = minus(&sum(&arm, &cell.position), &self.base[leg]);
+        let square = n[0].square() + n[1].square() + n[2].square();
+        // the change of the leg vector along a coordinate
+        let along = |k: usize| -> IntervalVector {
+            let step = |i| if i == k { Interval::from(1.0) } else { Interval::ZERO };
+            let change = if k < 3 { std::array::from_fn(step) } else { apply(&cell.slopes[k - 3], joint) };
+            change.map(|x| x * self.widths[k])
+        };
+        match required {
+            LegRequirement::MinLength(least) => {
+                let slope = |k| Interval::from(2.0) * dot(&n, &along(k));
+                (square - Interval::from(least).square(), std::array::from_fn(slope))
+            }
+            LegRequirement::MaxLength(greatest) => {
+                let slope = |k| Interval::from(-2.0) * dot(&n, &along(k));
+                (Interval::from(greatest).square() - square, std::array::from_fn(slope))
+            }
+            LegRequirement::ConeAngle { body, axis, limit_deg } => {
+                let axis = [axis.x, axis.y, axis.z].map(Interval::from);
+                let size = (axis[0].square() + axis[1].square() + axis[2].square()).sqrt();
+                let cosine = cosine(radians(limit_deg)) * size.unwrap_or(Interval::WHOLE);
+                let at_home = apply(&self.home, &axis);
+                let (m, turned) = match body {
+                    Body::Base => (axis, None),
+                    Body::Platform => (apply(&cell.rotation, &at_home), Some(at_home)),
+                };
+                let length = square.sqrt().unwrap_or(Interval::WHOLE);
+                let slope = |k: usize| {
+                    let t = along(k);
+                    let of_length = dot(&n, &t).checked_div(length).unwrap_or(Interval::WHOLE);
+                    let of_axis = match &turned {
+                        Some(axis) if k >= 3 => dot(&n, &apply(&cell.slopes[k - 3], axis)) * self.widths[k],
+                        _ => Interval::ZERO,
+                    };
+                    dot(&t, &m) + of_axis - cosine * of_length
+                };
+                (dot(&n, &m) - cosine * length, std::array::from_fn(slope))
+            }
+        }
+    }
+
+    fn regular_cell(&self, ends: &Ends) -> Split {
+        let at = self.lines(&self.cell(&ends.middle()));
+        let middle = Matrix6::from_fn(|i, j| at[i][j].centre_and_radius().0);
+        let Some(inverse) = middle.try_inverse() else { return Some(widest(&|k| ends.half(k))) };
+        let start = times(&inverse, &at);
+        let cell = self.cell(ends);
+        let changes: [IntervalMatrix; 6] =
+            std::array::from_fn(|k| times(&inverse, &self.changes(&cell, k)));
+        let row = |i: usize| -> f64 {
+            let entry = |j: usize| {
+                let identity = if i == j { Interval::from(1.0) } else { Interval::ZERO };
+                let fixed = Interval::from((start[i][j] - identity).magnitude());
+                (0..6).fold(fixed, |sum, k| {
+                    sum + Interval::from(changes[k][i][j].magnitude()) * Interval::from(ends.half(k))
+                })
+            };
+            (0..6).map(entry).fold(Interval::ZERO, |sum, x| sum + x).hi()
+        };
+        let proved = (0..6).map(row).fold(0.0, f64::max) < CONTRACTION;
+        let size = |k: usize| -> f64 {
+            let row = |i: usize| changes[k][i].iter().map(|x| x.magnitude()).sum::<f64>();
+            (0..6).map(row).fold(0.0, f64::max)
+        };
+        (!proved).then(|| widest(&|k| size(k) * ends.half(k)))
+    }
+
+    /// Rows `(n, R b x n / unit)` of the leg lines, moments about the platform origin; `R b x n = R b x (p - a)`.
+    fn lines(&self, cell: &Cell) -> IntervalMatrix {
+        std::array::from_fn(|i| {
+            let arm = apply(&cell.rotation, &self.platform[i]);
+            let lever = minus(&cell.position, &self.base[i]);
+            self.row(sum(&arm, &lever), cross(&arm, &lever))
+        })
+    }
+
+    /// The change of the rows along a coordinate of the cube.
+    fn changes(&self, cell: &Cell, k: usize) -> IntervalMatrix {
+        std::array::from_fn(|i| {
+            let (change, moment) = if k < 3 {
+                let step = std::array::from_fn(|j| if j == k { Interval::from(1.0) } else { Interval::ZERO });
+                (step, cross(&apply(&cell.rotation, &self.platform[i]), &step))
+            } else {
+                let turned = apply(&cell.slopes[k - 3], &self.platform[i]);
+                (turned, cross(&turned, &minus(&cell.position, &self.base[i])))
+            };
+            self.row(change, moment).map(|x| x * self.widths[k])
+        })
+    }
+
+    fn row(&self, n: IntervalVector, moment: IntervalVector) -> [Interval; 6] {
+        // the unit is a power of two
+        let scale = self.unit.recip();
+        std::array::from_fn(|j| if j < 3 { n[j] } else { moment[j - 3].scaled(scale) })
+    }
+}
+
+/// The coordinate with the greatest part in the width of the bound.
+fn widest(part: &dyn Fn(usize) -> f64) -> usize {
+    (0..6).max_by(|i, j| part(*i).total_cmp(&part(*j))).unwrap_or(0)
+}
