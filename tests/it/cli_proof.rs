@@ -137,7 +137,8 @@ fn singular_and_unrelated_pairs_are_checked() {
     singular.holds(&["leg_map", "dependency"]);
     assert_eq!(singular.document["claims"][0]["det"], "0");
     singular.refutes("dependency-2-1", |d| change(&mut claim(d, "dependency-2-1")["coefficients"][1]));
-    let unrelated = Proof::of("verify", &["rbt-octahedral.toml", "symmetric-hexapod.toml"], &["--samples", "1"]);
+    let unrelated =
+        Proof::of("verify", &["rbt-octahedral.toml", "symmetric-hexapod.toml"], &["--samples", "1"]);
     unrelated.holds(&["no_leg_map"]);
     let to_itself = |d: &mut Value| claim(d, "no-leg-map")["to"] = 0.into();
     unrelated.refutes("no-leg-map", to_itself);
@@ -218,11 +219,18 @@ fn margins_at_poses_and_over_a_region_are_checked_and_their_faults_are_named() {
     let path = folder.path().join("small.toml");
     let text = std::fs::read_to_string(root().join("designs/worked/bench-joint-free.toml")).unwrap();
     let text = text.replace("translation = [25.0, 25.0, 20.0]", "translation = [6.0, 6.0, 0.0]");
-    std::fs::write(&path, text.replace("rotation_deg = [8.0, 8.0, 8.0]", "rotation_deg = [3.0, 0.0, 3.0]")).unwrap();
+    std::fs::write(&path, text.replace("rotation_deg = [8.0, 8.0, 8.0]", "rotation_deg = [3.0, 0.0, 3.0]"))
+        .unwrap();
     let proof = Proof::of("assess", &[path.to_str().unwrap()], &["--points", "200"]);
     let kinds = ["margin", "margin_over_region", "regular_pose", "regular_region"];
     proof.holds(&kinds);
-    let cone = proof.only(&["base_cone_angle", "max_leg_length", "regular-home", "max_leg_length-region", "regular-region"]);
+    let cone = proof.only(&[
+        "base_cone_angle",
+        "max_leg_length",
+        "regular-home",
+        "max_leg_length-region",
+        "regular-region",
+    ]);
     cone.refutes("base_cone_angle", |d| claim(d, "base_cone_angle")["at_least"] = "359/10".into());
     cone.refutes("base_cone_angle", |d| {
         let axis = &mut claim(d, "base_cone_angle")["axes"][0];
@@ -248,7 +256,11 @@ fn a_file_without_claims_or_of_another_kind_is_no_proof() {
     let (code, text) = checked(&proof.write(&empty));
     assert_eq!(code, Some(3), "{text}");
     assert!(text.contains("nothing is proved"), "{text}");
-    for other in [serde_json::json!({}), serde_json::json!([1]), serde_json::json!({"equipod_proof": "check", "schema_version": 2})] {
+    for other in [
+        serde_json::json!({}),
+        serde_json::json!([1]),
+        serde_json::json!({"equipod_proof": "check", "schema_version": 2}),
+    ] {
         assert_eq!(checked(&proof.write(&other)).0, Some(2));
     }
     assert_eq!(checked(Path::new("no-such-file.json")).0, Some(2));
@@ -272,5 +284,8 @@ fn a_proof_overwrites_no_design() {
             .unwrap();
         assert_eq!(out.status.code(), Some(2), "{out:?}");
     }
-    assert_eq!(std::fs::read(&path).unwrap(), std::fs::read(root().join("designs/rbt-octahedral.toml")).unwrap());
+    assert_eq!(
+        std::fs::read(&path).unwrap(),
+        std::fs::read(root().join("designs/rbt-octahedral.toml")).unwrap()
+    );
 }

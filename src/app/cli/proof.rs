@@ -15,11 +15,7 @@ pub(crate) struct ProofArgs {
 
 impl ProofArgs {
     /// Writes the proof if it is requested, and tells what is in it.
-    pub(crate) fn write(
-        &self,
-        context: &Context,
-        proof: impl FnOnce() -> ProofFile,
-    ) -> Result<(), Failure> {
+    pub(crate) fn write(&self, context: &Context, proof: impl FnOnce() -> ProofFile) -> Result<(), Failure> {
         let Some(path) = &self.proof else { return Ok(()) };
         let proof = proof();
         files::write_text(path, &files::record_text(&proof)?)?;

@@ -16,9 +16,7 @@ use nalgebra::{Matrix6, Vector3};
 use super::{PoseSpace, Region};
 use num::interval::{Interval, radians};
 use num::vector::{cross, dot, minus};
-use platform::geom::enclosed::{
-    IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times,
-};
+use platform::geom::enclosed::{IntervalMatrix, IntervalVector, Rotation, apply, exact_rotation, times};
 use platform::geom::{cosine, turn, turn_slope};
 use platform::manipulator::{Body, Manipulator};
 
@@ -245,8 +243,7 @@ impl TiledRegion {
         let Some(inverse) = middle.try_inverse() else { return Some(widest(&|k| ends.half(k))) };
         let start = times(&inverse, &at);
         let cell = self.cell(ends);
-        let changes: [IntervalMatrix; 6] =
-            std::array::from_fn(|k| times(&inverse, &self.changes(&cell, k)));
+        let changes: [IntervalMatrix; 6] = std::array::from_fn(|k| times(&inverse, &self.changes(&cell, k)));
         let row = |i: usize| -> f64 {
             let entry = |j: usize| {
                 let identity = if i == j { Interval::from(1.0) } else { Interval::ZERO };
@@ -298,4 +295,83 @@ impl TiledRegion {
 /// The coordinate with the greatest part in the width of the bound.
 fn widest(part: &dyn Fn(usize) -> f64) -> usize {
     (0..6).max_by(|i, j| part(*i).total_cmp(&part(*j))).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Point3, Rotation3};
+    use num::Rng;
+    use platform::geom::Pose;
+    use platform::manipulator::Leg;
+
+    fn hexapod() -> Manipulator {
+        let joint = |radius: f64, degrees: f64| {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            Point3::new(radius * cosine, radius * sine, 0.0)
+        };
+        let legs = std::array::from_fn(|i| {
+            let side = if i % 2 == 0 { -1.0 } else { 1.0 };
+            let (base, platform) = (f64::from(i as u32 / 2) * 120.0, side * 46.0);
+            Leg { base: joint(300.0, base + side * 12.0), platform: joint(200.0, base + platform) }
+        });
+        Manipulator::from_legs(legs).unwrap()
+    }
+
+    fn space(region: Region, scale: f64) -> PoseSpace {
+        PoseSpace {
+            region,
+            translation: Vector3::new(40.0, 40.0, 30.0) * scale,
+            rotation_deg: Vector3::new(6.0, 6.0, 0.0) * scale,
+            ..PoseSpace::at(Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 350.0) })
+        }
+    }
+
+    #[test]
+    fn what_holds_with_room_is_tiled_and_what_fails_at_a_pose_is_not() {
+        let m = hexapod();
+        for region in [Region::Box, Region::Ellipsoid] {
+            let space = space(region, 1.0);
+            let tiled = TiledRegion::new(&m, &space).unwrap();
+            let poses: Vec<Pose> =
+                space.cube_points(300, &mut Rng::new(1)).iter().map(|x| space.pose(x)).collect();
+            let line = |pose: &Pose| pose.transform(&m.legs()[0].platform) - m.legs()[0].base;
+            let lengths = || poses.iter().map(|pose| line(pose).norm());
+            let (least, greatest) = (lengths().fold(f64::INFINITY, f64::min), lengths().fold(0.0, f64::max));
+            let axis = Vector3::z();
+            let angle = |pose: &Pose| line(pose).angle(&axis).to_degrees();
+            let widest = poses.iter().map(angle).fold(0.0, f64::max);
+            let cone = |limit_deg| LegRequirement::ConeAngle { body: Body::Base, axis, limit_deg };
+            let of_platform = |limit_deg| LegRequirement::ConeAngle { body: Body::Platform, axis, limit_deg };
+            let back = |pose: &Pose| (pose.rotation.inverse() * line(pose)).angle(&axis).to_degrees();
+            let widest_back = poses.iter().map(back).fold(0.0, f64::max);
+            for (met, violated) in [
+                (LegRequirement::MinLength(least - 15.0), LegRequirement::MinLength(least + 1.0)),
+                (LegRequirement::MaxLength(greatest + 15.0), LegRequirement::MaxLength(greatest - 1.0)),
+                (cone(widest + 3.0), cone(widest - 0.2)),
+                (of_platform(widest_back + 3.0), of_platform(widest_back - 0.2)),
+            ] {
+                let tree = tiled.leg_tiling(0, met);
+                assert!(tree.is_some_and(|t| t.contains('.')), "{met:?}");
+                assert_eq!(tiled.leg_tiling(0, violated), None, "{violated:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn regions_without_singular_poses_are_tiled_and_wide_ones_are_not() {
+        let m = hexapod();
+        let tiling =
+            |scale| TiledRegion::new(&m, &space(Region::Box, scale)).and_then(|t| t.regular_tiling());
+        assert!(tiling(0.5).is_some());
+        assert_eq!(tiling(8.0), None);
+    }
+
+    #[test]
+    fn corners_of_the_cube_are_outside_of_an_ellipsoid() {
+        let tiled = TiledRegion::new(&hexapod(), &space(Region::Ellipsoid, 1.0)).unwrap();
+        let corner = Ends { low: [0.7, 0.7, 0.7, 0.0, 0.0, 0.0], high: [1.0; 6] };
+        assert!(tiled.is_outside(&corner));
+        assert!(!tiled.is_outside(&Ends { low: [0.5, 0.5, 0.5, 0.0, 0.0, 0.0], ..corner }));
+    }
 }

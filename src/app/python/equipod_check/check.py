@@ -828,7 +828,7 @@ def root(proof: Proof, claim: Any) -> str:
     need(0 <= patch < 4 and unit > 0, "patch or unit is no patch or unit")
     system = proof.system(problem, patch, unit)
     given = complex_list(field(claim, "centre"), 8)
-    need(given[patch] == (1, 0), "the patch is not 1 at the centre")
+    need(given[patch] == (Fraction(1), Fraction(0)), "the patch is not 1 at the centre")
     centre = [(scaled(given[k][0]), scaled(given[k][1])) for k in system.free]
     radius, alone = fraction(field(claim, "radius")), fraction(field(claim, "uniqueness_radius"))
     need(0 <= radius < alone, "the radius is not below the radius of uniqueness")
@@ -973,6 +973,13 @@ def apply(r: Matrix, v: Vector) -> Vector:
     return [real_dot(row, v) for row in r]
 
 
+def real_sum(items: Iterable[Real]) -> Real:
+    out = ZERO
+    for x in items:
+        out = out + x
+    return out
+
+
 def square(x: Real) -> Real:
     low = 0 if x.has_zero() else min(abs(x.low), abs(x.high))
     return Real(low * low >> BITS, up(x.size() ** 2))
@@ -1003,7 +1010,7 @@ class Cell:
     """Rotations, their slopes and positions over a cell."""
 
     def __init__(self, region: Region, ends: Ends) -> None:
-        x = [Real(Real.of(low).low, Real.of(high).high) * width for low, high, width in zip(*ends, region.widths)]
+        x = [Real(Real.of(low).low, Real.of(high).high) * width for low, high, width in zip(ends[0], ends[1], region.widths)]
         w = x[3:]
         s = square(w[0]) + square(w[1]) + square(w[2])
         need(s.high <= LARGEST_TURN * ONE, "the rotations of the region are too large")
@@ -1172,15 +1179,7 @@ def regular_region(proof: Proof, claim: Any) -> str:
 
         def product(m: Matrix) -> Matrix:
             columns = list(zip(*m))
-            out = []
-            for row in k_rows:
-                out.append([])
-                for column in columns:
-                    entry = ZERO
-                    for x, y in zip(row, column):
-                        entry = entry + x * y
-                    out[-1].append(entry)
-            return out
+            return [[real_sum(x * y for x, y in zip(row, column)) for column in columns] for row in k_rows]
 
         start, changes = product(at), [product(region.changes(cell, scale, k)) for k in range(6)]
         one = Real.of(1)

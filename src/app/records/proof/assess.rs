@@ -40,7 +40,10 @@ impl ProofFile {
         let mut proof = Self::of("assess");
         let (m, required) = (design.manipulator(), design.requirements());
         if required.cranks.is_some() || required.hardware.is_coupled() {
-            proof.leave_out("the requirements", "the checker knows ideal legs, without cranks and joint offsets");
+            proof.leave_out(
+                "the requirements",
+                "the checker knows ideal legs, without cranks and joint offsets",
+            );
             return proof;
         }
         let Some((k, legs)) = proof.design((&design.name, &design.units), m, "the requirements") else {

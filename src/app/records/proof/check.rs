@@ -39,8 +39,14 @@ impl ProofFile {
         if report.singular_home.is_some() {
             proof.leave_out("the home pose is singular", "it is decided by a separate test");
         }
-        proof.leave_out("the number of poses", "it is counted modulo random primes, with a probability of error");
-        proof.leave_out("the distance to singular designs", "its bounds come from a search and from many poses");
+        proof.leave_out(
+            "the number of poses",
+            "it is counted modulo random primes, with a probability of error",
+        );
+        proof.leave_out(
+            "the distance to singular designs",
+            "its bounds come from a search and from many poses",
+        );
         proof
     }
 

@@ -19,7 +19,9 @@ impl ProofFile {
     pub fn fk(design: &Design, lengths: &LegLengths, found: &FkSolutions) -> Self {
         let mut proof = Self::of("fk");
         let m = design.manipulator();
-        let Some((k, legs)) = proof.design((&design.name, &design.units), m, "the poses") else { return proof };
+        let Some((k, legs)) = proof.design((&design.name, &design.units), m, "the poses") else {
+            return proof;
+        };
         if !lengths.squared().is_exact() {
             proof.leave_out("the poses", "the squares of the lengths leave the range of doubles");
             return proof;
@@ -35,7 +37,9 @@ impl ProofFile {
                     proof.claim(&id, Claim::Root(Box::new(RootClaim::new(problem, &certificate))));
                     names.push((id, certificate.reality()));
                 }
-                None => proof.leave_out(id, "the pose has no certificate of one simple root in Study coordinates"),
+                None => {
+                    proof.leave_out(id, "the pose has no certificate of one simple root in Study coordinates")
+                }
             }
         }
         let all = names.len() == found.roots.len();
@@ -48,7 +52,7 @@ impl ProofFile {
             }
             other => {
                 proof.distinct(names);
-                proof.leave_out(format!("completeness ({})", other.word()), other.to_string());
+                proof.leave_out("whether these are all poses", other.to_string());
             }
         }
         proof
@@ -95,7 +99,9 @@ impl ProofFile {
                 let coefficients = texts(&c);
                 self.claim("no-pose", Claim::NoPose { design, lengths: place, coefficients });
             }
-            None => self.leave_out("there is no pose", "the legs have no relation that the lengths contradict"),
+            None => {
+                self.leave_out("there is no pose", "the legs have no relation that the lengths contradict")
+            }
         }
     }
 }
@@ -143,9 +149,6 @@ impl From<&PoseEnclosure> for DiscsOfPose {
                 radius: part(|d| d.radius),
             }
         };
-        Self {
-            rotation: discs(e.rotation.iter().flatten().collect()),
-            p: discs(e.position.iter().collect()),
-        }
+        Self { rotation: discs(e.rotation.iter().flatten().collect()), p: discs(e.position.iter().collect()) }
     }
 }

@@ -224,7 +224,8 @@ impl Claim {
             | Self::DependentLines { .. } => "architectural-singularity.md",
             Self::PoseBound { .. }
             | Self::EquivalentBound { .. }
-            | Self::Complete { .. } | Self::NoPose { .. } => "completeness.md",
+            | Self::Complete { .. }
+            | Self::NoPose { .. } => "completeness.md",
             Self::Root(_) | Self::Distinct { .. } => "certificates.md",
             Self::Margin { .. } | Self::MarginOverRegion { .. } => "requirements.md",
             Self::RegularRegion { .. } => "parallel-singularities.md",
@@ -251,7 +252,7 @@ impl ProofFile {
         self.claims.is_empty()
     }
 
-    /// The claims by their number and the results left out, as a sentence each.
+    /// The number of claims, and a line for each result left out.
     #[must_use]
     pub fn summary(&self) -> String {
         let count = self.claims.len();
@@ -260,7 +261,8 @@ impl ProofFile {
             1 => "1 claim for equipod-check".to_owned(),
             _ => format!("{count} claims for equipod-check"),
         };
-        let left = self.not_included.iter().map(|l| format!("; not included: {} ({})", l.statement, l.reason));
+        let left =
+            self.not_included.iter().map(|l| format!("\n  not included: {} ({})", l.statement, l.reason));
         claims + &left.collect::<String>()
     }
 
@@ -287,8 +289,7 @@ impl ProofFile {
         };
         let end = |point: &[Algebraic]| texts(&point[1..]);
         let ends = legs.base.iter().zip(&legs.platform);
-        let record: Vec<ProofLeg> =
-            ends.map(|(a, b)| ProofLeg { base: end(a), platform: end(b) }).collect();
+        let record: Vec<ProofLeg> = ends.map(|(a, b)| ProofLeg { base: end(a), platform: end(b) }).collect();
         // the checker knows square roots, and no cosines
         if record.iter().flat_map(|leg| leg.base.iter().chain(&leg.platform)).any(|x| x.contains("cos")) {
             self.leave_out(statement, format!("{name}: the checker has no exact arithmetic with cosines"));
@@ -300,7 +301,13 @@ impl ProofFile {
     }
 
     /// The leg lines at a pose: independent, with the sign of `det J`, and its value if it is `stated`.
-    fn regular_pose(&mut self, id: String, (design, legs): (usize, &ExactLegs), pose: &ExactNumbersOfPose, stated: bool) {
+    fn regular_pose(
+        &mut self,
+        id: String,
+        (design, legs): (usize, &ExactLegs),
+        pose: &ExactNumbersOfPose,
+        stated: bool,
+    ) {
         let value = determinant(legs.lines_at(&pose.quaternion, &pose.position));
         let sign = value.surd().sign() as i8;
         if sign == 0 {

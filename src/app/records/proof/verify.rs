@@ -35,7 +35,10 @@ impl ProofFile {
         }
         match exact {
             ExactRelation::Unrelated(off) if relation == Relation::Unrelated => {
-                self.claim("no-leg-map", Claim::NoLegMap { from, to, legs: off.iter().map(|i| i + 1).collect() });
+                self.claim(
+                    "no-leg-map",
+                    Claim::NoLegMap { from, to, legs: off.iter().map(|i| i + 1).collect() },
+                );
             }
             ExactRelation::Singular { .. } => {
                 for (design, legs, _) in [a, b] {
