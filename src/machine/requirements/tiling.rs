@@ -4,8 +4,11 @@
 //! widths. A cell with the middle `z` and half widths `h` is proved by the mean value form
 //!
 //! ```text
-//! f(x) >= f(z) - sum_k |df/dx_k| h_k,       slopes enclosed over the cell.
+//! f(x) >= f(z) - sum_k |c_k| h_k - sum_k r_k h_k,       slopes over the cell within r_k of c_k.
 //! ```
+//!
+//! In an ellipsoid `c.z + |c|`, for translation and rotation each, may replace their part of the first sum. Lengths are
+//! linear but for a square: `|n|^2 = |n(z)|^2 + 2 n(z).D + |D|^2` with `D = n - n(z)`.
 //!
 //! Cells of `det J` are proved by `|I - K J(x)| < 1` with `K` near the inverse of `J(z)`. The bounds of
 //! [`prove_telling`](super::prove_telling) need fewer cells; these are so simple that another program can check them.
@@ -26,6 +29,10 @@ const MOST_CELLS: usize = 3000;
 const LARGEST_TURN: f64 = 20.0;
 /// Cells of `det J` are split until the norm is below this, so that another inverse proves them too.
 const CONTRACTION: f64 = 0.99;
+/// Bounds have to be above zero by this share of their terms, so that other roundings prove them too.
+const SLACK: f64 = 1e-9;
+/// Weight of the linear part of a function in the choice of the coordinate to split.
+const LINEAR: f64 = 0.02;
 /// Cells count as outside an ellipsoid if their least norm is above this square.
 const OUTSIDE: f64 = 1.0 + 1e-9;
 
@@ -69,6 +76,16 @@ struct Cell {
     position: IntervalVector,
 }
 
+/// A function that has to be non-negative on a cell.
+struct Function {
+    /// Its value at the middle.
+    value: Interval,
+    /// Slopes along the coordinates, over the cell.
+    slopes: [Interval; 6],
+    /// Norms of changes along the coordinates; the square of their sum is subtracted.
+    rest: [f64; 6],
+}
+
 /// A cell in coordinates of the cube.
 #[derive(Clone, Copy)]
 struct Ends {
@@ -94,6 +111,14 @@ impl Ends {
 
 /// `None` for a proved cell, otherwise the coordinate along which to split it.
 type Split = Option<usize>;
+
+fn step(k: usize) -> IntervalVector {
+    std::array::from_fn(|i| if i == k { Interval::from(1.0) } else { Interval::ZERO })
+}
+
+fn square_of(v: &IntervalVector) -> Interval {
+    v[0].square() + v[1].square() + v[2].square()
+}
 
 fn sum(u: &IntervalVector, v: &IntervalVector) -> IntervalVector {
     std::array::from_fn(|i| u[i] + v[i])
@@ -186,55 +211,94 @@ impl TiledRegion {
     }
 
     fn leg_cell(&self, leg: usize, required: LegRequirement, ends: &Ends) -> Split {
-        let value = self.leg_function(leg, required, &self.cell(&ends.middle())).0;
-        let slopes = self.leg_function(leg, required, &self.cell(ends)).1;
-        let off = (0..6).fold(value, |sum, k| sum + slopes[k] * Interval::about_zero(ends.half(k)));
-        let proved = off.lo() >= 0.0;
-        (!proved).then(|| widest(&|k| (slopes[k].hi() - slopes[k].lo()) * ends.half(k)))
-    }
-
-    /// The function that has to be non-negative, and its slopes along the coordinates of the cube.
-    fn leg_function(&self, leg: usize, required: LegRequirement, cell: &Cell) -> (Interval, [Interval; 6]) {
-        let (arm, joint) = (apply(&cell.rotation, &self.platform[leg]), &self.platform[leg]);
-        let n = minus(&sum(&arm, &cell.position), &self.base[leg]);
-        let square = n[0].square() + n[1].square() + n[2].square();
-        // the change of the leg vector along a coordinate
-        let along = |k: usize| -> IntervalVector {
-            let step = |i| if i == k { Interval::from(1.0) } else { Interval::ZERO };
-            let change = if k < 3 { std::array::from_fn(step) } else { apply(&cell.slopes[k - 3], joint) };
-            change.map(|x| x * self.widths[k])
-        };
-        match required {
+        let (at, over) = (self.cell(&ends.middle()), self.cell(ends));
+        let f = match required {
             LegRequirement::MinLength(least) => {
-                let slope = |k| Interval::from(2.0) * dot(&n, &along(k));
-                (square - Interval::from(least).square(), std::array::from_fn(slope))
+                let (square, slopes) = self.square(leg, &at, &over);
+                Function { value: square - Interval::from(least).square(), slopes, rest: [0.0; 6] }
             }
             LegRequirement::MaxLength(greatest) => {
-                let slope = |k| Interval::from(-2.0) * dot(&n, &along(k));
-                (Interval::from(greatest).square() - square, std::array::from_fn(slope))
+                let (square, slopes) = self.square(leg, &at, &over);
+                let rest = std::array::from_fn(|k| {
+                    let t = self.along(leg, &over, k).map(Interval::magnitude);
+                    (t[0].powi(2) + t[1].powi(2) + t[2].powi(2)).sqrt() * ends.half(k)
+                });
+                Function {
+                    value: Interval::from(greatest).square() - square,
+                    slopes: slopes.map(|x| -x),
+                    rest,
+                }
             }
             LegRequirement::ConeAngle { body, axis, limit_deg } => {
-                let axis = [axis.x, axis.y, axis.z].map(Interval::from);
-                let size = (axis[0].square() + axis[1].square() + axis[2].square()).sqrt();
-                let cosine = cosine(radians(limit_deg)) * size.unwrap_or(Interval::WHOLE);
-                let at_home = apply(&self.home, &axis);
-                let (m, turned) = match body {
-                    Body::Base => (axis, None),
-                    Body::Platform => (apply(&cell.rotation, &at_home), Some(at_home)),
-                };
-                let length = square.sqrt().unwrap_or(Interval::WHOLE);
-                let slope = |k: usize| {
-                    let t = along(k);
-                    let of_length = dot(&n, &t).checked_div(length).unwrap_or(Interval::WHOLE);
-                    let of_axis = match &turned {
-                        Some(axis) if k >= 3 => dot(&n, &apply(&cell.slopes[k - 3], axis)) * self.widths[k],
-                        _ => Interval::ZERO,
-                    };
-                    dot(&t, &m) + of_axis - cosine * of_length
-                };
-                (dot(&n, &m) - cosine * length, std::array::from_fn(slope))
+                self.cone(leg, (body, &axis, limit_deg), (&at, &over))
             }
-        }
+        };
+        self.split(&f, ends)
+    }
+
+    fn line(&self, leg: usize, cell: &Cell) -> IntervalVector {
+        minus(&sum(&apply(&cell.rotation, &self.platform[leg]), &cell.position), &self.base[leg])
+    }
+
+    /// The change of a leg vector along a coordinate of the cube.
+    fn along(&self, leg: usize, cell: &Cell, k: usize) -> IntervalVector {
+        let change = if k < 3 { step(k) } else { apply(&cell.slopes[k - 3], &self.platform[leg]) };
+        change.map(|x| x * self.widths[k])
+    }
+
+    /// The square of the length at the middle of a cell, and the slopes of `2 n(z) . n`.
+    fn square(&self, leg: usize, at: &Cell, over: &Cell) -> (Interval, [Interval; 6]) {
+        let n = self.line(leg, at);
+        let slope = |k| Interval::from(2.0) * dot(&n, &self.along(leg, over, k));
+        (square_of(&n), std::array::from_fn(slope))
+    }
+
+    /// `n.m - cos(limit) |n| |m|` for the axis `m` in the base frame.
+    fn cone(
+        &self,
+        leg: usize,
+        (body, axis, limit_deg): (Body, &Vector3<f64>, f64),
+        (at, over): (&Cell, &Cell),
+    ) -> Function {
+        let axis = [axis.x, axis.y, axis.z].map(Interval::from);
+        let size = square_of(&axis).sqrt().unwrap_or(Interval::WHOLE);
+        let cosine = cosine(radians(limit_deg)) * size;
+        let at_home = apply(&self.home, &axis);
+        let axis_in = |cell: &Cell| match body {
+            Body::Base => axis,
+            Body::Platform => apply(&cell.rotation, &at_home),
+        };
+        let length = |n: &IntervalVector| square_of(n).sqrt().unwrap_or(Interval::WHOLE);
+        let (first, n, m) = (self.line(leg, at), self.line(leg, over), axis_in(over));
+        let slope = |k: usize| {
+            let t = self.along(leg, over, k);
+            let of_length = dot(&n, &t).checked_div(length(&n)).unwrap_or(Interval::WHOLE);
+            let of_axis = match body {
+                Body::Platform if k >= 3 => dot(&n, &apply(&over.slopes[k - 3], &at_home)) * self.widths[k],
+                _ => Interval::ZERO,
+            };
+            dot(&t, &m) + of_axis - cosine * of_length
+        };
+        let value = dot(&first, &axis_in(at)) - cosine * length(&first);
+        Function { value, slopes: std::array::from_fn(slope), rest: [0.0; 6] }
+    }
+
+    /// The coordinate along which to split a cell on which a function is not proved to be non-negative.
+    fn split(&self, f: &Function, ends: &Ends) -> Split {
+        let (centres, radii) =
+            (f.slopes.map(|x| x.centre_and_radius().0), f.slopes.map(|x| x.centre_and_radius().1));
+        let middle = ends.middle().low;
+        let part = |first: usize| -> f64 {
+            let of = |term: &dyn Fn(usize) -> f64| (first..first + 3).map(term).sum::<f64>();
+            let in_cell = -of(&|k| centres[k].abs() * ends.half(k));
+            let in_ball = -of(&|k| centres[k] * middle[k]) - of(&|k| centres[k].powi(2)).sqrt();
+            if self.region == Region::Ellipsoid { in_cell.max(in_ball) } else { in_cell }
+        };
+        let loose = |k: usize| radii[k] * ends.half(k) + f.rest[k].powi(2);
+        let wide = (0..6).map(|k| radii[k] * ends.half(k)).sum::<f64>() + f.rest.iter().sum::<f64>().powi(2);
+        let bound = f.value.lo() + part(0) + part(3) - wide;
+        let proved = bound >= SLACK * (f.value.magnitude() + wide);
+        (!proved).then(|| widest(&|k| loose(k) + LINEAR * centres[k].abs() * ends.half(k)))
     }
 
     fn regular_cell(&self, ends: &Ends) -> Split {
@@ -275,8 +339,7 @@ impl TiledRegion {
     fn changes(&self, cell: &Cell, k: usize) -> IntervalMatrix {
         std::array::from_fn(|i| {
             let (change, moment) = if k < 3 {
-                let step = std::array::from_fn(|j| if j == k { Interval::from(1.0) } else { Interval::ZERO });
-                (step, cross(&apply(&cell.rotation, &self.platform[i]), &step))
+                (step(k), cross(&apply(&cell.rotation, &self.platform[i]), &step(k)))
             } else {
                 let turned = apply(&cell.slopes[k - 3], &self.platform[i]);
                 (turned, cross(&turned, &minus(&cell.position, &self.base[i])))

@@ -1053,7 +1053,7 @@ class Region:
         self.base = [[Real.of(x) for x in a] for a in design.base]
         self.platform = [[Real.of(dot(row, b)) for row in home.rotation] for b in design.platform]
 
-    def tiled(self, tree: Any, prove: Callable[[Cell, Cell, list[Real]], None]) -> int:
+    def tiled(self, tree: Any, prove: Callable[[Cell, Cell, Ends], None]) -> int:
         """Checks the cells of a tree, which tile the region, and counts them."""
         need(isinstance(tree, str), "a tiling is missing")
         start = [Fraction(int(used)) for used in self.used]
@@ -1075,7 +1075,7 @@ class Region:
                 need(letter == ".", f"`{letter}` is no part of a tiling")
                 count += 1
                 try:
-                    prove(Cell(self, (middle, middle)), Cell(self, (low, high)), [Real.of((b - a) / 2) for a, b in zip(low, high)])
+                    prove(Cell(self, (middle, middle)), Cell(self, (low, high)), (low, high))
                 except Refuted as why:
                     raise Refuted(f"cell {count} is not proved: {why}") from why
         need(not open_cells, "the tiling does not cover the region")
@@ -1089,6 +1089,18 @@ class Region:
     def leg(self, cell: Cell, leg: int) -> Vector:
         arm = apply(cell.rotation, self.platform[leg])
         return [x + p - a for x, p, a in zip(arm, cell.position, self.base[leg])]
+
+    def least(self, value: Real, slopes: Vector, ends: Ends) -> int:
+        """A lower bound on a cell, over 2^BITS, of a function with this value at the middle and these slopes."""
+        out, half, z = value.low, half_widths(ends), [scaled((a + b) / 2) for a, b in zip(*ends)]
+        for first in (0, 3):
+            ks = range(first, first + 3)
+            c = {k: (slopes[k].low + slopes[k].high) // 2 for k in ks}
+            in_cell = -sum(up(abs(c[k]) * half[k]) for k in ks)
+            in_ball = -sum(up(c[k] * z[k]) for k in ks) - math.isqrt(sum(c[k] ** 2 for k in ks)) - 1
+            out += max(in_cell, in_ball) if self.shape == "ellipsoid" else in_cell
+            out -= sum(up(max(slopes[k].high - c[k], c[k] - slopes[k].low) * half[k]) for k in ks)
+        return out
 
     def lines(self, cell: Cell, unit: Real) -> Matrix:
         """Rows (n, R b x (p - a) / unit)."""
@@ -1112,12 +1124,18 @@ class Region:
         return rows
 
 
-def about_zero(x: Real) -> Real:
-    return Real(-x.size(), x.size())
+def half_widths(ends: Ends) -> list[int]:
+    """Half widths of a cell over 2^BITS; cells have dyadic ends, which are exact in so many bits."""
+    need(all(x.denominator <= ONE >> 8 for end in ends for x in end), "the cell is too small")
+    return [scaled((b - a) / 2) for a, b in zip(*ends)]
+
+
+def square_of(v: Vector) -> Real:
+    return square(v[0]) + square(v[1]) + square(v[2])
 
 
 def margin_over_region(proof: Proof, claim: Any) -> str:
-    """A requirement on the legs, met at every pose of a region: a mean value form on each cell of a tiling."""
+    """A requirement on the legs, met at every pose of a region: a bound on each cell of a tiling."""
     design, kind, least = proof.design(claim), field(claim, "requirement"), fraction(field(claim, "at_least"))
     need(least >= 0, "the margin is negative")
     limits, region = a_list(field(claim, "limits"), 6, fraction), Region(design, field(claim, "region"))
@@ -1132,33 +1150,27 @@ def margin_over_region(proof: Proof, claim: Any) -> str:
             need(limit <= 180, "the limit is above 180 degrees")
             cosine = cosine_of_degrees(limit) * real_dot(axes[i], axes[i]).sqrt()
 
-        def function(cell: Cell, i: int = i) -> tuple[Vector, Real]:
-            n = region.leg(cell, i)
-            return n, square(n[0]) + square(n[1]) + square(n[2])
-
-        def prove(middle: Cell, cell: Cell, half: list[Real], i: int = i) -> None:
-            (n0, square0), (n, square_n) = function(middle), function(cell)
-            if axes:
-                need(square_n.low > 0, "the leg may have no direction")
-                at_home = apply(region.home, axes[i])
-                of_platform = kind == "platform_cone_angle"
+        def prove(middle: Cell, cell: Cell, ends: Ends, i: int = i) -> None:
+            n0, along = region.leg(middle, i), [region.along(cell, i, k) for k in range(6)]
+            if not axes:
+                # |n|^2 = |n0|^2 + 2 n0.D + |D|^2 with D = n - n0
+                value, slopes = square_of(n0) - Real.of(limit * limit), [two * real_dot(n0, t) for t in along]
+                if kind == "max_leg_length":
+                    half = half_widths(ends)
+                    d = [sum(up(t[j].size() * half[k]) for k, t in enumerate(along)) for j in range(3)]
+                    rest = sum(up(x * x) for x in d)
+                    value, slopes = -value - Real(rest, rest), [-x for x in slopes]
+            else:
+                # n.m - cos(limit) |n| |m| with the axis m in the base frame
+                n, at_home, of_platform = region.leg(cell, i), apply(region.home, axes[i]), kind == "platform_cone_angle"
+                need(square_of(n).low > 0, "the leg may have no direction")
                 m0, m = (apply(c.rotation, at_home) if of_platform else axes[i] for c in (middle, cell))
-                value, inverse = real_dot(n0, m0) - cosine * square0.sqrt(), square_n.sqrt().inverse()
-            else:
-                value = square0 - Real.of(limit * limit)
-            for k in range(6):
-                t = region.along(cell, i, k)
-                if axes:
-                    slope = real_dot(t, m) - cosine * (real_dot(n, t) * inverse)
-                    if of_platform and k >= 3:
-                        slope = slope + real_dot(n, apply(cell.slopes[k - 3], at_home)) * region.widths[k]
-                else:
-                    slope = two * real_dot(n, t)
-                value = value + slope * about_zero(half[k])
-            if kind == "max_leg_length":
-                need(value.high <= 0, f"leg {i + 1} may be too long")
-            else:
-                need(value.low >= 0, f"leg {i + 1} may violate it")
+                value, inverse = real_dot(n0, m0) - cosine * square_of(n0).sqrt(), square_of(n).sqrt().inverse()
+                slopes = [real_dot(t, m) - cosine * (real_dot(n, t) * inverse) for t in along]
+                if of_platform:
+                    for k in range(3, 6):
+                        slopes[k] = slopes[k] + real_dot(n, apply(cell.slopes[k - 3], at_home)) * region.widths[k]
+            need(region.least(value, slopes, ends) >= 0, f"leg {i + 1} may violate it")
 
         cells += region.tiled(trees[i], prove)
     unit = "degrees" if axes else design.units
@@ -1172,7 +1184,8 @@ def regular_region(proof: Proof, claim: Any) -> str:
     need(unit > 0, "the unit is not positive")
     scale = Real.of(1 / unit)
 
-    def prove(middle: Cell, cell: Cell, half: list[Real]) -> None:
+    def prove(middle: Cell, cell: Cell, ends: Ends) -> None:
+        half = half_widths(ends)
         at = region.lines(middle, scale)
         inverse = approximate_inverse([[((x.low + x.high) // 2, 0) for x in row] for row in at])
         k_rows = [[Real(z[0], z[0]) for z in row] for row in inverse]
@@ -1187,7 +1200,7 @@ def regular_region(proof: Proof, claim: Any) -> str:
             size = 0
             for j in range(6):
                 size += (start[i][j] - (one if i == j else ZERO)).size()
-                size += sum(up(changes[k][i][j].size() * half[k].high) for k in range(6))
+                size += sum(up(changes[k][i][j].size() * half[k]) for k in range(6))
             need(size < ONE, "the leg lines may be dependent")
 
     cells = region.tiled(field(claim, "tree"), prove)
