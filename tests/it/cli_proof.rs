@@ -99,10 +99,10 @@ fn change(number: &mut Value) {
     *number = format!("{}{digit}{}", &text[..at], &text[at + 1..]).into();
 }
 
-/// Changes the third digit of the numerator.
+/// Changes the third digit of an exact number, or its last one.
 fn change_high(number: &mut Value) {
     let text = number.as_str().unwrap();
-    let at = text.match_indices(|c: char| c.is_ascii_digit()).nth(2).unwrap().0;
+    let at = text.match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at).take(3).last().unwrap();
     let digit = if text.as_bytes()[at] == b'7' { "5" } else { "7" };
     *number = format!("{}{digit}{}", &text[..at], &text[at + 1..]).into();
 }

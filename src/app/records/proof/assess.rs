@@ -89,10 +89,10 @@ impl ProofFile {
             self.leave_out(kind.label(), "it is violated or at its limit at one of the poses");
             return;
         }
-        let limits = on_legs.limits().map(of_double);
-        let axes = on_legs
-            .body()
-            .map(|body| a.terms.axes()[body.index()].map(|axis| [axis.x, axis.y, axis.z].map(of_double)));
+        let limits = on_legs.limits().map(of_double).to_vec();
+        let axes = on_legs.body().map(|body| {
+            a.terms.axes()[body.index()].map(|axis| [axis.x, axis.y, axis.z].map(of_double)).to_vec()
+        });
         let claim = Claim::Margin {
             design: a.place,
             requirement: kind,
@@ -108,7 +108,7 @@ impl ProofFile {
             let trees = (0..6).map(|leg| tiled.leg_tiling(leg, on_legs.of_leg(leg, &a.terms, at_least)));
             trees.collect::<Option<Vec<String>>>()
         });
-        let Some(trees) = trees.flatten().and_then(|trees| trees.try_into().ok()) else {
+        let Some(trees) = trees.flatten() else {
             let statement = format!("{} over the region", kind.label());
             self.leave_out(statement, "it is not proved with a margin, or its tiling needs too many cells");
             return;
@@ -119,7 +119,7 @@ impl ProofFile {
             at_least: of_double(at_least),
             limits,
             axes,
-            region: region.clone(),
+            region: Box::new(region.clone()),
             trees,
         };
         self.claim(format!("{}-region", kind.code()), claim);
@@ -130,7 +130,7 @@ impl ProofFile {
         let found = tiled.and_then(|(tiled, region)| Some((tiled.unit(), region, tiled.regular_tiling()?)));
         match found {
             Some((unit, region, tree)) => {
-                let (unit, region) = (of_double(unit), region.clone());
+                let (unit, region) = (of_double(unit), Box::new(region.clone()));
                 self.claim("regular-region", Claim::RegularRegion { design: a.place, region, unit, tree });
             }
             None => self.leave_out(

@@ -109,9 +109,9 @@ enum Claim {
         design: usize,
         requirement: TermKind,
         at_least: String,
-        limits: [String; 6],
+        limits: Vec<String>,
         #[serde(skip_serializing_if = "Option::is_none")]
-        axes: Option<[[String; 3]; 6]>,
+        axes: Option<Vec<[String; 3]>>,
         poses: Vec<PoseText>,
     },
     /// The same at every pose of a region, by a tiling for each leg.
@@ -119,14 +119,14 @@ enum Claim {
         design: usize,
         requirement: TermKind,
         at_least: String,
-        limits: [String; 6],
+        limits: Vec<String>,
         #[serde(skip_serializing_if = "Option::is_none")]
-        axes: Option<[[String; 3]; 6]>,
-        region: RegionText,
-        trees: [String; 6],
+        axes: Option<Vec<[String; 3]>>,
+        region: Box<RegionText>,
+        trees: Vec<String>,
     },
     /// `det J` is nonzero at every pose of a region, by a tiling; moments are divided by the unit.
-    RegularRegion { design: usize, region: RegionText, unit: String, tree: String },
+    RegularRegion { design: usize, region: Box<RegionText>, unit: String, tree: String },
 }
 
 /// A region of poses about home: half widths of the translation and of the rotation vector, base frame.

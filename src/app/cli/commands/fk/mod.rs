@@ -70,9 +70,9 @@ pub(crate) struct FkArgs {
     #[arg(long)]
     limits: bool,
     #[command(flatten)]
-    frames: FrameArgs,
-    #[command(flatten)]
     proof: ProofArgs,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// `--method`.
