@@ -135,7 +135,7 @@ impl RootClaim {
 fn sums(high: &[Complex64; 8], low: &[Complex64; 8]) -> ComplexText {
     let part = |of: fn(&Complex64) -> f64| {
         let exact = |z| rational(of(z)).unwrap_or_default();
-        high.iter().zip(low).map(|(high, low)| text(exact(high) + exact(low))).collect()
+        high.iter().zip(low).map(|(high, low)| text(&(exact(high) + exact(low)))).collect()
     };
     ComplexText { re: part(|z| z.re), im: part(|z| z.im) }
 }

@@ -199,13 +199,13 @@ struct LeftOut {
 }
 
 /// An exact number as text.
-fn text(x: impl ToString) -> String {
+fn text<N: ToString>(x: &N) -> String {
     x.to_string()
 }
 
 /// The value of a finite double as text.
 fn of_double(x: f64) -> String {
-    rational(x).map_or_else(String::new, text)
+    rational(x).map_or_else(String::new, |x| text(&x))
 }
 
 fn texts<'a>(numbers: impl IntoIterator<Item = &'a Algebraic>) -> Vec<String> {
