@@ -13,7 +13,7 @@ use platform::manipulator::{AlgebraicVector, ExactLegs};
 
 /// `s(TO) = A s(FROM) + c` with exact numbers and `det A` not zero.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ExactMap {
+pub struct ExactMap {
     /// `A`, by rows.
     pub a: Vec<AlgebraicVector>,
     /// `c`.
@@ -24,7 +24,7 @@ pub(crate) struct ExactMap {
 
 /// The relation of two platforms, decided without rounding.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum ExactRelation {
+pub enum ExactRelation {
     /// A regular map.
     Equivalent(Box<ExactMap>),
     /// The leg vectors of FROM or of TO are dependent.
@@ -40,7 +40,8 @@ pub(crate) enum ExactRelation {
 
 impl ExactRelation {
     /// The relation of six legs to six others.
-    pub(crate) fn of(from: &ExactLegs, to: &ExactLegs) -> Self {
+    #[must_use]
+    pub fn of(from: &ExactLegs, to: &ExactLegs) -> Self {
         let ranks = [from, to].map(|legs| rank(&legs.vectors));
         let (mut a, mut off) = (Vec::new(), Vec::new());
         if ranks[0] == 6 {
@@ -63,7 +64,8 @@ impl ExactRelation {
     }
 
     /// The map, also if its determinant is zero.
-    pub(crate) fn map(&self) -> Option<&ExactMap> {
+    #[must_use]
+    pub fn map(&self) -> Option<&ExactMap> {
         match self {
             Self::Equivalent(map) | Self::Singular { map: Some(map), .. } => Some(map),
             _ => None,

@@ -40,6 +40,7 @@ pub use derivation::{Derivation, LegSlide};
 pub use determinant::{Factor, offset_determinant, singular_offset};
 pub use determinant::{determinant_gradient, offset_products};
 pub use enumerate::{Symmetry, enumerate, representative};
+pub use exact_map::{ExactMap, ExactRelation};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
 pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};
 pub use hexagon::{HexagonSide, corner, edge, sides};

@@ -32,6 +32,7 @@ mod cli_near;
 mod cli_new;
 mod cli_optimize;
 mod cli_plot;
+mod cli_proof;
 mod cli_provenance;
 mod cli_ranges;
 mod cli_round;

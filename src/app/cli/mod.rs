@@ -19,6 +19,7 @@ mod numbers;
 mod output;
 mod poses;
 mod progress;
+mod proof;
 mod rows;
 mod streams;
 mod sweep_folder;

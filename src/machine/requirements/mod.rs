@@ -28,6 +28,7 @@ mod standing;
 mod term;
 #[cfg(test)]
 mod tests;
+mod tiling;
 mod universal;
 mod vibration;
 
@@ -63,6 +64,7 @@ pub use platform::geom::{CoordinateRange, ListedFrom, PoseSpace, Region};
 pub use safety_margin::{SafetyMargin, SafetyMargins};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
+pub use tiling::{LegRequirement, TiledRegion};
 pub use universal::HingeAngle;
 pub use universal::UniversalJoint;
 pub use vibration::{

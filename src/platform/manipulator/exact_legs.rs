@@ -151,6 +151,19 @@ pub struct LegResidues {
     pub ends: [[[u64; 3]; 2]; 6],
 }
 
+/// The rotation matrix of a quaternion of any norm but zero, scalar part first.
+fn rotation_of(quaternion: &[Rational; 4]) -> [[Rational; 3]; 3] {
+    let q = |i: usize, j: usize| &quaternion[i] * &quaternion[j];
+    let norm = q(0, 0) + q(1, 1) + q(2, 2) + q(3, 3);
+    let twice = |x: Rational| &x + &x;
+    let rows = [
+        [q(0, 0) + q(1, 1) - q(2, 2) - q(3, 3), twice(q(1, 2) - q(0, 3)), twice(q(1, 3) + q(0, 2))],
+        [twice(q(1, 2) + q(0, 3)), q(0, 0) - q(1, 1) + q(2, 2) - q(3, 3), twice(q(2, 3) - q(0, 1))],
+        [twice(q(1, 3) - q(0, 2)), twice(q(2, 3) + q(0, 1)), q(0, 0) - q(1, 1) - q(2, 2) + q(3, 3)],
+    ];
+    rows.map(|row| row.map(|x| x / &norm))
+}
+
 impl ExactLegs {
     /// The legs with exact joints. `None` for joints that are known only between bounds, and for coordinates with too
     /// many independent square roots.
@@ -201,6 +214,24 @@ impl ExactLegs {
     /// `|a|^2 + |b|^2` of a leg.
     pub fn squares(&self, leg: usize) -> Algebraic {
         self.base[leg][1..].iter().chain(&self.platform[leg][1..]).map(|x| x * x).sum()
+    }
+
+    /// The rows `(n, a x n)` of the leg lines, `n = R b + p - a`, at an exact pose: the rotation of a quaternion of any
+    /// norm but zero, scalar part first, and a position.
+    pub fn lines_at(&self, quaternion: &[Rational; 4], position: &[Rational; 3]) -> Vec<AlgebraicVector> {
+        let rotation = rotation_of(quaternion).map(|row| row.map(Algebraic::from));
+        let position = position.each_ref().map(|x| Algebraic::from(x.clone()));
+        let ends = self.base.iter().zip(&self.platform);
+        let line = |(a, b): (&AlgebraicVector, &AlgebraicVector)| {
+            let n: [Algebraic; 3] = std::array::from_fn(|i| {
+                let turned: Algebraic = rotation[i].iter().zip(&b[1..]).map(|(r, x)| r * x).sum();
+                &(&turned + &position[i]) - &a[i + 1]
+            });
+            let cross = |i: usize, j: usize| &(&a[i + 1] * &n[j]) - &(&a[j + 1] * &n[i]);
+            let moment = [cross(1, 2), cross(2, 0), cross(0, 1)];
+            n.into_iter().chain(moment).collect()
+        };
+        ends.map(line).collect()
     }
 
     /// The vectors of some legs.

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use super::build::drives;
 use crate::app::cli::progress::ProgressLine;
+use crate::app::cli::proof::ProofArgs;
 use crate::app::cli::{Answer, Context, Failure};
 use ask::Error;
 use machine::requirements::AssessOptions;
-use records::AssessAnswer;
+use records::{AssessAnswer, ProofFile};
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -26,6 +27,8 @@ pub(crate) struct AssessArgs {
     /// Greatest number of workspace cells for each proof; default: 6000, and 60000 for undecided requirements
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
     cells: Option<u32>,
+    #[command(flatten)]
+    proof: ProofArgs,
 }
 
 /// Evaluates the requirements.
@@ -60,6 +63,7 @@ pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Fa
         }
         other => Failure::internal(other.to_string()),
     })?;
+    args.proof.write(context, || ProofFile::assess(&design, &found))?;
     let lightest_drive = drives::lightest(&args.design, &design, context)?;
     let record = AssessAnswer { lightest_drive, ..AssessAnswer::new(&design, &found) };
     let text = sheet::answers::assess(&record);

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
+use crate::app::cli::proof::ProofArgs;
 use crate::app::cli::{Answer, Exit, Failure};
 use ask::design::parse;
-use records::CheckAnswer;
+use records::{CheckAnswer, ProofFile};
 
 /// Arguments of `check`.
 #[derive(Debug, clap::Args)]
@@ -16,6 +17,8 @@ pub(crate) struct CheckArgs {
     /// Print the algebra too: ranks, dependencies, fields, counts
     #[arg(long)]
     details: bool,
+    #[command(flatten)]
+    proof: ProofArgs,
 }
 
 /// Decides and explains.
@@ -24,10 +27,12 @@ pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Fai
         SixOrFive::Six(design) => design,
         SixOrFive::Five(five) => {
             context.no_effect("details", "the answer about five legs has no details")?;
+            context.no_effect("proof", "it is for designs of six legs")?;
             return Ok(pentapod::check(&five, context));
         }
     };
     let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
+    args.proof.write(context, || ProofFile::check(&found))?;
     let answer = CheckAnswer::from(&found);
     let exit = match answer.architecturally_singular {
         Some(false) if answer.singular_home.is_none() => Exit::Yes,

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use crate::app::cli::alignment::{AlignmentArgs, same_units};
+use crate::app::cli::proof::ProofArgs;
 use crate::app::cli::{Answer, Context, Exit, Failure};
 use ask::{SAMPLES, sample_plan};
 use fk::FkOptions;
-use records::VerifyAnswer;
+use records::{ProofFile, VerifyAnswer};
 use synthesis::Relation;
 use verify::{Verdict, VerifyError, verify_mapped};
 
@@ -22,6 +23,8 @@ pub(crate) struct VerifyArgs {
     samples: usize,
     #[command(flatten)]
     frames: AlignmentArgs,
+    #[command(flatten)]
+    proof: ProofArgs,
 }
 
 pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
@@ -37,6 +40,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Answer, Fa
     same_units(&a, &b, "verify::different_units")?;
     let second = args.frames.apply(&a, &b, context)?;
     let map = second.compared(a.manipulator()).map_err(|e| failure_of(&e.into()))?;
+    args.proof.write(context, || ProofFile::verify(&a, (&b, &second.manipulator), &map))?;
     if let Some(none) = second.refuted()
         && map.relation == Relation::Unrelated
     {

@@ -17,14 +17,15 @@ use super::pentapod;
 use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::poses;
+use crate::app::cli::proof::ProofArgs;
 use crate::app::cli::{Answer, Exit, Failure};
 use ask::design::parse_with_cranks;
 use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::manipulator::{LegLengths, Manipulator};
 use records::{
-    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, METHODS, RowFailure,
-    SolvedRecord,
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, METHODS, ProofFile,
+    RowFailure, SolvedRecord,
 };
 
 use self::csv::PoseTable;
@@ -69,6 +70,8 @@ pub(crate) struct FkArgs {
     #[arg(long)]
     limits: bool,
     #[command(flatten)]
+    proof: ProofArgs,
+    #[command(flatten)]
     frames: FrameArgs,
 }
 
@@ -79,13 +82,14 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         SixOrFive::Six(design) => *design,
         SixOrFive::Five(five) => {
             let only = "it is for designs of six legs";
-            for option in ["angles", "method", "between", "threads", "near", "csv", "limits"] {
+            for option in ["angles", "method", "between", "threads", "near", "csv", "limits", "proof"] {
                 context.no_effect(option, only)?;
             }
             return pentapod::fk(&five, args.lengths.as_deref(), context);
         }
     };
     if let Some(platform) = Context::cranks_of(&design)? {
+        context.no_effect("proof", "a proof is for legs of given lengths, not for cranks")?;
         return cranks::run(args, (&design, &platform), context);
     }
     context.no_effect("angles", "the legs change their lengths, and the design has no cranks")?;
@@ -98,6 +102,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         PoseTable { requested: args.csv, all: args.all, time_name: None, frames, limits: args.limits };
     if let Some(text) = &args.near {
         context.no_effect("threads", "each row is followed from the row before it")?;
+        context.no_effect("proof", "a proof is for the whole list of poses")?;
         let start = poses::parse(text, &frames, "--near", "fk::bad_pose")?;
         if let Some(legs) = Context::coupled_of(&design)? {
             return Ok(drives::run(&design, legs, &given, start, context.seed(), &table));
@@ -114,6 +119,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
                 "one set of lengths is solved on one thread, the rows of a CSV file on many",
             )?;
             let solutions = solve(method, m, &l.distances, &options)?;
+            args.proof.write(context, || ProofFile::fk(&design, &l.distances, &solutions))?;
             let exit = exit_of(&solutions);
             if exit == Exit::Inconclusive {
                 let lengths = l.distances.squared();
@@ -134,6 +140,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
         GivenLengths::Rows(series) => {
             context.no_effect("between", "a polynomial belongs to one set of lengths")?;
             context.no_effect("polynomial", "a polynomial belongs to one set of lengths")?;
+            context.no_effect("proof", "a proof belongs to one set of lengths")?;
             let table = PoseTable { time_name: series.time_name, ..table };
             let (exit, answer) = many(method, (m, &frames), &series.rows, &options, threads(args.threads));
             if exit == Exit::Inconclusive

@@ -1,0 +1,44 @@
+"""The program `equipod-check` of the package: it checks proof files, and imports nothing beyond the standard library."""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+import equipod
+from equipod_check import check
+
+DESIGNS = pathlib.Path(__file__).parents[2] / "designs"
+PROGRAM = pathlib.Path(sys.executable).with_name("equipod-check")
+
+
+def test_the_program_of_the_package_checks_a_proof_and_names_a_fault(tmp_path):
+    proof = tmp_path / "proof.json"
+    pair = [str(DESIGNS / name) for name in ("rbt-octahedral.toml", "rbt-griffis-duffy.toml")]
+    subprocess.run([sys.executable, "-m", "equipod", "verify", *pair, "--samples", "1", "--proof", proof], capture_output=True, check=True)
+    done = subprocess.run([PROGRAM, proof], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.splitlines()[-1]) == (0, "every claim holds (2)")
+    document = json.loads(proof.read_text())
+    document["claims"][0]["c"][0] = "-1/2"
+    proof.write_text(json.dumps(document))
+    done = subprocess.run([PROGRAM, proof], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "DOES NOT HOLD: leg-map (leg_map): c1 is" in done.stdout
+
+
+def test_the_checker_imports_only_the_standard_library():
+    script = "import sys; before = set(sys.modules); import equipod_check.check; print(*sorted(set(sys.modules) - before))"
+    done = subprocess.run([sys.executable, "-I", "-c", script], capture_output=True, text=True, check=True)
+    others = {name.partition(".")[0] for name in done.stdout.split()} - {"equipod_check"}
+    assert others <= set(sys.stdlib_module_names)
+    assert equipod.__version__
+
+
+def test_exact_numbers_are_those_of_their_texts():
+    number = check.number
+    assert str(number("1/2 + sqrt(3)/6") * number("1/2 - sqrt(3)/6")) == "1/6"
+    assert str(number("-6*sqrt(12)")) == "-12*sqrt(3)"
+    assert (number("5 + 2*sqrt(6)") * number("5 - 2*sqrt(6)")).terms == {1: 1}
+    assert [number(x).sign() for x in ("sqrt(2) - 1", "7 - 5*sqrt(2)", "99 - 70*sqrt(2)", "sqrt(2) - sqrt(2)")] == [1, -1, 1, 0]
+    x = number("1 + sqrt(2) - sqrt(3) + 2*sqrt(6)/5")
+    assert (x * x.inverse()).terms == {1: 1}
