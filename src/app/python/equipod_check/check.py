@@ -15,6 +15,7 @@ from __future__ import annotations
 import itertools
 import json
 import math
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -304,6 +305,10 @@ def shown(x: Number | Fraction) -> str:
     x = x if isinstance(x, Number) else Number.of(x)
     low, high = x.between(BITS)
     return decimal(Fraction(low + high, 2 * ONE))
+
+
+def counted(n: int, noun: str) -> str:
+    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
 
 
 def decimal(x: Fraction) -> str:
@@ -936,7 +941,7 @@ def margin(proof: Proof, claim: Any) -> str:
                 raise Refuted(f"`{kind}` is no requirement that this program checks")
             need(met, f"leg {i + 1} violates it at pose {k + 1}")
     unit = "degrees" if "angle" in kind else design.units
-    return f"{design.name} meets {kind} with a margin of {shown(least)} {unit} or more at {len(poses)} pose{'s' if len(poses) > 1 else ''}"
+    return f"{design.name} meets {kind} with a margin of {shown(least)} {unit} or more at {counted(len(poses), 'pose')}"
 
 
 def angle_is_below(u: Row, v: Row, degrees: Fraction) -> bool:
@@ -1175,7 +1180,7 @@ def margin_over_region(proof: Proof, claim: Any) -> str:
 
         cells += region.tiled(trees[i], prove)
     unit = "degrees" if axes else design.units
-    return f"{design.name} meets {kind} with a margin of {shown(least)} {unit} or more at every pose of the region ({cells} cells)"
+    return f"{design.name} meets {kind} with a margin of {shown(least)} {unit} or more at every pose of the region ({counted(cells, 'cell')})"
 
 
 def regular_region(proof: Proof, claim: Any) -> str:
@@ -1205,7 +1210,7 @@ def regular_region(proof: Proof, claim: Any) -> str:
             need(size < ONE, "the leg lines may be dependent")
 
     cells = region.tiled(field(claim, "tree"), prove)
-    return f"no pose of the region is singular for {design.name} ({cells} cells)"
+    return f"no pose of the region is singular for {design.name} ({counted(cells, 'cell')})"
 
 
 CLAIMS: dict[str, Callable[[Proof, Any], str]] = {
@@ -1287,7 +1292,12 @@ def program() -> int:
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
         print(__doc__)
         return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    return run(sys.argv[1])
+    try:
+        return run(sys.argv[1])
+    except BrokenPipeError:
+        # The reader closed the pipe before the last claim was checked.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 2
 
 
 if __name__ == "__main__":
