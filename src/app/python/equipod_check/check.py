@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks proof files of equipod (`equipod verify|fk|check|assess --proof FILE`) with the standard library of Python alone.
+"""Checks proof files of equipod (option `--proof FILE`) with the standard library of Python alone.
 
     python check.py FILE          or          equipod-check FILE
 

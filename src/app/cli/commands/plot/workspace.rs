@@ -132,7 +132,7 @@ fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection>
         }
         // rotation vectors about different poses do not add, so the section is the zero line of a function
         () => Some(SectionOutline::Zero(
-            grid.poses().map(|pose| inside(&space, &space.coordinates(&pose))).collect(),
+            grid.poses().map(|pose| inside(&space, [across, up], &space.coordinates(&pose))).collect(),
         )),
     };
     let about_middle = PoseSpace::at(grid.middle);
@@ -167,13 +167,18 @@ fn section_at_home(space: &PoseSpace, grid: &PoseGrid) -> Vec<(f64, f64)> {
 }
 
 /// Positive inside the region; a freedom of width zero is inside only at home. The coordinates are those of
-/// [`PoseSpace::coordinates`].
-fn inside(space: &PoseSpace, x: &Vector6<f64>) -> f64 {
+/// [`PoseSpace::coordinates`]. A face of a box that contains the slice does not bound it.
+fn inside(space: &PoseSpace, slice: [usize; 2], x: &Vector6<f64>) -> f64 {
     let width = |k: usize| if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3].to_radians() };
     let middle = |k: usize| if k < 3 { space.middle[k] } else { space.middle[k].to_radians() };
     let greatest = (0..6).map(width).fold(0.0, f64::max);
     let share = |k: usize| match width(k) {
-        w if w > 0.0 => ((x[k] - middle(k)) / w).abs(),
+        w if w > 0.0 => {
+            let share = ((x[k] - middle(k)) / w).abs();
+            let lies_in_face =
+                space.region == Region::Box && !slice.contains(&k) && (share - 1.0).abs() <= SAME;
+            if lies_in_face { 0.0 } else { share }
+        }
         _ if x[k].abs() <= SAME * greatest => 0.0,
         _ => f64::MAX.sqrt(),
     };
@@ -251,13 +256,13 @@ mod tests {
                             let at = space.middle[k] + share * (d - space.middle[k]);
                             x[k] = if k < 3 { at } else { at.to_radians() };
                         }
-                        assert!(inside(&space, &x) * sign > 0.0, "{region:?} {slice} {a} {b}");
+                        assert!(inside(&space, places, &x) * sign > 0.0, "{region:?} {slice} {a} {b}");
                     }
                 }
             }
         }
         // no pose leaves a freedom of width zero
         let along_z = Vector6::ith(2, 0.1);
-        assert!(inside(&space_of(Region::Box, &about_home), &along_z) < 0.0);
+        assert!(inside(&space_of(Region::Box, &about_home), [0, 1], &along_z) < 0.0);
     }
 }
