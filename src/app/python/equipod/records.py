@@ -12,7 +12,6 @@ from ._record import Record
 ActiveBoundWord = Literal["limit", "range", "safety_margin"]
 AlignmentUndecided = Literal["no_axes", "unclear_dimension", "within_errors"]
 AlignmentWord = Literal["found", "none", "undecided"]
-AssessedWorkspaceWord = Literal["listed_poses", "none", "stated"]
 Body = Literal["base", "platform"]
 BranchWord = Literal["best", "bounded", "dominated", "infeasible", "solver_failure", "unproved"]
 CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted", "undecided"]

@@ -22,7 +22,7 @@ impl ProofFile {
         proof.relation(relation, (from, &legs_a, a.manipulator()), (to, &legs_b, second));
         proof.leave_out(
             "agreement of the poses at sampled lengths",
-            "it is evidence beside the proof: `equipod fk --proof` proves the poses for given lengths",
+            "it is evidence beside the proof: option `--proof` of `fk` proves the poses for given lengths",
         );
         proof
     }
