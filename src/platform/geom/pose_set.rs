@@ -74,7 +74,8 @@ impl CoordinateRange {
     /// The interval with home in its middle.
     #[must_use]
     pub fn within(half: f64) -> Self {
-        Self { min: -half, max: half }
+        // not -0 for 0
+        Self { min: 0.0 - half, max: half }
     }
 
     /// Such intervals for three coordinates.
