@@ -441,17 +441,14 @@ mod tests {
             let pivot = |pose: &Pose| pose.transform(&Point3::from(s.pivot));
             for (k, pose) in along.iter().enumerate() {
                 let (shift, at) = (pivot(pose) - pivot(&s.home), s.coordinates(pose));
-                let (chart, x) = match k {
-                    0..6 => {
-                        let z = [-4.0, 1.0][k / 3] * (k % 3 + 1) as f64 / 3.0;
-                        assert!((shift - Vector3::z() * z).norm() < 1e-12 && at[3].abs() < 1e-12);
-                        (&charts[4], (z + 1.5) / 2.5)
-                    }
-                    _ => {
-                        let angle = 11.0 * (k - 5) as f64;
-                        assert!(shift.norm() < 1e-12 && (at[3].to_degrees() - angle).abs() < 1e-9);
-                        (&charts[5], (angle - 16.5) / 16.5)
-                    }
+                let (chart, x) = if k < 6 {
+                    let z = [-4.0, 1.0][k / 3] * (k % 3 + 1) as f64 / 3.0;
+                    assert!((shift - Vector3::z() * z).norm() < 1e-12 && at[3].abs() < 1e-12);
+                    (&charts[4], (z + 1.5) / 2.5)
+                } else {
+                    let angle = 11.0 * (k - 5) as f64;
+                    assert!(shift.norm() < 1e-12 && (at[3].to_degrees() - angle).abs() < 1e-9);
+                    (&charts[5], (angle - 16.5) / 16.5)
                 };
                 holds(chart, [x, 0.0, 0.0, 0.0, 0.0, 0.0], pose);
             }

@@ -169,29 +169,21 @@ fn intervals(found: &mut FoundKey<'_, '_>, most: f64) -> Option<[CoordinateRange
 /// The interval of a coordinate: a half width, or its two ends with home between them.
 fn interval(report: &mut Findings<'_>, node: &Node, key: &str, most: f64) -> Option<CoordinateRange> {
     let key = format!("`{}`", shown(key));
-    let found = match &node.value {
-        Value::Array(ends) => {
-            if ends.len() != 2 {
-                let message = format!("an interval of {key} has {} numbers instead of 2", ends.len());
-                return report.refused(Code::CoordinateCount, &node.span, message, "give a pair [min, max]");
-            }
-            let mut end = |k: usize| number(report, &ends[k], &format!("an end of {key}"));
-            let (min, max) = (end(0), end(1));
-            CoordinateRange { min: min?, max: max? }
+    let found = if let Value::Array(ends) = &node.value {
+        if ends.len() != 2 {
+            let message = format!("an interval of {key} has {} numbers instead of 2", ends.len());
+            return report.refused(Code::CoordinateCount, &node.span, message, "give a pair [min, max]");
         }
-        _ => {
-            let half = number(report, node, &format!("a half width of {key}"))?;
-            if half < 0.0 {
-                let message = format!("a half width of {half}");
-                return report.refused(
-                    Code::NotPositive,
-                    &node.span,
-                    message,
-                    "half widths are not negative",
-                );
-            }
-            CoordinateRange::within(half)
+        let mut end = |k: usize| number(report, &ends[k], &format!("an end of {key}"));
+        let (min, max) = (end(0), end(1));
+        CoordinateRange { min: min?, max: max? }
+    } else {
+        let half = number(report, node, &format!("a half width of {key}"))?;
+        if half < 0.0 {
+            let message = format!("a half width of {half}");
+            return report.refused(Code::NotPositive, &node.span, message, "half widths are not negative");
         }
+        CoordinateRange::within(half)
     };
     let CoordinateRange { min, max } = found;
     if min > max {
