@@ -372,8 +372,8 @@ impl RangeRecord {
         let stated = space.ranges.iter().enumerate().filter(|(_, range)| !range.is_still());
         let record = |(k, range): (usize, &CoordinateRange)| {
             let way = StraightPath::coordinate(&space, k);
-            let (of_way, to_way): (fn(f64) -> f64, fn(f64) -> f64) =
-                if k < 3 { (|x| x, |x| x) } else { (f64::to_degrees, f64::to_radians) };
+            let of_way = |x: f64| if k < 3 { x } else { x.to_degrees() };
+            let to_way = |x: f64| if k < 3 { x } else { x.to_radians() };
             let travel = |way: &StraightPath, most: f64, sign: f64| {
                 let found = reach.along(way, to_way(most));
                 // a whole part ends at the stated number

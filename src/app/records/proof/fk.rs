@@ -38,7 +38,8 @@ impl ProofFile {
                     names.push((id, certificate.reality()));
                 }
                 None => {
-                    proof.leave_out(id, "the pose has no certificate of one simple root in Study coordinates")
+                    proof
+                        .leave_out(id, "the pose has no certificate of one simple root in Study coordinates");
                 }
             }
         }
@@ -100,7 +101,7 @@ impl ProofFile {
                 self.claim("no-pose", Claim::NoPose { design, lengths: place, coefficients });
             }
             None => {
-                self.leave_out("there is no pose", "the legs have no relation that the lengths contradict")
+                self.leave_out("there is no pose", "the legs have no relation that the lengths contradict");
             }
         }
     }

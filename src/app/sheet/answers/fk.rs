@@ -121,7 +121,7 @@ fn position(near: &NearRecord) -> String {
 }
 
 /// A number with its noun, in the plural unless it is one.
-fn counted<N: Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
+fn counted<N: Copy + Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
     if count == N::from(1) { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 

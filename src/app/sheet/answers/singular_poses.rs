@@ -86,7 +86,8 @@ fn regular_box(out: &mut Sheet, r: &SingularitiesAnswer) {
     let widths = |scale: f64| {
         let (positions, angles) = (listed(b.translation, scale), listed(b.rotation_deg, scale));
         let unit = if r.units == "1" { String::new() } else { format!(" {}", r.units) };
-        let about = if b.pivot == [0.0; 3] { String::new() } else { " about the pivot".to_owned() };
+        let about =
+            if b.pivot.iter().all(|x| *x == 0.0) { String::new() } else { " about the pivot".to_owned() };
         format!("{positions}{unit} and {angles} deg (rotation vector{about})")
     };
     let shape = b.region.name();
