@@ -256,6 +256,35 @@ fn margins_at_poses_and_over_a_region_are_checked_and_their_faults_are_named() {
     });
 }
 
+/// The checker has no regions to one side of home, about a pivot or along ranges: the file says so.
+#[test]
+fn regions_that_the_checker_does_not_know_are_left_out() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("design.toml");
+    let text = std::fs::read_to_string(root().join("designs/worked/bench-joint-free.toml")).unwrap();
+    let old = "translation = [25.0, 25.0, 20.0]";
+    assert!(text.contains(old));
+    for new in [
+        "translation = [[-2.0, 6.0], 6.0, 0.0]",
+        "pivot = [0, 0, 9]\ntranslation = [6.0, 6.0, 0.0]",
+        "ranges = { x = 3 }\ntranslation = [0.0, 0.0, 0.0]",
+    ] {
+        let text = text
+            .replace(old, new)
+            .replace("rotation_deg = [8.0, 8.0, 8.0]", "rotation_deg = [0.0, 0.0, 0.0]");
+        std::fs::write(&path, text).unwrap();
+        let proof = Proof::of("assess", &[path.to_str().unwrap()], &["--points", "200"]);
+        let claims = proof.document["claims"].as_array().unwrap();
+        assert!(claims.iter().all(|c| c.get("region").is_none()), "{new}");
+        let left = proof.document["not_included"].as_array().unwrap();
+        let says = |words: &str| left.iter().any(|l| l["statement"].as_str().unwrap().ends_with(words));
+        assert!(
+            says(if new.starts_with("ranges") { "ranges of single coordinates" } else { "over the region" }),
+            "{new}"
+        );
+    }
+}
+
 #[test]
 fn a_file_without_claims_or_of_another_kind_is_no_proof() {
     if !python() {

@@ -125,12 +125,14 @@ fn sum(u: &IntervalVector, v: &IntervalVector) -> IntervalVector {
 }
 
 impl TiledRegion {
-    /// `None` without a region, and for rotations too large for the formulas.
+    /// `None` without a region, for rotations too large for the formulas, and for a region that has not home in its
+    /// middle or rotates about a pivot.
     #[must_use]
     pub fn new(m: &Manipulator, space: &PoseSpace) -> Option<Self> {
         let turns = [0, 1, 2].map(|k| radians(space.rotation_deg[k]));
         let largest: f64 = turns.iter().map(|w| w.hi() * w.hi()).sum();
-        if space.axes().is_empty() || largest > 0.99 * LARGEST_TURN {
+        let about_home = space.middle.iter().chain(&space.pivot).all(|x| *x == 0.0);
+        if space.axes().is_empty() || !about_home || largest > 0.99 * LARGEST_TURN {
             return None;
         }
         let home = exact_rotation(&space.home);

@@ -66,8 +66,17 @@ impl ProofFile {
             let id = if i == 0 { "regular-home".to_owned() } else { format!("regular-pose-{i}") };
             proof.regular_pose(id, (k, &legs), &pose.into(), false);
         }
-        if report.assessed_poses.region {
-            proof.regular_region(&assessed, report.regularity == Regularity::Regular);
+        match assessed.region {
+            Some(_) => proof.regular_region(&assessed, report.regularity == Regularity::Regular),
+            None if report.assessed_poses.region => proof.leave_out(
+                "the requirements over the region",
+                "the checker knows regions with home in their middle, without pivot and with rotations below 250 degrees",
+            ),
+            None => {}
+        }
+        if report.assessed_poses.ranges > 0 {
+            let statement = "the requirements along the ranges of single coordinates";
+            proof.leave_out(statement, "the checker knows regions and single poses");
         }
         if report.assessed_poses.trajectory > 0 {
             let statement = "the requirements on the motions between the poses of the trajectory";
