@@ -108,7 +108,7 @@
 //! # Without files
 //!
 //! With `default-features = false` the library has poses and certificates alone: [`Manipulator`] has `fk`, `ik`,
-//! `solver` and `tracker` as a design has. The features `synthesis`, `optimize`, `files`, `page`, `lab` and `cli` add
+//! `solver` and `tracker` as a design has. The features `synthesis`, `optimize`, `files`, `page` and `cli` add
 //! the rest; `docs/architecture.md` gives the cost of each. The modules behind this page are in [`methods`], for those
 //! who develop methods.
 
@@ -198,7 +198,7 @@ pub mod prelude {
 /// version.
 pub mod methods {
     /// Problems drawn from a class, solved, validated with arithmetic of their own, counted and timed.
-    #[cfg(feature = "lab")]
+    #[cfg(feature = "cli")]
     pub mod bench {
         pub use ::ask::bench::*;
     }

@@ -54,7 +54,6 @@ mod rounding;
 mod schema;
 mod selfmotion;
 mod singularities;
-#[cfg(feature = "sweep")]
 mod sweep;
 mod tolerances;
 mod topologies;
@@ -105,7 +104,6 @@ pub use self::rounding::*;
 pub use self::schema::*;
 pub use self::selfmotion::*;
 pub use self::singularities::*;
-#[cfg(feature = "sweep")]
 pub use self::sweep::*;
 pub use self::tolerances::*;
 pub use self::topologies::*;

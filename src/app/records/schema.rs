@@ -56,19 +56,12 @@ const ANSWERS: Table = &[
     ("singular-locus", Document::<SingularLocusAnswer>::json_schema),
     ("singular-motion", Document::<SelfmotionAnswer>::json_schema),
     ("singular-poses", Document::<SingularitiesAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-best", Document::<super::SweepBestAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-design", Document::<super::SweepDesignAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-merge", Document::<super::SweepMergeAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-run", Document::<super::SweepRunAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-script", Document::<super::SweepScriptAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-status", Document::<super::SweepStatusAnswer>::json_schema),
-    #[cfg(feature = "sweep")]
     ("sweep-verify", Document::<super::SweepVerifyAnswer>::json_schema),
     ("verify", Document::<VerifyAnswer>::json_schema),
     ("view", Document::<ViewAnswer>::json_schema),

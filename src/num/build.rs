@@ -1,0 +1,12 @@
+//! Leaves AVX-512 out of builds of little optimisation, the profile `dev` above all: every loop over lanes is compiled
+//! once for each vector unit, and this one took 21 of 550 s of a whole build.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rustc-check-cfg=cfg(without_avx512)");
+    let is =
+        |name: &str, values: &[&str]| std::env::var(name).is_ok_and(|value| values.contains(&value.as_str()));
+    if is("OPT_LEVEL", &["0", "1"]) && is("CARGO_CFG_TARGET_ARCH", &["x86_64"]) {
+        println!("cargo::rustc-cfg=without_avx512");
+    }
+}
