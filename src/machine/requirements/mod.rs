@@ -68,8 +68,8 @@ pub use tiling::{LegRequirement, TiledRegion};
 pub use universal::HingeAngle;
 pub use universal::UniversalJoint;
 pub use vibration::{
-    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
-    lowest_frequency, mass_matrix, stiffness_matrix, vibration,
+    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, lowest_frequency,
+    mass_matrix, stiffness_matrix, vibration,
 };
 pub use vibration::{mass_of, scaled_mass};
 
