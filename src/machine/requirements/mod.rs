@@ -33,7 +33,7 @@ mod universal;
 mod vibration;
 
 pub use assess::ViolationSearch;
-pub use assess::{AssessOptions, Assessment, Margin, assess};
+pub use assess::{AssessOptions, Assessment, LeastMargins, Margin, assess};
 pub use bodies::MovingBodies;
 pub use bound::prove_telling;
 pub use bound::{AssessStage, MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};

@@ -14,12 +14,11 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use super::pentapod;
-use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::poses;
 use crate::app::cli::proof::ProofArgs;
-use crate::app::cli::{Answer, Exit, Failure};
-use ask::design::parse_with_cranks;
+use crate::app::cli::{Answer, Context, Exit, Failure};
+use ::files::design::{Accepts, SixOrFive};
 use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::manipulator::{LegLengths, Manipulator};
@@ -78,7 +77,7 @@ pub(crate) struct FkArgs {
 /// Solves one problem, or one for each row.
 pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let method: Option<Method> = args.method.parse().ok();
-    let design = match context.load_six_or_five(&args.design, parse_with_cranks)? {
+    let design = match context.load_six_or_five(&args.design, Accepts::CranksAndOffsets)? {
         SixOrFive::Six(design) => *design,
         SixOrFive::Five(five) => {
             let only = "it is for designs of six legs";
