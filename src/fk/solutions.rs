@@ -131,6 +131,7 @@ impl SolutionSet {
 
 /// One root with its evidence.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FkRoot {
     /// The pose.
     pub pose: ComplexPose,
@@ -184,6 +185,7 @@ num::answer_words! {
 /// The report of a path of the homotopy.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
+#[non_exhaustive]
 pub struct PathReport {
     /// Start index.
     pub start: usize,
@@ -257,6 +259,7 @@ pub struct LibraryCalls {
 
 /// All roots of one problem.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FkSolutions {
     /// The method that found them.
     pub method: Method,

@@ -17,6 +17,7 @@ use platform::manipulator::{Body, Manipulator, jacobian};
 num::answer_words! {
     /// The kinds of requirements.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
     pub enum TermKind as code | label {
         /// Leg length minus minimum.
         MinLegLength = "min_leg_length" | "leg length, minimum",
@@ -90,6 +91,7 @@ num::answer_words! {
 
 /// The physical quantity of a margin, with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// Design units.
     Length,

@@ -34,6 +34,7 @@ pub struct ChosenVariable {
 
 /// A platform that meets the requirements.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DimensionalSolution {
     /// The platform, legs in the order of the design.
     pub manipulator: Manipulator,
@@ -121,6 +122,7 @@ pub enum DimensionalOutcome {
 
 /// All results of the search.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DimensionalReport {
     /// The answer.
     pub outcome: DimensionalOutcome,

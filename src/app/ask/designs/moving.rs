@@ -115,6 +115,7 @@ pub struct MotionInstant {
 
 /// A least margin with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct TimedMargin {
     /// The least margin.
     pub margin: Margin,
@@ -133,6 +134,7 @@ pub struct SingularInstant {
 
 /// The results along a motion.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct MotionReport {
     /// The instants in the order of time.
     pub instants: Vec<MotionInstant>,
@@ -151,6 +153,7 @@ pub struct MotionReport {
 
 /// The stiffness of a platform at a pose.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct StiffnessReport {
     /// The pose.
     pub pose: Pose,

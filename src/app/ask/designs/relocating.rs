@@ -26,6 +26,7 @@ const ON_LINE: f64 = 1e-12;
 
 /// Requested properties of an equivalent platform; missing ones follow from the design.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct MoveTargets {
     /// Whether every joint shall hold one leg.
     pub no_shared_joints: bool,
@@ -132,6 +133,7 @@ pub fn targets_in_words(targets: bool, assessed: Option<(Option<bool>, String)>)
 
 /// The equivalent platforms that a search has found.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct MoveSearchReport {
     /// The search; its candidates are in `platforms`.
     pub outcome: SearchOutcome,

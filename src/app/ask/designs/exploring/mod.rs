@@ -94,6 +94,7 @@ impl<'a> ExploreOptions<'a> {
 
 /// The reason why a design is not explored.
 #[derive(Debug, ThisError)]
+#[non_exhaustive]
 pub enum NoExploration {
     /// The best platform cannot be searched for.
     #[error(transparent)]
@@ -183,6 +184,7 @@ pub struct OwnPoses {
 
 /// The reason why there are no poses.
 #[derive(Debug, Clone, PartialEq, ThisError)]
+#[non_exhaustive]
 pub enum NoOwnPoses {
     /// Neither the design nor its home pose has lengths.
     #[error("the home pose has no finite leg lengths")]

@@ -69,7 +69,7 @@ pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<A
     if moves.len() < 2 {
         context.no_effect("together", "a single leg is moved")?;
     }
-    let asked = MoveOptions { together: args.together, search: options };
+    let asked = MoveOptions::default().together(args.together).search(options);
     let found = design.move_legs(&moves, asked).map_err(|why| refusal(&why))?;
     let mut answer = MovesAnswer::new(&design, &found);
     if let (Some(path), Some(new), true) = (&args.output, &found.design, found.is_regular()) {

@@ -76,7 +76,7 @@ pub(in crate::app::cli::commands) fn drawing(
 fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, SelfMotionReport), Failure> {
     let design = context.load(&args.design)?;
     let motion = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
-    let options = SelfMotionOptions { start: start(args, &design)?, sections: args.sections, motion };
+    let options = SelfMotionOptions::new(start(args, &design)?).sections(args.sections).motion(motion);
     let found = design.self_motions(&options).map_err(|why| failure(&why))?;
     Ok((design, found))
 }
