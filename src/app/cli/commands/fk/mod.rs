@@ -23,7 +23,7 @@ use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::manipulator::{LegLengths, Manipulator};
 use records::{
-    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, METHODS, ProofFile,
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, METHODS, ProofFile,
     RowFailure, SolvedRecord,
 };
 
@@ -169,7 +169,7 @@ pub(super) fn pair(text: &str, design: &Design, code: &'static str) -> Result<(u
 
 /// The answer with its table if requested, or else with its sheet.
 fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) -> Answer {
-    let mut answer = answer.with_frames(&table.frames);
+    let mut answer = answer.with_frames(&table.frames, &design.units);
     if table.limits {
         let required = design.requirements();
         answer = answer.with_limits(&design.reach(&required));
@@ -202,7 +202,7 @@ fn many(
     let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, frames)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
     let rows = solved.into_iter().map(|(_, record)| record).collect();
-    (exit, FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&frames.convention).into(), rows })))
+    (exit, FkAnswer::rows(rows))
 }
 
 /// Exit code and record of one row.
