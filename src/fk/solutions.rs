@@ -131,7 +131,6 @@ impl SolutionSet {
 
 /// One root with its evidence.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct FkRoot {
     /// The pose.
     pub pose: ComplexPose,
@@ -185,7 +184,6 @@ num::answer_words! {
 /// The report of a path of the homotopy.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
-#[non_exhaustive]
 pub struct PathReport {
     /// Start index.
     pub start: usize,
@@ -259,7 +257,6 @@ pub struct LibraryCalls {
 
 /// All roots of one problem.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct FkSolutions {
     /// The method that found them.
     pub method: Method,

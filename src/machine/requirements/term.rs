@@ -91,7 +91,6 @@ num::answer_words! {
 
 /// The physical quantity of a margin, with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Quantity {
     /// Design units.
     Length,

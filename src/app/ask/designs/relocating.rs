@@ -26,7 +26,6 @@ const ON_LINE: f64 = 1e-12;
 
 /// Requested properties of an equivalent platform; missing ones follow from the design.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[non_exhaustive]
 pub struct MoveTargets {
     /// Whether every joint shall hold one leg.
     pub no_shared_joints: bool,

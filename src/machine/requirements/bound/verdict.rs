@@ -70,7 +70,6 @@ impl MarginBound {
 
 /// The least margins of all kinds with their proved bounds.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct MarginProof {
     /// By kind.
     pub bounds: Vec<MarginBound>,

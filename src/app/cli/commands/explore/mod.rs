@@ -206,7 +206,7 @@ fn failed(why: NoExploration) -> Failure {
         NoExploration::Moves(why) => found::failed(&why),
         NoExploration::Comparison(why) => verify_command::failure_of(&why),
         NoExploration::Poses(why) => no_poses(&why),
-        NoExploration::Holes(_) | NoExploration::Families(_) => Failure::internal(why.to_string()),
+        _ => Failure::internal(why.to_string()),
     }
 }
 

@@ -243,7 +243,7 @@ pub(super) fn failure_of(error: &FkError) -> Failure {
             Failure::refused("fk::not_applicable", error.to_string()).with_help("take --method auto")
         }
         FkError::Contradiction { .. } => Failure::internal(error.to_string()),
-        FkError::Breakdown { .. } => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
+        _ => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
             .with_help("try another --method or --seed"),
     }
 }

@@ -124,7 +124,7 @@ impl EquivalentsMoveArgs {
             InvalidMove::Leg(_) => {
                 Failure::refused("move::no_such_leg", why.to_string()).with_help("give a leg from 1 to 6")
             }
-            InvalidMove::Form(_) | InvalidMove::Parameter(_) => {
+            _ => {
                 Failure::refused("move::bad_move", why.to_string()).with_help(FORM)
             }
         })
@@ -145,7 +145,7 @@ fn refusal(why: &NoMoves) -> Failure {
         NoMoves::NoSuchFamily { families, .. } => refused("move::no_such_family", families),
         NoMoves::Ambiguous { .. } => refused("move::ambiguous_family", "give the number of one of them"),
         NoMoves::Fixed(_) => refused("move::fixed", "move another leg, or remove the joint from `fixed`"),
-        NoMoves::Linalg(_) => Failure::internal(why.to_string()),
+        _ => Failure::internal(why.to_string()),
         NoMoves::Move { why, families } => {
             let code = match why {
                 RelocateError::NoSuchFamily { .. } => "move::no_such_family",

@@ -100,5 +100,6 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
         NoLocus::Lengths(_) => Failure::refused("locus::bad_lengths", format!("--from, --to: {why}"))
             .with_help("give lengths that are not negative"),
         NoLocus::Method(why) => failure_of(&why),
+        _ => Failure::internal(why.to_string()),
     })
 }

@@ -89,7 +89,7 @@ fn failure(why: &NoSelfMotion) -> Failure {
         NoSelfMotion::NoStart => {
             Failure::refused("motion::no_start", message).with_help("give --pose, or --sections 1 or more")
         }
-        NoSelfMotion::Poses(_) => Failure::internal(message),
+        _ => Failure::internal(message),
     }
 }
 

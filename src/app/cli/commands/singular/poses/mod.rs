@@ -94,7 +94,7 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
         .seed(context.seed());
     let report = design.singular_poses(&asked).map_err(|why| match why {
         NoSingularPoses::NoLengths => Failure::refused("poses::bad_pose", why.to_string()),
-        NoSingularPoses::Modes(_) => Failure::internal(why.to_string()),
+        _ => Failure::internal(why.to_string()),
     })?;
     if let Some(path) = &args.svg {
         let figure = slice::figure(&design, args.slice, &pose, &report.options);
