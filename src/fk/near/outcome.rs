@@ -35,7 +35,6 @@ impl NearEvidence {
 
 /// Why a pose was lost although no singularity is near.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[non_exhaustive]
 pub enum WhyLost {
     /// The start has an entry that is not finite, or its matrix is not a rotation (by more than `1e-6`).
     #[error("the start is not a pose: its matrix is not a rotation, or a number is not finite")]

@@ -145,7 +145,6 @@ fn refusal(why: &NoMoves) -> Failure {
         NoMoves::NoSuchFamily { families, .. } => refused("move::no_such_family", families),
         NoMoves::Ambiguous { .. } => refused("move::ambiguous_family", "give the number of one of them"),
         NoMoves::Fixed(_) => refused("move::fixed", "move another leg, or remove the joint from `fixed`"),
-        _ => Failure::internal(why.to_string()),
         NoMoves::Move { why, families } => {
             let code = match why {
                 RelocateError::NoSuchFamily { .. } => "move::no_such_family",
@@ -157,5 +156,6 @@ fn refusal(why: &NoMoves) -> Failure {
             };
             refused(code, families)
         }
+        _ => Failure::internal(why.to_string()),
     }
 }
