@@ -139,14 +139,14 @@ pub mod prelude {
     #[doc(inline)]
     pub use ::ask::{Batch, Error, Kinematics, Solver, Tracker};
     #[doc(inline)]
-    pub use ::fk::{
-        Completeness, FkError, FkOptions, FkRoot, FkSolutions, FkTolerances, Method, NearOutcome, PathEnd,
-        PoseCounting, Reality, Rejected, RejectionReason, SolutionSet, Threads, WhyLost,
-    };
-    #[doc(inline)]
     pub use ::fk::solve::{
         certify::{ProvedReality, RootCertificate},
         pose_count::CountedLengths,
+    };
+    #[doc(inline)]
+    pub use ::fk::{
+        Completeness, FkError, FkOptions, FkRoot, FkSolutions, FkTolerances, Method, NearOutcome, PathEnd,
+        PoseCounting, Reality, Rejected, RejectionReason, SolutionSet, Threads, WhyLost,
     };
     #[doc(inline)]
     pub use ::num::{Cancel, linalg::LinalgError};
@@ -174,8 +174,8 @@ pub mod prelude {
     #[cfg(feature = "files")]
     #[doc(inline)]
     pub use ::files::design::{
-        CalibratedNumber, CalibrationTable, Code, Combination, Correlations, Format, HexapodSizes, JointError,
-        OptimizeTable, SearchTable, Share, Trajectory, Violation, Warning, Workspace,
+        CalibratedNumber, CalibrationTable, Code, Combination, Correlations, Format, HexapodSizes,
+        JointError, OptimizeTable, SearchTable, Share, Trajectory, Violation, Warning, Workspace,
     };
     #[cfg(feature = "files")]
     #[doc(inline)]
@@ -194,10 +194,10 @@ pub mod prelude {
     #[doc(inline)]
     pub use ::machine::requirements::{
         BoltPattern, BoltsFrom, ConeLimits, Envelope, Envelopes, ForceUnit, Grid, Hardware, HoleCircle,
-        HoleCircles, HolePattern, Housing, JointAxes, JointType, KeepOut, KeepOutShape, KeptSymmetry, LegBody,
-        LegMasses, LegPart, LegsWeight, LengthLimits, Load, MassUnit, Objective, Payload, PlateDesign,
-        PlateMass, Plates, PlatformSpeed, PlatformStiffness, Requirements, SafetyMargin, SafetyMargins,
-        UniversalJoint, VariableKind,
+        HoleCircles, HolePattern, Housing, JointAxes, JointType, KeepOut, KeepOutShape, KeptSymmetry,
+        LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MassUnit, Objective, Payload,
+        PlateDesign, PlateMass, Plates, PlatformSpeed, PlatformStiffness, Requirements, SafetyMargin,
+        SafetyMargins, UniversalJoint, VariableKind,
     };
 
     // the questions
@@ -206,10 +206,10 @@ pub mod prelude {
     pub use ::ask::{
         AssessReport, AssessedPoses, AtPoseOptions, AtPoseReport, CheckReport, DrivesAt, FigureOptions,
         InvalidMove, LegMoveRequest, LocusOptions, LocusReport, MotionMasses, MotionOrigin, MotionReport,
-        MotionStart, MoveOptions, MoveSearchReport, MoveTargets, MovesReport, NamedFamily, NoAtPose, NoLocus, NoMoves,
-        NoReplaceableLegs, NoSelfMotion, NoSingularPoses, PlatformMotion, ReplaceableLegs, ReplaceableOptions,
-        SearchWord, SelfMotionOptions, SelfMotionReport, SingularHome, SingularPosesOptions, SingularPosesReport,
-        VerifyOptions, leg_map, verify, verify_with,
+        MotionStart, MoveOptions, MoveSearchReport, MoveTargets, MovesReport, NamedFamily, NoAtPose, NoLocus,
+        NoMoves, NoReplaceableLegs, NoSelfMotion, NoSingularPoses, PlatformMotion, ReplaceableLegs,
+        ReplaceableOptions, SearchWord, SelfMotionOptions, SelfMotionReport, SingularHome,
+        SingularPosesOptions, SingularPosesReport, VerifyOptions, leg_map, verify, verify_with,
     };
     #[cfg(feature = "files")]
     #[doc(inline)]

@@ -329,7 +329,12 @@ fn questions_are_asked_and_their_answers_matched_with_names_of_the_front_page() 
     assert!(matches!(refused, Err(NoLocus::Lengths(InvalidLengths::Negative { .. }))), "{refused:?}");
     let beyond = Pose::new([0.0, 0.0, 230.0], home.rotation);
     let nearest = design.nearest_allowed(&beyond, &NearestPoseOptions::default().starts(1)).unwrap();
-    assert!(nearest.binding.iter().any(|limit| matches!(limit, Limit::Term(t) if t.kind == TermKind::MaxLegLength)));
+    assert!(
+        nearest
+            .binding
+            .iter()
+            .any(|limit| matches!(limit, Limit::Term(t) if t.kind == TermKind::MaxLegLength))
+    );
     let figures = design.figures(&FigureOptions::new(design.characteristic_length()).points(10));
     assert!(figures.assessment.is_some_and(|found| found.met() == Some(false)));
 

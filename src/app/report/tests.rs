@@ -1,7 +1,7 @@
 //! The page as a whole.
 
 use super::{Report, ReportFile, html};
-use ask::{AtPoseOptions, Kinematics};
+use ask::AtPoseOptions;
 use files::design::Format;
 use platform::geom::PoseConvention;
 use records::{AtPoseAnswer, CheckAnswer, Document, FkAnswer, ProvenanceRecord, SolvedRecord};

@@ -182,11 +182,7 @@ pub fn parse_frames(text: &str) -> Result<PoseConvention, Vec<Violation>> {
     convention.filter(|_| report.is_clean()).ok_or_else(|| report.into_violations())
 }
 
-fn read(
-    text: &str,
-    format: Format,
-    accepts: Accepts,
-) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
+fn read(text: &str, format: Format, accepts: Accepts) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
     OpenedText::of(text, format)?.six_legs(accepts)
 }
 

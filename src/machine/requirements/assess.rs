@@ -207,7 +207,10 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
             }
         }
     }
-    Assessment { margins: found.each().map(|(term, value, pose)| terms.margin((term, value), pose)).collect(), poses }
+    Assessment {
+        margins: found.each().map(|(term, value, pose)| terms.margin((term, value), pose)).collect(),
+        poses,
+    }
 }
 
 /// A worse pose near a bad one, and the number of poses tried.

@@ -7,9 +7,9 @@ use super as answers;
 use crate::{Sheet, Table, left};
 use num::shown::significant;
 use records::{
-    AssessAnswer, AtPoseAnswer, CheckAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, FkAnswer, FkOneAnswer,
-    LimitsAnswer, MapAnswer,
-    MotionAnswer, OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer,
+    AssessAnswer, AtPoseAnswer, CheckAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, FkAnswer,
+    FkOneAnswer, LimitsAnswer, MapAnswer, MotionAnswer, OptimizeAnswer, RoundAnswer, TolerancesAnswer,
+    VerifyAnswer,
 };
 
 type Fields = Map<String, Value>;

@@ -23,8 +23,8 @@ use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::manipulator::{LegLengths, Manipulator};
 use records::{
-    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, METHODS, ProofFile,
-    RowFailure, SolvedRecord,
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, METHODS, ProofFile, RowFailure,
+    SolvedRecord,
 };
 
 use self::csv::PoseTable;

@@ -124,9 +124,7 @@ impl EquivalentsMoveArgs {
             InvalidMove::Leg(_) => {
                 Failure::refused("move::no_such_leg", why.to_string()).with_help("give a leg from 1 to 6")
             }
-            _ => {
-                Failure::refused("move::bad_move", why.to_string()).with_help(FORM)
-            }
+            _ => Failure::refused("move::bad_move", why.to_string()).with_help(FORM),
         })
     }
 }

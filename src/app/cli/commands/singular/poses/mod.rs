@@ -87,11 +87,12 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
         None => None,
     };
     let half_widths = args.shape.as_deref().map(half_widths).transpose()?;
+    let seed = context.seed();
     let asked = SingularPosesOptions::about(pose)
         .lengths(lengths)
         .half_widths(half_widths)
         .cells(args.cells)
-        .seed(context.seed());
+        .seed(seed);
     let report = design.singular_poses(&asked).map_err(|why| match why {
         NoSingularPoses::NoLengths => Failure::refused("poses::bad_pose", why.to_string()),
         _ => Failure::internal(why.to_string()),
