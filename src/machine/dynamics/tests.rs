@@ -4,12 +4,11 @@ use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::inverse::{MovingLeg, turned_inertia};
 use super::*;
-use crate::requirements::vibration::softest_of;
 use crate::requirements::{
     ForceUnit, Hardware, LegMasses, LegPart, LegsWeight, Load, MassUnit, Payload, PlateMass, Requirements,
     TermKind, Terms, leg_forces,
 };
-use crate::requirements::{VibratingMasses, lowest_frequency};
+use crate::requirements::{VibratingMasses, lowest_frequency, softest_of};
 use num::Rng;
 use platform::geom::random_rotation;
 use platform::manipulator::{Leg, Manipulator, default_home, jacobian};

@@ -67,6 +67,8 @@ pub use term::{Quantity, Term, TermKind, Terms};
 pub use tiling::{LegRequirement, TiledRegion};
 pub use universal::HingeAngle;
 pub use universal::UniversalJoint;
+#[cfg(test)]
+pub(crate) use vibration::softest_of;
 pub use vibration::{
     LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, lowest_frequency,
     mass_matrix, stiffness_matrix, vibration,
