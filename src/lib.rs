@@ -133,62 +133,133 @@ pub use num_complex;
 #[doc(inline)]
 pub use prelude::*;
 
-/// Everything on the front page, for `use equipod::prelude::*`.
+/// Everything on the front page, for `use equipod::prelude::*`: the design, its questions with their options, and every
+/// type that an option takes or an answer is matched with.
 pub mod prelude {
     #[doc(inline)]
     pub use ::ask::{Batch, Error, Kinematics, Solver, Tracker};
     #[doc(inline)]
-    pub use ::fk::{
-        Completeness, FkOptions, FkRoot, FkSolutions, Method, NearOutcome, PoseCounting, Reality,
-        SolutionSet, Threads,
+    pub use ::fk::solve::{
+        certify::{ProvedReality, RootCertificate},
+        pose_count::CountedLengths,
     };
     #[doc(inline)]
-    pub use ::num::Cancel;
+    pub use ::fk::{
+        Completeness, FkError, FkOptions, FkRoot, FkSolutions, FkTolerances, Method, NearOutcome, PathEnd,
+        PoseCounting, Reality, Rejected, RejectionReason, SolutionSet, Threads, WhyLost,
+    };
     #[doc(inline)]
-    pub use ::platform::geom::{Angles, ComplexPose, Pose};
+    pub use ::num::{Cancel, linalg::LinalgError};
+    #[doc(inline)]
+    pub use ::platform::geom::{Angles, ComplexPose, InvalidPose, Pose};
     #[doc(inline)]
     pub use ::platform::manipulator::{
-        Body, Leg, LegIndex, LegLengths, Manipulator, Octahedral, SquaredLegLengths,
+        Body, InvalidLengths, InvalidManipulator, Leg, LegIndex, LegLengths, Level, Manipulator,
+        NotOctahedral, Octahedral, SquaredLegLengths,
     };
     #[cfg(feature = "synthesis")]
     #[doc(inline)]
-    pub use ::synthesis::{AffineLegMap, Family, LegMapOutcome, Pattern, Relation};
+    pub use ::synthesis::{
+        AffineLegMap, Factor, Family, HexagonPoint, InstantiateError, JointLabel, LegMapOutcome, Offset,
+        ParsePatternError, Pattern, Relation,
+    };
 
+    // the design
     #[cfg(feature = "files")]
     #[doc(inline)]
     pub use crate::app::presets::PRESETS;
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use ::ask::Design;
+    pub use ::ask::{Design, PoseFrames};
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use ::ask::equivalents::Equivalents;
+    pub use ::files::design::{
+        CalibratedNumber, CalibrationTable, Code, Combination, Correlations, Format, HexapodSizes,
+        JointError, OptimizeTable, SearchTable, Share, Trajectory, Violation, Warning, Workspace,
+    };
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use ::ask::{AssessReport, CheckReport, SingularHome, VerifyOptions, leg_map, verify, verify_with};
+    pub use ::files::export::{
+        ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, UnknownUnit, Unsupported,
+    };
     #[cfg(feature = "files")]
     #[doc(inline)]
-    pub use ::files::design::{Format, Violation, Warning};
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use ::files::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use ::machine::requirements::AssessOptions;
-    #[cfg(feature = "files")]
-    #[doc(inline)]
-    pub use ::verify::{Sample, Verdict, Verification};
+    pub use ::platform::geom::{
+        AngleUnit, CoordinateRange, FrameAxis, ListedFrom, PoseConvention, QuaternionOrder, Region,
+        RotationOrder, TurnAxes, UpAxis,
+    };
 
+    // the tables of the design
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::machine::requirements::{
+        BoltPattern, BoltsFrom, ConeLimits, Envelope, Envelopes, ForceUnit, Grid, Hardware, HoleCircle,
+        HoleCircles, HolePattern, Housing, JointAxes, JointType, KeepOut, KeepOutShape, KeptSymmetry,
+        LegBody, LegMasses, LegPart, LegsWeight, LengthLimits, Load, MassUnit, Objective, Payload,
+        PlateDesign, PlateMass, Plates, PlatformSpeed, PlatformStiffness, Requirements, SafetyMargin,
+        SafetyMargins, UniversalJoint, VariableKind,
+    };
+
+    // the questions
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::ask::{
+        AssessReport, AssessedPoses, AtPoseOptions, AtPoseReport, CheckReport, DrivesAt, FigureOptions,
+        InvalidMove, LegMoveRequest, LocusOptions, LocusReport, MotionMasses, MotionOrigin, MotionReport,
+        MotionStart, MoveOptions, MoveSearchReport, MoveTargets, MovesReport, NamedFamily, NoAtPose, NoLocus,
+        NoMoves, NoReplaceableLegs, NoSelfMotion, NoSingularPoses, PlatformMotion, ReplaceableLegs,
+        ReplaceableOptions, SearchWord, SelfMotionOptions, SelfMotionReport, SingularHome,
+        SingularPosesOptions, SingularPosesReport, VerifyOptions, leg_map, verify, verify_with,
+    };
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::ask::{
+        equivalents::Equivalents,
+        rounding::{RoundingChoices, RoundingWay},
+    };
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::machine::{
+        calibration::{
+            CalibrateOptions, CalibrationError, CalibrationStatus, HeldParts, Loss, LossUnit, Measurement,
+            MeasurementNoise, StartChoice,
+        },
+        dynamics::{Manoeuvre, PlatformFreedom},
+        manufacture::{ErrorBound, NoRounding},
+        reach::NearestPoseOptions,
+        requirements::{
+            AssessOptions, AssessStage, Limit, MarginVerdict, Quantity, Standing, Term, TermKind,
+        },
+    };
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::synthesis::{
+        components::{ComponentOptions, ComponentsError},
+        relocate::search::{MoveSearchOptions, SearchError},
+        singularity::{Assembly, MotionOptions, Regularity, SingularEvidence, SingularityVerdict},
+    };
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use ::verify::{Counterexample, InconclusiveReason, Sample, Verdict, Verification, VerifyError};
+
+    // the searches
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
     pub use ::ask::{
-        Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, FoundFront,
-        FoundOffsets, FoundPlatform, FreedomOutcome, OpenedFreedom, OptimizeEvidence, OptimizeOptions,
+        Checked, ConflictFreedom, DriveOutcome, DriveRanking, DriveSearch, DrivenPlatform, ExploreOptions,
+        ExploreProgress, ExploreReport, ExploreVerdict, FoundFront, FoundOffsets, FoundPlatform,
+        FreedomOutcome, FreedomWord, NoExploration, OpenedFreedom, OptimizeEvidence, OptimizeOptions,
         OptimizeProgress, OptimizeReport, OptimizeStatus, RelaxedRequirement, SearchedDrive,
     };
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
-    pub use ::files::design::{Drive, DriveTable};
+    pub use ::files::design::{Drive, DriveTable, InvalidDriveTable};
+    #[cfg(all(feature = "files", feature = "optimize"))]
+    #[doc(inline)]
+    pub use ::optimize::{
+        dimensional::{Demand, DimensionalOutcome, InvalidProblem},
+        offsets::{InvalidOffsetProblem, OffsetOutcome, OffsetProgress},
+    };
 }
 
 /// The modules behind the entrance, for those who develop methods: a new solver, a new way to prove a root, another

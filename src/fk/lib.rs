@@ -116,6 +116,7 @@ pub enum PoseCounting {
 
 /// Dimensionless limits; positions are divided by the size of the design before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct FkTolerances {
     /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`), relative to the square of
     /// the pose's own numbers. For singular ends of paths its root is accepted.
@@ -184,6 +185,7 @@ impl FkOptions {
 
 /// A question a method could not take or an answer it could not compute.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum FkError {
     /// The method does not apply to this manipulator.
     #[error("the {method} method does not apply: {reason}")]

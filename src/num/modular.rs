@@ -29,7 +29,8 @@ impl Field {
     pub const MERSENNE: Self = Self((1 << 61) - 1);
 
     /// The field of another prime.
-    pub fn of_prime(p: u64) -> Self {
+    #[cfg(test)]
+    pub(crate) fn of_prime(p: u64) -> Self {
         Self(p)
     }
 

@@ -25,26 +25,10 @@ pub fn offset_determinant(t: &[f64; 6]) -> f64 {
     rest - own
 }
 
-/// The offset `t_k` that makes the platform without shared joints singular, for given other offsets:
-/// `t_k = Q / (P + Q)`, `P = prod t_j`, `Q = prod (1 - t_j)` over `j != k`.
-///
-/// `None` if `P + Q = 0`: then either no finite `t_k` is singular, or every one (`P = Q = 0`, for example two
-/// coincident legs).
-#[must_use]
-pub fn singular_offset(t: &[f64; 6], k: usize) -> Option<f64> {
-    let (rest, own) = products_without(t, &[k]);
-    let value = rest / (own + rest);
-    value.is_finite().then_some(value)
-}
-
-fn products_without(t: &[f64; 6], left_out: &[usize]) -> (f64, f64) {
-    offset_products(&1.0, (0..6).filter(|i| !left_out.contains(i)).map(|i| t[i]))
-}
-
 /// Gradient of [`offset_determinant`] by products without the factor itself, so zero factors do no harm.
 pub fn determinant_gradient(t: &[f64; 6]) -> [f64; 6] {
     std::array::from_fn(|j| {
-        let (rest, own) = products_without(t, &[j]);
+        let (rest, own) = offset_products(&1.0, (0..6).filter(|i| *i != j).map(|i| t[i]));
         -rest - own
     })
 }

@@ -171,16 +171,6 @@ pub fn edge_lengths(o: &Octahedral) -> [f64; 6] {
     std::array::from_fn(|k| HexagonSide::of(o, k).edge_length())
 }
 
-/// `t = Delta / edge` on the six sides for one offset on all base edges and one on all platform edges.
-///
-/// This is the parametrisation of Rojas, Borras, Thomas, sec. 6: `Delta1 = base`, `Delta2 = platform`, in design units.
-/// They count from leg `k` towards leg `k + 1`; negative offsets lie beyond leg `k`.
-#[must_use]
-pub fn offsets_from_distances(o: &Octahedral, base: f64, platform: f64) -> [f64; 6] {
-    let d = edge_lengths(o);
-    std::array::from_fn(|k| sliding_body(k).of((base, platform)) / d[k])
-}
-
 #[cfg(test)]
 pub(super) mod tests {
 

@@ -37,12 +37,12 @@ pub mod singularity;
 
 pub use correspondence::LegCorrespondence;
 pub use derivation::{Derivation, LegSlide};
-pub use determinant::{Factor, offset_determinant, singular_offset};
+pub use determinant::{Factor, offset_determinant};
 pub use determinant::{determinant_gradient, offset_products};
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use exact_map::{ExactMap, ExactRelation};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
-pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};
+pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, sliding_body};
 pub use hexagon::{HexagonSide, corner, edge, sides};
 pub use leg_map::{
     AffineLegMap, ExactNumbers, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap,

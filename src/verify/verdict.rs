@@ -31,6 +31,7 @@ const CLEAR_MISS: f64 = 1e3;
 
 /// The reason why platforms could not be compared at all.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum VerifyError {
     /// The leg map could not be computed.
     #[error("the leg map could not be computed: {0}")]
@@ -97,6 +98,7 @@ impl Counterexample {
 num::words! {
     /// The reason for an undecided verdict.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
     pub enum InconclusiveReason as sentence {
         /// The map holds within rounding, but some sample could not be solved completely.
         SolverIncomplete =

@@ -300,3 +300,50 @@ fn names_are_read_back_and_slips_are_told_what_there_is() {
             && "xml".parse::<ExportFormat>().is_err()
     );
 }
+
+/// Options, tables and answers with the names of the front page alone: nothing in this file is from `methods`.
+#[test]
+fn questions_are_asked_and_their_answers_matched_with_names_of_the_front_page() {
+    let mut design = Design::load("designs/presets/bench-l16.toml").unwrap();
+    let (home, frames) = (design.home_or_default(), design.pose_frames(PoseConvention::default()));
+
+    design.hardware.leg_length = Some(LengthLimits::Range(198.0, 240.0));
+    design.safety_margins.kinds.insert(TermKind::LegForce, SafetyMargin::Percent(5.0));
+    let found = design.assess_with(&AssessOptions::new().points(20).searches(1), 20).unwrap();
+    let verdict = |kind: TermKind| {
+        let bound = found.proof.bounds.iter().find(|bound| bound.found.term.kind == kind).unwrap();
+        (bound.verdict, kind.quantity(), bound.safety_margin.is_some())
+    };
+    assert!(matches!(verdict(TermKind::MaxLegLength), (MarginVerdict::Violated, Quantity::Length, false)));
+    assert!(matches!(verdict(TermKind::LegForce), (_, Quantity::Force, true)));
+
+    let asked = AtPoseOptions::at(home).wrench([0.0, 0.0, -30.0, 0.0, 0.0, 0.0]).axes(Body::Platform).leg(2);
+    let at = design.at_pose(&frames, &asked).unwrap();
+    let DrivesAt::Lengths(lengths) = at.drives else { panic!("{:?}", at.drives) };
+    assert!((lengths[0] - design.ik(&home).unwrap().get()[0]).abs() < 1e-12);
+    let held: f64 = at.held.last().unwrap().efforts.unwrap().iter().sum();
+    assert!(at.singular.is_none() && at.stuck.is_some() && held > 30.0, "the legs push: {held}");
+
+    let leg = LegIndex::FIRST;
+    let refused = design.locus(&LocusOptions::new(design.ik(&home).unwrap(), leg, [-1.0, 240.0]).steps(2));
+    assert!(matches!(refused, Err(NoLocus::Lengths(InvalidLengths::Negative { .. }))), "{refused:?}");
+    let beyond = Pose::new([0.0, 0.0, 230.0], home.rotation);
+    let nearest = design.nearest_allowed(&beyond, &NearestPoseOptions::default().starts(1)).unwrap();
+    assert!(
+        nearest
+            .binding
+            .iter()
+            .any(|limit| matches!(limit, Limit::Term(t) if t.kind == TermKind::MaxLegLength))
+    );
+    let figures = design.figures(&FigureOptions::new(design.characteristic_length()).points(10));
+    assert!(figures.assessment.is_some_and(|found| found.met() == Some(false)));
+
+    let octahedral = octahedral();
+    let asked = SingularPosesOptions::about(octahedral.home_or_default()).cells(200);
+    assert!(octahedral.singular_poses(&asked).is_ok());
+    let asked = SelfMotionOptions::new(MotionStart::Pose(octahedral.home_or_default())).sections(0);
+    assert_eq!(octahedral.self_motions(&asked).unwrap().moves(), Some(false));
+    let slip = octahedral.move_legs(&["1:9:0.2".parse().unwrap()], MoveOptions::default().together(true));
+    assert!(matches!(slip, Err(NoMoves::NoSuchFamily { .. })), "{slip:?}");
+    assert!(matches!("1:2".parse::<LegMoveRequest>(), Err(InvalidMove::Form(_))));
+}

@@ -7,7 +7,7 @@ use equipod::methods::manipulator::{LegLengths, Manipulator, Octahedral};
 use equipod::methods::num::Rng;
 use equipod::methods::synthesis::{
     Family, HexagonPoint, InstantiateError, LegMapTolerances, Offset, Pattern, Relation, Symmetry,
-    edge_lengths, enumerate, joint_free, leg_map, moves, offsets_from_distances, reachable, representative,
+    edge_lengths, enumerate, joint_free, leg_map, moves, reachable, representative, sliding_body,
 };
 use nalgebra::{Matrix6, Point3};
 
@@ -207,7 +207,9 @@ fn joint_free_reproduces_the_published_example_in_any_leg_order() {
     assert!(
         edge_lengths(&o).iter().zip([12.0, 6.0, 12.0, 6.0, 12.0, 6.0]).all(|(x, y)| (x - y).abs() < 1e-14)
     );
-    let t = offsets_from_distances(&o, 2.4, 1.2);
+    // the offsets are distances: 2.4 on every base edge and 1.2 on every platform edge
+    let edges = edge_lengths(&o);
+    let t: [f64; 6] = std::array::from_fn(|k| sliding_body(k).of((2.4, 1.2)) / edges[k]);
     let (six_six, map) = joint_free(&o, t).unwrap();
     assert_eq!((six_six.base_joints().len(), six_six.platform_joints().len()), (6, 6));
     let l = LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8]).unwrap();

@@ -1,11 +1,5 @@
 //! One question, one function: the commands give the answers of the library.
 
-use equipod::methods::questions::{
-    ExploreOptions, ExploreProgress, ExploreReport, LocusOptions, MoveOptions, MoveTargets, NoMoves,
-    ReplaceableOptions,
-};
-use equipod::methods::synthesis::components::ComponentOptions;
-use equipod::methods::synthesis::relocate::search::MoveSearchOptions;
 use equipod::prelude::*;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -22,8 +16,7 @@ fn a_locus_is_that_of_the_command() {
     let design = Design::load(file).unwrap();
     let leg = LegIndex::new(5).unwrap();
     let lengths = design.lengths.unwrap();
-    let options =
-        LocusOptions { lengths, leg, ends: [4.3, 4.7], steps: 3, between: None, method: None, seed: 1 };
+    let options = LocusOptions::new(lengths, leg, [4.3, 4.7]).steps(3);
     let found = design.locus(&options).unwrap();
     assert_eq!((code == Some(0), &answer["between"]), (found.is_complete(), &json!(found.between.names)));
     for (row, point) in answer["rows"].as_array().unwrap().iter().zip(&found.points) {
@@ -37,8 +30,7 @@ fn a_locus_is_that_of_the_command() {
 #[test]
 fn replaceable_legs_and_the_platforms_made_of_them_are_those_of_the_commands() {
     let design = Design::load(GRIFFIS_DUFFY).unwrap();
-    let search = ComponentOptions::default();
-    let options = ReplaceableOptions { search, family: None, samples: 2 };
+    let options = ReplaceableOptions::all(ComponentOptions::default()).samples(2);
     let legs = design.replaceable_legs(&options).unwrap();
     let (_, answer) = asked(&["equivalents", "components", GRIFFIS_DUFFY, "--samples", "2"]);
     let drawn: Vec<usize> = legs.families.iter().map(|f| f.samples.len()).collect();
@@ -67,7 +59,7 @@ fn moves_of_legs_are_those_of_the_command() {
     let moves = ["1:P1-P2:P4:1/5", "2:P2:P4-P5:1/4"];
     for together in [false, true] {
         let requests: Vec<_> = moves.iter().map(|text| text.parse().unwrap()).collect();
-        let options = MoveOptions { together, ..MoveOptions::default() };
+        let options = MoveOptions::default().together(together);
         let found = design.move_legs(&requests, options).unwrap();
         let mut args = vec!["equivalents", "move", file, "--move", moves[0], "--move", moves[1]];
         args.extend(together.then_some("--together"));

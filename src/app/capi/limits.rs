@@ -125,7 +125,7 @@ pub unsafe extern "C" fn eqp_nearest_allowed(
     unsafe {
         told(error, || {
             let (reach, asked) = reach_and_pose(design, asked, "asked")?;
-            let options = NearestPoseOptions { seed, ..NearestPoseOptions::default() };
+            let options = NearestPoseOptions::default().seed(seed);
             let found = reach.nearest(&asked, &options).ok_or(Error::NoAllowedPose)?;
             *write(nearest, "nearest")? = EqpNearest {
                 pose: (&found.pose).into(),

@@ -10,7 +10,7 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
-use ::files::design::{FiveLegs, Format, SnappedDesign, Warning, parse_five_legs};
+use ::files::design::{Accepts, Format, SixOrFive, SnappedDesign, Warning, parse_six_or_five};
 use ask::design::{DesignOrViolations, parse, parse_ideal, parse_with_cranks};
 use ask::{Design, PoseFrames};
 use machine::coupled::CoupledLegs;
@@ -216,28 +216,26 @@ impl Context {
         CoupledLegs::new(design.manipulator(), &design.hardware, &home).map(Some).map_err(refused)
     }
 
-    /// A design of six or five legs, for commands that handle both; `read` reads designs of six.
+    /// A design of six or five legs, for commands that handle both.
     ///
     /// # Errors
     /// As [`Self::load`].
     pub(crate) fn load_six_or_five(
         &mut self,
         path: &Path,
-        read: fn(&str, Format) -> DesignOrViolations,
-    ) -> Result<SixOrFive, Failure> {
+        accepts: Accepts,
+    ) -> Result<SixOrFive<Design>, Failure> {
         let text = files::read_text(path)?;
-        let format = format_of(path, &text);
-        let six = read(&text, format);
-        let five = if six.is_err() { parse_five_legs(&text, format) } else { None };
-        match five {
-            None => self.accept(path, text, six).map(|read| SixOrFive::Six(Box::new(read.design))),
-            Some(Ok((five, warnings))) => {
+        let six = match parse_six_or_five(&text, format_of(path, &text), accepts) {
+            Ok((SixOrFive::Five(five), warnings)) => {
                 self.warn(path, &text, warnings);
                 self.designs.push((five.name.clone(), path.display().to_string()));
-                Ok(SixOrFive::Five(Box::new(five)))
+                return Ok(SixOrFive::Five(five));
             }
-            Some(Err(violations)) => Err(Failure::bad_design(files::shown(path), text, violations)),
-        }
+            Ok((SixOrFive::Six(six), warnings)) => Ok(((*six).into(), warnings)),
+            Err(violations) => Err(violations),
+        };
+        self.accept(path, text, six).map(|read| SixOrFive::Six(Box::new(read.design)))
     }
 
     fn warn(&mut self, path: &Path, text: &str, warnings: Vec<Warning>) {
@@ -281,13 +279,6 @@ impl Context {
             Err(violations) => Err(Failure::bad_design(files::shown(path), text, violations)),
         }
     }
-}
-
-/// A design by the number of its legs.
-#[derive(Debug)]
-pub(crate) enum SixOrFive {
-    Six(Box<Design>),
-    Five(Box<FiveLegs>),
 }
 
 /// A design with its texts.

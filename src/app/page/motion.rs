@@ -27,7 +27,7 @@ pub(super) struct SelfMotionRecord {
 
 /// The curve of poses with constant leg lengths through the pose; the longest if several cross.
 pub(super) fn record(design: &Design, at: &Pose) -> Result<SelfMotionRecord, Refusal> {
-    let options = SelfMotionOptions { start: MotionStart::Pose(*at), sections: 0, motion: OPTIONS };
+    let options = SelfMotionOptions::new(MotionStart::Pose(*at)).sections(0).motion(OPTIONS);
     let report = design.self_motions(&options).map_err(|why| Refusal::new("pose", why.to_string()))?;
     let found = &report.motion;
     let longest = report.longest().map(|k| &found.curves[k]);

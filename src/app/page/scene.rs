@@ -1,14 +1,12 @@
 //! Both platforms at a pose: places, lengths, margins, and the relation of the lengths.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Matrix6, Point3};
 use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
 use ask::Design;
-use machine::requirements::{Margin, Term, TermKind, Terms};
+use machine::requirements::{LeastMargins, Terms};
 use machine::rotary::RotaryPlatform;
 use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
@@ -210,19 +208,11 @@ fn spacing(m: &Manipulator, body: Body, names: &[String]) -> Option<SpacingRecor
 fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<MarginRecord> {
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &session.home);
-    let mut least: BTreeMap<TermKind, (Term, f64)> = BTreeMap::new();
-    for (term, value) in terms.fixed().into_iter().chain(terms.at(at)) {
-        let entry = least.entry(term.kind).or_insert((term, value));
-        if value < entry.1 {
-            *entry = (term, value);
-        }
-    }
-    let row = |(term, value): (Term, f64)| {
-        let pose = (!term.kind.is_fixed()).then_some(*at);
-        let standing = terms.standing(term.kind, value, pose.as_ref());
-        MarginRecord::found(design, &Margin { term, value, pose, standing })
-    };
-    least.into_values().map(row).collect()
+    let mut least = LeastMargins::default();
+    least.see(terms.fixed(), None);
+    least.see(terms.at(at), Some(*at));
+    let row = |(term, value, pose)| MarginRecord::found(design, &terms.margin((term, value), pose));
+    least.each().map(row).collect()
 }
 
 fn relation(

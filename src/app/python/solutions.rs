@@ -153,7 +153,8 @@ impl NativeSolutions {
                 let frames = design.pose_frames(PoseConvention::default());
                 let solved = solved.with_real_poses(design.manipulator(), &frames);
                 let frames = Some((&frames.convention).into());
-                (design, FkOneAnswer { frames, ..solved.into() })
+                let units = Some(design.units.clone());
+                (design, FkOneAnswer { frames, units, ..solved.into() })
             }
             SolvedFor::Angles(design, platform, angles) => {
                 let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
@@ -162,7 +163,8 @@ impl NativeSolutions {
                 let solved = solved.with_elbows(platform, angles);
                 let symmetric_finite = platform.symmetric_pose_count(angles);
                 let frames = Some((&frames.convention).into());
-                let answer = FkOneAnswer { symmetric_finite, frames, ..solved.into() };
+                let units = Some(design.units.clone());
+                let answer = FkOneAnswer { symmetric_finite, frames, units, ..solved.into() };
                 (design, answer.with_angles(platform, angles, angles.map(f64::to_degrees)))
             }
         };

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{
     LimitRecord, Number, OutOfReachRecord, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord,
@@ -14,7 +14,7 @@ use synthesis::singularity::{NearestSingularPose, SingularEvidence};
 
 view! {
     /// The answer of `at`.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct AtPoseAnswer {
         /// The name of the design.
         pub name: String = design.name.clone(),
@@ -104,7 +104,7 @@ view! {
 }
 
 /// A force and a torque.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WrenchRecord {
     /// Force units.
     pub force: [Number; 3],
@@ -114,7 +114,7 @@ pub struct WrenchRecord {
 
 view! {
     /// A wrench on the platform and what holds it.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct HeldWrenchRecord {
         /// Load; null: the wrench of `--wrench`.
         pub load: Option<String> = held.load.clone(),
@@ -129,7 +129,7 @@ view! {
 
 view! {
     /// Stiffness at a point of the platform.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct PointStiffnessRecord {
         /// Force and torque for a shift of the point and a small rotation: force units, design units and radians.
         #[serde(rename = "K")]
@@ -149,7 +149,7 @@ view! {
 
 view! {
     /// The motion of the point for a step of the drives.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct ResolutionRecord {
         /// Step: design units of legs, degrees of cranks.
         pub step: f64 = step,
@@ -168,7 +168,7 @@ view! {
 }
 
 /// A small motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SmallMotionRecord {
     /// The shift of the point, design units.
     pub shift: [Number; 3],
@@ -178,7 +178,7 @@ pub struct SmallMotionRecord {
 
 view! {
     /// The remaining motion with a leg stuck, or free.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct StuckLegRecord {
         /// The leg, from 1.
         pub leg: usize = stuck.leg + 1,
@@ -213,7 +213,7 @@ view! {
 }
 
 /// A turn about an axis with a shift along it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScrewRecord {
     /// Unit vector; of the shift where nothing turns.
     pub direction: [Number; 3],
@@ -224,7 +224,7 @@ pub struct ScrewRecord {
 }
 
 /// A pose with all lengths but one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LegPathPoseRecord {
     /// Joint distance of the leg.
     pub length: f64,
@@ -234,7 +234,7 @@ pub struct LegPathPoseRecord {
 
 view! {
     /// A singular pose near the one asked about.
-    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct NearestSingularPoseRecord {
         /// The pose.
         pub pose: PoseQuaternionRecord = (&found.pose).into(),

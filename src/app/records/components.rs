@@ -39,7 +39,7 @@ view! {
     }
     /// The answer about the design of this name: all results, and the requested families.
     pub fn new(name: &str, replaceable: &ReplaceableLegs) {
-        let ReplaceableLegs { found, families, search } = replaceable;
+        let ReplaceableLegs { found, families, search, .. } = replaceable;
         let component =
             |f: &ReplaceableFamily| ComponentRecord::new(f.index, &found.components[f.index], &f.samples);
         let planes = found.planes.iter().map(|p| PlanePairRecord::of(found, p));

@@ -1,7 +1,7 @@
 //! Records of joints that are not ideal: drive lengths, as distinct from the distances of the joints.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Number;
 use machine::coupled::{CoupledOutcome, DriveSolutionWord, DriveState};
@@ -22,7 +22,7 @@ view! {
 
 view! {
     /// The iteration for the pose with given drive lengths.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct DriveSolutionRecord {
         /// Status of the solution.
         pub status: DriveSolutionWord = found.status.word(),

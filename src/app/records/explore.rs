@@ -21,6 +21,8 @@ pub struct FkRunRecord {
     pub lengths: [f64; 6],
     /// The source of the lengths.
     pub lengths_from: LengthsOrigin,
+    /// The unit of lengths.
+    pub units: String,
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
@@ -342,8 +344,11 @@ view! {
     }
 }
 
-impl From<&OwnPoses> for FkRunRecord {
-    fn from(poses: &OwnPoses) -> Self {
-        Self { lengths: poses.lengths.get(), lengths_from: poses.origin, solved: (&poses.solutions).into() }
+impl FkRunRecord {
+    /// The poses of a design in these units.
+    #[must_use]
+    pub fn new(poses: &OwnPoses, units: &str) -> Self {
+        let (lengths, solved) = (poses.lengths.get(), (&poses.solutions).into());
+        Self { lengths, lengths_from: poses.origin, units: units.to_owned(), solved }
     }
 }

@@ -6,13 +6,14 @@ mod pose_count;
 
 use num_complex::Complex64;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use self::certificate::{CertificateRecord, DiscsRecord, EnclosureRecord};
 pub use self::closure::{
     ClosurePolynomialRecord, ClosureRecord, DistancePolynomialRecord, TrilaterationStepRecord,
 };
 pub use self::pose_count::{EvidenceWord, PoseCountRecord};
+use super::number::left_out;
 use super::{
     ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number, PoseConventionRecord,
     PoseInFrames, RotationPolynomialRecord,
@@ -25,7 +26,7 @@ use fk::{
 };
 use machine::reach::Reach;
 use machine::rotary::RotaryPlatform;
-use platform::geom::ComplexPose;
+use platform::geom::{ComplexPose, PoseConvention};
 use platform::manipulator::{Manipulator, height_above_base};
 
 /// The answer of `fk`.
@@ -39,13 +40,20 @@ pub enum FkAnswer {
 }
 
 impl FkAnswer {
-    /// With the convention of its poses.
+    /// The rows of a table; [`Self::with_frames`] adds convention and unit.
     #[must_use]
-    pub fn with_frames(mut self, frames: &PoseFrames) -> Self {
+    pub fn rows(rows: Vec<FkRowRecord>) -> Self {
+        let frames = (&PoseConvention::default()).into();
+        Self::Rows(Box::new(FkRowsAnswer { frames, units: String::new(), rows }))
+    }
+
+    /// With the convention of its poses, and the unit of lengths.
+    #[must_use]
+    pub fn with_frames(mut self, frames: &PoseFrames, units: &str) -> Self {
         let record = PoseConventionRecord::from(&frames.convention);
         match &mut self {
-            Self::Rows(answer) => answer.frames = record,
-            Self::One(one) => one.frames = Some(record),
+            Self::Rows(answer) => (answer.frames, answer.units) = (record, units.to_owned()),
+            Self::One(one) => (one.frames, one.units) = (Some(record), Some(units.to_owned())),
         }
         self
     }
@@ -56,6 +64,8 @@ impl FkAnswer {
 pub struct FkRowsAnswer {
     /// The convention of `in_frames`.
     pub frames: PoseConventionRecord,
+    /// The unit of lengths.
+    pub units: String,
     /// Rows of the file.
     pub rows: Vec<FkRowRecord>,
 }
@@ -97,11 +107,14 @@ pub struct RowFailure {
 
 view! {
     /// The poses with one set of lengths, and further results on request.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct FkOneAnswer {
         /// The convention of `in_frames`; of a row of a table that of the whole answer.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub frames: Option<PoseConventionRecord> = None,
+        /// The unit of lengths; of a row of a table that of the whole answer.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub units: Option<String> = None,
         /// The poses.
         #[serde(flatten)]
         pub solved: SolvedRecord = solved,
@@ -113,7 +126,7 @@ view! {
         #[serde(skip_serializing_if = "Option::is_none")]
         pub within_limits: Option<bool> = None,
         /// Legs with cranks beyond their limits, from 1.
-        #[serde(skip_serializing_if = "Vec::is_empty")]
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
         pub outside: Vec<usize> = Vec::new(),
         /// Number of finite poses of the exactly symmetric platform, by a theorem. It is present if tips and platform
         /// joints have three-fold symmetry to rounding and the rods are equally long. Rounding of the tips alone
@@ -166,7 +179,7 @@ impl FkOneAnswer {
 }
 
 /// All finite complex poses with given leg lengths, and whether these are all.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolvedRecord {
     /// The method that found them.
     pub method: Method,
@@ -175,7 +188,7 @@ pub struct SolvedRecord {
     /// Evidence for completeness.
     pub completeness_reason: String,
     /// Proof that all poses up to a distance are listed; null: another proof, or none.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_out")]
     pub bound: Option<BoundedProof>,
     /// Whether every path is accounted for; false: poses may be missing.
     pub all_paths_accounted: bool,
@@ -197,16 +210,18 @@ pub struct SolvedRecord {
     #[serde(flatten)]
     pub solution_set: SolutionSetRecord,
     /// Homotopy paths.
+    #[serde(deserialize_with = "left_out")]
     pub paths: Vec<PathReport>,
     /// Rejected candidates.
+    #[serde(deserialize_with = "left_out")]
     pub rejected: Vec<Rejected>,
     /// Uncertified path ends: there may be one pose, several or none near each. They are not among the solutions.
     pub unproved: Vec<SolutionRecord>,
     /// Library computations of `--method template`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", default, deserialize_with = "left_out")]
     pub library_calls: Vec<LibraryCalls>,
     /// Meaning of null for non-finite numbers.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
@@ -311,7 +326,7 @@ impl SolvedRecord {
 }
 
 /// The structure of the set of finite poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "solution_set", rename_all = "snake_case")]
 pub enum SolutionSetRecord {
     /// The poses are isolated, as far as known.
@@ -369,7 +384,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
 }
 
 /// A pose over the complex numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComplexPoseRecord {
     /// Rotation matrix, rows.
     #[serde(rename = "R")]
@@ -398,7 +413,7 @@ impl From<&ComplexPoseRecord> for ComplexPose {
 }
 
 /// A real pose as real numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RealPoseRecord {
     /// Platform origin, base frame, design units.
     pub position: [f64; 3],
@@ -427,7 +442,7 @@ pub struct RealPoseRecord {
 }
 
 /// A side of the plane of the base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SideWord {
     /// The side where the platform is at home.
@@ -438,7 +453,7 @@ pub enum SideWord {
 
 view! {
     /// One pose with its evidence.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct SolutionRecord {
         /// The pose.
         #[serde(flatten)]
@@ -455,6 +470,7 @@ view! {
         /// Whether it has a certificate.
         pub certified: bool = r.certified(),
         /// The proof; null: there is none.
+        #[serde(deserialize_with = "left_out")]
         pub certificate: Option<CertificateRecord> = r.certificate.as_ref().map(CertificateRecord::from),
         /// Number of paths, or roots of a polynomial, that end here.
         pub multiplicity: u32 = r.multiplicity,

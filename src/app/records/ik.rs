@@ -10,7 +10,7 @@ use super::{
 use ask::{Design, PoseFrames};
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
-use machine::requirements::{JointAngles, TermKind, Terms};
+use machine::requirements::{JointAngles, LeastMargins, Term, TermKind, Terms};
 use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{inverse_condition, jacobian};
 
@@ -211,17 +211,15 @@ impl IkRecord {
 impl PoseMarginRecord {
     /// The least margin of each kind at a pose.
     pub(super) fn all(design: &Design, terms: &Terms<'_>, pose: &Pose) -> Vec<Self> {
-        let at = terms.at(pose);
-        let least = |kind: TermKind| {
-            let own = at.iter().filter(|(term, _)| term.kind == kind);
-            own.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(term, margin)| Self {
-                name: kind,
-                margin: Number(*margin),
-                unit: design.unit_of(kind.quantity()),
-                between: design.names_of(*term),
-                legs: design.legs_of(*term),
-            })
+        let mut least = LeastMargins::default();
+        least.see(terms.at(pose), ());
+        let record = |(term, margin, ()): (Term, f64, ())| Self {
+            name: term.kind,
+            margin: Number(margin),
+            unit: design.unit_of(term.kind.quantity()),
+            between: design.names_of(term),
+            legs: design.legs_of(term),
         };
-        TermKind::ALL.into_iter().filter_map(least).collect()
+        least.each().map(record).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The tracking of one pose from a known one.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, PoseUncertaintyRecord};
 use fk::{NearOutcome, NearWord};
@@ -9,7 +9,7 @@ use platform::geom::Pose;
 
 view! {
     /// The path from the start to the pose reached, with the numbers that prove that it holds no singular pose.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct NearRecord {
         /// The outcome of the tracking.
         pub outcome: NearWord = outcome.word(),

@@ -1,8 +1,9 @@
-//! Complex numbers, and fields that are all there or none.
+//! Complex numbers, fields that are all there or none, and fields that are not read back.
 
 use num_complex::Complex64;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use num::Number;
 
@@ -42,4 +43,9 @@ impl<T> From<Option<T>> for AllOrNone<T> {
     fn from(record: Option<T>) -> Self {
         record.map_or(Self::None {}, Self::All)
     }
+}
+
+/// Reads over a field that no sheet shows.
+pub(crate) fn left_out<'de, D: Deserializer<'de>, T: Default>(from: D) -> Result<T, D::Error> {
+    IgnoredAny::deserialize(from).map(|_| T::default())
 }

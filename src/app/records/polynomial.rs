@@ -165,7 +165,7 @@ pub(crate) fn squared_distance([x, y]: &[String; 2]) -> String {
 }
 
 /// The polynomial in a Cayley parameter of all poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RotationPolynomialRecord {
     /// The polynomial exists. Its unknown c3 is z / w of the quaternion (w, x, y, z) of the platform's rotation, one

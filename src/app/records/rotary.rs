@@ -1,7 +1,7 @@
 //! Answers of inverse kinematics for rods of constant length on cranks: angles in place of lengths.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseConventionRecord, PoseInFrames, PoseMarginRecord, PoseRecord};
 use ask::{Design, PoseFrames};
@@ -61,7 +61,7 @@ pub struct RotaryIkRecord {
 }
 
 /// A rod that does not reach from the circle of its crank to the platform joint.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OutOfReachRecord {
     /// The leg, from 1.
     pub leg: usize,

@@ -31,7 +31,7 @@ impl CorrelationsWord {
 view! {
     /// The uncertainty of a pose computed from lengths with the calibrated machine, to first order. It covers the
     /// errors of the calibration; the noise of the lengths adds to it.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct PoseUncertaintyRecord {
         /// Source of correlations.
         pub correlations: CorrelationsWord = CorrelationsWord::of(design),

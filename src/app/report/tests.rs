@@ -1,8 +1,11 @@
 //! The page as a whole.
 
 use super::{Report, ReportFile, html};
+use ask::AtPoseOptions;
 use files::design::Format;
-use records::{CheckAnswer, Document, ProvenanceRecord};
+use platform::geom::PoseConvention;
+use records::{AtPoseAnswer, CheckAnswer, Document, FkAnswer, ProvenanceRecord, SolvedRecord};
+use sheet::{Sheet, answers, shown};
 
 fn file(name: &str, text: &str) -> ReportFile {
     ReportFile { name: name.into(), bytes: text.as_bytes().to_vec() }
@@ -79,6 +82,32 @@ fn a_saved_answer_of_check_is_shown_as_its_command_prints_it() {
                 && result.contains("rank of the leg vectors")
         );
     }
+}
+
+/// The report of a folder with this answer.
+fn saved(answer: &impl serde::Serialize) -> String {
+    let document = Document::new(answer, ProvenanceRecord::default(), vec![]);
+    report(vec![file("a.json", &serde_json::to_string(&document).unwrap())])
+}
+
+/// Fields that no sheet shows are read over: certificates, paths and rejected candidates of forward kinematics.
+#[test]
+fn saved_poses_are_shown_as_their_commands_print_them() {
+    let (design, _) = ask::design::parse(DESIGN, Format::Toml).unwrap();
+    let frames = design.pose_frames(PoseConvention::default());
+    let is_shown = |text: &str, sheet: &Sheet| text.contains(&shown(&sheet.html()));
+
+    let found = design.fk(&design.ik(&frames.home).unwrap()).unwrap();
+    let solved = SolvedRecord::from(&found).with_real_poses(design.manipulator(), &frames);
+    let poses = FkAnswer::One(Box::new(solved.into())).with_frames(&frames, &design.units);
+    let sheet = answers::fk("the design", &design.units, &poses);
+    assert!(sheet.to_string().contains("nearest to home"), "{sheet}");
+    assert!(is_shown(&saved(&poses), &sheet));
+
+    let asked = AtPoseOptions::at(frames.home).wrench([0.0, 0.0, -10.0, 0.0, 0.0, 0.0]).leg(1);
+    let found = design.at_pose(&frames, &asked).unwrap();
+    let at = AtPoseAnswer::new(&design, &frames, (&asked, 1.0), &found);
+    assert!(is_shown(&saved(&at), &answers::at_pose(&at)));
 }
 
 #[test]

@@ -32,7 +32,7 @@ use construction::{Constructions, WrittenNumber};
 pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
 pub use construction::{InvalidShare, Origin, Share, length_in};
 pub use edit::{JointError, Written};
-pub use five_legs::{FiveLegs, FiveLegsOrViolations, parse_five_legs};
+pub use five_legs::{FiveLegs, FiveLegsOrViolations};
 pub use keys::SCHEMA;
 pub use likeness::{likeness, nearest_word};
 pub use masses::AssessedForces;
@@ -92,7 +92,7 @@ impl Format {
 /// are a violation ([`Code::Rotary`]), since results for legs of variable length do not apply; [`parse_with_cranks`]
 /// reads such designs. Joint offsets are also a violation ([`Code::NotIdeal`]).
 pub fn parse(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
-    read(text, format, false)
+    read(text, format, Accepts::Legs)
 }
 
 /// Reads a design from text, including rods on cranks (`drive = "rotary"`) and joint offsets. With offsets
@@ -105,7 +105,7 @@ pub fn parse(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), 
 /// # Errors
 /// All violations found.
 pub fn parse_with_cranks(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
-    read(text, format, true)
+    read(text, format, Accepts::CranksAndOffsets)
 }
 
 /// Reads a design with ideal joints, whose legs are drives or rods on cranks.
@@ -113,13 +113,62 @@ pub fn parse_with_cranks(text: &str, format: Format) -> Result<(DesignModel, Vec
 /// # Errors
 /// All violations found; joint offsets are one ([`Code::NotIdeal`]).
 pub fn parse_ideal(text: &str, format: Format) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
-    match parse(text, format) {
-        // cranks cannot couple a rotation to a length, so this admits cranks only
-        Err(violations) if violations.iter().any(|v| v.code == Code::Rotary) => {
-            parse_with_cranks(text, format)
-        }
-        read => read,
+    read(text, format, Accepts::Cranks)
+}
+
+/// The designs that a question takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Accepts {
+    /// Legs of variable length with ideal joints, as [`parse`].
+    Legs,
+    /// Rods on cranks too, as [`parse_ideal`].
+    Cranks,
+    /// Rods on cranks and joint offsets too, as [`parse_with_cranks`].
+    CranksAndOffsets,
+}
+
+/// A design by the number of its legs.
+#[derive(Debug)]
+pub enum SixOrFive<D> {
+    /// Six legs.
+    Six(Box<D>),
+    /// Five legs.
+    Five(Box<FiveLegs>),
+}
+
+/// Reads a design of six or of five legs.
+///
+/// # Errors
+/// All violations found.
+pub fn parse_six_or_five(
+    text: &str,
+    format: Format,
+    accepts: Accepts,
+) -> Result<(SixOrFive<DesignModel>, Vec<Warning>), Vec<Violation>> {
+    let opened = OpenedText::of(text, format)?;
+    if opened.lists_five_legs() {
+        opened.five_legs().map(|(five, warnings)| (SixOrFive::Five(Box::new(five)), warnings))
+    } else {
+        opened.six_legs(accepts).map(|(six, warnings)| (SixOrFive::Six(Box::new(six)), warnings))
     }
+}
+
+/// Reads a design of five legs; `None` if the text lists another number of legs or cannot be read.
+///
+/// ```
+/// # mod equipod { pub mod methods { pub use equipod_files::design; } }
+/// use equipod::methods::design::{Format, parse_five_legs};
+/// let text = r#"{ "name": "five", "units": "m", "legs": [["A", "a"], ["B", "b"], ["C", "c"], ["D", "d"], ["E", "e"]],
+///   "base": { "A": [0, 0, 0], "B": [4, 0, 0], "C": [6, 3, 0], "D": [3, 6, 0], "E": [-1, 5, 0] },
+///   "platform": { "a": [0, 0, 0], "b": [1, 0, 0], "c": [3, 0, 0], "d": [4, 0, 0], "e": [6, 0, 0] } }"#;
+/// let (five, _) = parse_five_legs(text, Format::Json).ok_or("other legs")?.map_err(|why| why[0].to_string())?;
+/// assert!(five.pentapod.linear().is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn parse_five_legs(text: &str, format: Format) -> Option<FiveLegsOrViolations> {
+    let opened = OpenedText::of(text, format).ok()?;
+    opened.lists_five_legs().then(|| opened.five_legs())
 }
 
 /// Reads the keys of a `[frames]` table (TOML), for poses in another convention than that of the design.
@@ -133,30 +182,57 @@ pub fn parse_frames(text: &str) -> Result<PoseConvention, Vec<Violation>> {
     convention.filter(|_| report.is_clean()).ok_or_else(|| report.into_violations())
 }
 
-fn read(
-    text: &str,
+fn read(text: &str, format: Format, accepts: Accepts) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
+    OpenedText::of(text, format)?.six_legs(accepts)
+}
+
+/// The tree of a text, with the findings so far.
+struct OpenedText<'t> {
     format: Format,
-    takes_cranks: bool,
-) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut report = violation::Findings::new(text);
-    if text.trim().is_empty() {
-        let help = "a design needs name, units, legs, [base] and [platform]; `designs/` has examples";
-        report.refuse(Code::Empty, &(0..0), "the file is empty", help);
-        return Err(report.into_violations());
-    }
-    let mut root = tree::read(text, format, &mut report);
-    if let Some(root) = &mut root {
-        keys::give_new_names(&mut report, root, keys::FILE);
-    }
-    let design = root.and_then(|root| keys::design(&root, &mut report, takes_cranks));
-    match design {
-        Some(mut design) if report.is_clean() => {
-            let text = report.text_with_new_names();
-            let warnings = report.into_warnings();
-            design.written = Written::new(&text, format, &warnings);
-            Ok((design, warnings))
+    root: tree::Node,
+    report: violation::Findings<'t>,
+}
+
+impl<'t> OpenedText<'t> {
+    /// # Errors
+    /// An empty text; the faults of its syntax.
+    fn of(text: &'t str, format: Format) -> Result<Self, Vec<Violation>> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut report = violation::Findings::new(text);
+        if text.trim().is_empty() {
+            let help = "a design needs name, units, legs, [base] and [platform]; `designs/` has examples";
+            report.refuse(Code::Empty, &(0..0), "the file is empty", help);
+            return Err(report.into_violations());
         }
-        _ => Err(report.into_violations()),
+        match tree::read(text, format, &mut report) {
+            Some(root) => Ok(Self { format, root, report }),
+            None => Err(report.into_violations()),
+        }
+    }
+
+    /// The design of six legs.
+    fn six_legs(mut self, accepts: Accepts) -> Result<(DesignModel, Vec<Warning>), Vec<Violation>> {
+        keys::give_new_names(&mut self.report, &mut self.root, keys::FILE);
+        match keys::design(&self.root, &mut self.report, accepts) {
+            Some(mut design) if self.report.is_clean() => {
+                let text = self.report.text_with_new_names();
+                let warnings = self.report.into_warnings();
+                design.written = Written::new(&text, self.format, &warnings);
+                Ok((design, warnings))
+            }
+            _ => Err(self.report.into_violations()),
+        }
+    }
+
+    fn lists_five_legs(&self) -> bool {
+        keys::has_five_legs(&self.root)
+    }
+
+    /// The design of five legs.
+    fn five_legs(mut self) -> FiveLegsOrViolations {
+        match keys::five_legs(&self.root, &mut self.report) {
+            Some(design) if self.report.is_clean() => Ok((design, self.report.into_warnings())),
+            _ => Err(self.report.into_violations()),
+        }
     }
 }

@@ -24,6 +24,7 @@ pub fn unit_of_millimetres(length: f64) -> Option<(&'static str, f64)> {
 
 /// Reasons why a design cannot change to another unit.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NotScaled {
     /// A label that names no known length unit.
     #[error("`{0}` is not a known unit of length; the known units are {known}", known = UNITS.map(|(label, _)| label).join(", "))]

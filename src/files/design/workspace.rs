@@ -188,8 +188,8 @@ mod tests {
         let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 5.0) };
         let far = Pose { rotation: Rotation3::identity(), position: Vector3::new(9.0, 0.0, 5.0) };
         let mut box_ = Workspace {
-            translation: CoordinateRange::each_within(Vector3::new(1.0, 0.0, 2.0)),
-            rotation_deg: CoordinateRange::each_within(Vector3::new(0.0, 0.0, 90.0)),
+            translation: [1.0, 0.0, 2.0].map(CoordinateRange::within),
+            rotation_deg: [0.0, 0.0, 90.0].map(CoordinateRange::within),
             grid: 2,
             poses: vec![far],
             ..Workspace::default()

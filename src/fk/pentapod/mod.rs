@@ -16,7 +16,6 @@
 
 mod quotient;
 
-use nalgebra::Vector3;
 use num_complex::Complex64;
 use num_traits::{Signed, Zero};
 use thiserror::Error;
@@ -318,14 +317,6 @@ fn pose(root: &ComplexRoot, polynomials: &[ExactVector], square: &Rational) -> L
         multiplicity: root.multiplicity,
         // the division by the length rounds as well
         error: [along, 2.0 * turning / length + 4.0 * f64::EPSILON],
-    }
-}
-
-impl LinePose {
-    /// The real parts: place of the joint of leg 1, and direction.
-    #[must_use]
-    pub fn real_parts(&self) -> [Vector3<f64>; 2] {
-        [self.position, self.direction].map(|x| Vector3::from(x.map(|z| z.re)))
     }
 }
 

@@ -1,3 +1,5 @@
+use nalgebra::Vector3;
+
 use super::*;
 use num::Rng;
 use platform::pentapod::Pentapod;
@@ -14,6 +16,11 @@ fn lengths_at(p: &LinearPentapod, position: Vector3<f64>, direction: Vector3<f64
         let a = Vector3::from(p.others[i].each_ref().map(nearest));
         (position + direction * (length * nearest(&p.marks[i])) - a).norm()
     })
+}
+
+/// The place of the joint of leg 1 and the direction of a real pose.
+fn real_parts(pose: &LinePose) -> [Vector3<f64>; 2] {
+    [pose.position, pose.direction].map(|x| Vector3::from(x.map(|z| z.re)))
 }
 
 const PLANE: [[f64; 3]; 5] =
@@ -67,14 +74,14 @@ fn taken_pose_is_found(seed: u64, planar: bool) {
     let real: Vec<_> = found.poses.iter().filter(|pose| pose.real).collect();
     assert_eq!(real.len() % 2, 0);
     for pose in &real {
-        let [q, d] = pose.real_parts();
+        let [q, d] = real_parts(pose);
         assert!((d.norm() - 1.0).abs() < 1e-13);
         assert!(pose.error[0] < 1e-13 && pose.error[1] < 1e-13, "{:?}", pose.error);
         let again = lengths_at(&p, q, d);
         assert!(l.iter().zip(again).all(|(x, y)| (x - y).abs() < 1e-12), "{l:?} {again:?}");
     }
     let near = |pose: &&LinePose| {
-        let [q, d] = pose.real_parts();
+        let [q, d] = real_parts(pose);
         (q - position).norm() + (d - direction).norm() < 1e-9
     };
     assert_eq!(real.into_iter().filter(near).count(), 1);

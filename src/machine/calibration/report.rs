@@ -23,6 +23,7 @@ const SAME_END: f64 = 0.01;
 
 /// Options of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct CalibrateOptions {
     /// Noise of the measurements; `None`: equal for all lengths, zero for poses, with the amount estimated from the
     /// residuals.
@@ -50,6 +51,23 @@ impl Default for CalibrateOptions {
             start: StartChoice::Best,
             identified: 0.01,
         }
+    }
+}
+
+impl CalibrateOptions {
+    num::setters! {
+        /// Noise of the measurements; `None`: equal for all lengths, zero for poses.
+        fn noise(noise: impl Into<Option<MeasurementNoise>>) = noise.into();
+        /// The loss function of the fit.
+        fn loss(loss: Loss) = loss;
+        /// Whether gross errors are expected in whole poses or in single lengths.
+        fn loss_unit(loss_unit: LossUnit) = loss_unit;
+        /// Parameters that the fit keeps.
+        fn held(held: HeldParts) = held;
+        /// The start of the fit.
+        fn start(start: StartChoice) = start;
+        /// The greatest standard deviation, as a share of the size, at which a direction counts as identified.
+        fn identified(identified: f64) = identified;
     }
 }
 
@@ -241,6 +259,7 @@ pub struct Outlier {
 
 /// The result of a calibration.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Calibration {
     /// The result in a word.
     pub status: CalibrationStatus,

@@ -29,6 +29,7 @@ const RESTORED: f64 = 0.25;
 
 /// Effort of the search for the nearest pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct NearestPoseOptions {
     /// Starts besides home.
     pub starts: usize,
@@ -44,8 +45,20 @@ impl Default for NearestPoseOptions {
     }
 }
 
+impl NearestPoseOptions {
+    num::setters! {
+        /// Starts besides home.
+        fn starts(starts: usize) = starts;
+        /// Steps from each start at most.
+        fn steps(steps: usize) = steps;
+        /// Seed of the further starts.
+        fn seed(seed: u64) = seed;
+    }
+}
+
 /// An allowed pose near the one asked for.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct NearestPose {
     /// The pose. Every requirement is met within rounding, and `det J` is at least a thousandth of its value at home.
     pub pose: Pose,

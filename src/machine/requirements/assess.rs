@@ -125,8 +125,38 @@ impl Assessment {
     }
 }
 
-/// The least margin of a kind so far, with its requirement and pose.
-type Least = (Term, f64, Option<Pose>);
+/// The least margin of each kind of requirement among all that were seen, with its requirement and its place: a pose, an
+/// instant, or nothing. A margin that is no number counts as the least.
+#[derive(Debug, Clone)]
+pub struct LeastMargins<At>(BTreeMap<TermKind, (Term, f64, At)>);
+
+impl<At> Default for LeastMargins<At> {
+    fn default() -> Self {
+        Self(BTreeMap::new())
+    }
+}
+
+impl<At: Copy> LeastMargins<At> {
+    /// Takes the margins at a place into account.
+    pub fn see(&mut self, margins: impl IntoIterator<Item = (Term, f64)>, at: At) {
+        for (term, value) in margins {
+            let entry = self.0.entry(term.kind).or_insert((term, value, at));
+            if value < entry.1 || value.is_nan() {
+                *entry = (term, value, at);
+            }
+        }
+    }
+
+    /// The least margin of a kind; `None`: the design does not require it.
+    pub fn of(&self, kind: TermKind) -> Option<f64> {
+        self.0.get(&kind).map(|found| found.1)
+    }
+
+    /// The least margin of each kind, in the order of the kinds.
+    pub fn each(&self) -> impl Iterator<Item = (Term, f64, At)> + '_ {
+        self.0.values().copied()
+    }
+}
 
 /// A point of the region with its margin.
 type RegionPoint = (f64, Vector6<f64>);
@@ -145,37 +175,25 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
     let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
-    let mut found: BTreeMap<TermKind, Least> = BTreeMap::new();
-    let mut keep = |list: Vec<(Term, f64)>, pose: Option<Pose>| {
-        for (term, value) in list {
-            let entry = found.entry(term.kind).or_insert((term, value, pose));
-            if value < entry.1 || value.is_nan() {
-                *entry = (term, value, pose);
-            }
-        }
-    };
-    keep(terms.fixed(), None);
+    let mut found: LeastMargins<Option<Pose>> = LeastMargins::default();
+    found.see(terms.fixed(), None);
     let mut poses = 0;
     for pose in space.listed(o.steps) {
-        keep(terms.at(&pose), Some(pose));
+        found.see(terms.at(&pose), Some(pose));
         poses += 1;
     }
     let mut worst: BTreeMap<TermKind, Vec<RegionPoint>> = BTreeMap::new();
     for x in space.cube_points(o.points, &mut rng) {
         let pose = space.pose(&x);
-        let list = terms.at(&pose);
-        let mut here: BTreeMap<TermKind, f64> = BTreeMap::new();
-        for (term, value) in &list {
-            let least = here.entry(term.kind).or_insert(*value);
-            *least = least.min(*value);
-        }
-        for (kind, value) in here {
-            let list = worst.entry(kind).or_default();
+        let mut here = LeastMargins::default();
+        here.see(terms.at(&pose), ());
+        for (term, value, ()) in here.each() {
+            let list = worst.entry(term.kind).or_default();
             list.push((value, x));
             list.sort_by(|a, b| a.0.total_cmp(&b.0));
             list.truncate(o.searches);
+            found.see([(term, value)], Some(pose));
         }
-        keep(list, Some(pose));
         poses += 1;
     }
     let axes = space.axes();
@@ -184,16 +202,15 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
             for start in starts {
                 let (x, tried) = descend(&terms, kind, space, &axes, start, &mut rng);
                 let pose = space.pose(&x);
-                keep(terms.at(&pose), Some(pose));
+                found.see(terms.at(&pose), Some(pose));
                 poses += tried;
             }
         }
     }
-    let margin = |(term, value, pose): Least| {
-        let standing = terms.standing(term.kind, value, pose.as_ref());
-        Margin { term, value, pose, standing }
-    };
-    Assessment { margins: found.into_values().map(margin).collect(), poses }
+    Assessment {
+        margins: found.each().map(|(term, value, pose)| terms.margin((term, value), pose)).collect(),
+        poses,
+    }
 }
 
 /// A worse pose near a bad one, and the number of poses tried.

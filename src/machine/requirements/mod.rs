@@ -33,7 +33,7 @@ mod universal;
 mod vibration;
 
 pub use assess::ViolationSearch;
-pub use assess::{AssessOptions, Assessment, Margin, assess};
+pub use assess::{AssessOptions, Assessment, LeastMargins, Margin, assess};
 pub use bodies::MovingBodies;
 pub use bound::prove_telling;
 pub use bound::{AssessStage, MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
@@ -67,9 +67,11 @@ pub use term::{Quantity, Term, TermKind, Terms};
 pub use tiling::{LegRequirement, TiledRegion};
 pub use universal::HingeAngle;
 pub use universal::UniversalJoint;
+#[cfg(test)]
+pub(crate) use vibration::softest_of;
 pub use vibration::{
-    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
-    lowest_frequency, mass_matrix, stiffness_matrix, vibration,
+    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, lowest_frequency,
+    mass_matrix, stiffness_matrix, vibration,
 };
 pub use vibration::{mass_of, scaled_mass};
 

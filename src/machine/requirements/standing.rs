@@ -1,6 +1,7 @@
 //! The meaning of a margin within the rounding of its own evaluation.
 
-use super::term::{Quantity, TermKind, Terms};
+use super::assess::Margin;
+use super::term::{Quantity, Term, TermKind, Terms};
 use super::universal::HingeAngle;
 use platform::geom::Pose;
 use platform::manipulator::{Body, inverse_condition};
@@ -44,6 +45,12 @@ impl Terms<'_> {
         } else {
             Standing::Violated
         }
+    }
+
+    /// A margin with its meaning; without a pose for requirements that do not depend on it.
+    #[must_use]
+    pub fn margin(&self, (term, value): (Term, f64), pose: Option<Pose>) -> Margin {
+        Margin { term, value, pose, standing: self.standing(term.kind, value, pose.as_ref()) }
     }
 
     /// Amplification of a direction error of a leg in an angle: above 1 for first angles of universal joints near their

@@ -17,6 +17,7 @@ use platform::manipulator::{Body, Manipulator, jacobian};
 num::answer_words! {
     /// The kinds of requirements.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
     pub enum TermKind as code | label {
         /// Leg length minus minimum.
         MinLegLength = "min_leg_length" | "leg length, minimum",

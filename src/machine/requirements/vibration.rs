@@ -170,14 +170,11 @@ impl VibratingMasses {
 
 /// [`least_stiffness`] of legs of stiffness `leg` at a pose, from the leg forces under unit loads. With
 /// `F = J^-T (f, t)` a unit force moves the platform by `|F|^2 / leg` along it. The least stiffness is `leg` over the
-/// square of the greatest singular value of the columns of `J^-T` for forces, or for torques. Zero at a singular pose.
-#[must_use]
-pub fn least_stiffness_at(m: &Manipulator, pose: &Pose, leg: f64) -> LeastStiffness {
-    softest_of(Some(&jacobian(m, pose, m.size())), m.size(), leg)
-}
-
-/// [`least_stiffness_at`] from rates of drives by rows with their moments over `size`; zero without rates.
-pub(super) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> LeastStiffness {
+/// square of the greatest singular value of the columns of `J^-T` for forces, or for torques.
+///
+/// `J` is given by the rates of the drives in rows, with their moments over `size`. Zero at a singular pose, and without
+/// rates.
+pub(crate) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> LeastStiffness {
     let none = LeastStiffness { linear: 0.0, angular: 0.0 };
     let Some(inverse) = rows.and_then(|rows| rows.transpose().try_inverse()) else { return none };
     let softest = |at: usize| -> Option<f64> {

@@ -34,6 +34,7 @@ pub struct ChosenVariable {
 
 /// A platform that meets the requirements.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DimensionalSolution {
     /// The platform, legs in the order of the design.
     pub manipulator: Manipulator,

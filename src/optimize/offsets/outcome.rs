@@ -101,6 +101,7 @@ pub struct LocalEvidence {
 
 /// Optimised offsets with their evidence.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct OffsetSolution {
     /// `t_i`, dimensionless, cyclic order.
     pub offsets: [f64; 6],
@@ -216,6 +217,7 @@ pub struct BranchReport {
 
 /// All results of the search.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct OffsetReport {
     /// The answer.
     pub outcome: OffsetOutcome,

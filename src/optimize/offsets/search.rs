@@ -78,6 +78,7 @@ impl std::fmt::Display for OffsetProgress {
 
 /// Progress of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum OffsetProgress {
     /// Cells ranked so far.
     Ranking {

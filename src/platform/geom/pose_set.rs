@@ -78,12 +78,6 @@ impl CoordinateRange {
         Self { min: 0.0 - half, max: half }
     }
 
-    /// Such intervals for three coordinates.
-    #[must_use]
-    pub fn each_within(half: Vector3<f64>) -> [Self; 3] {
-        [half.x, half.y, half.z].map(Self::within)
-    }
-
     /// Whether home is exactly in the middle.
     #[must_use]
     pub fn is_about_home(self) -> bool {
@@ -473,7 +467,7 @@ mod tests {
             assert!(half - 0.5 * (travel.max - travel.min) < 1e-15 && travel.reach() >= half);
         }
         for region in [Region::Box, Region::Ellipsoid] {
-            let angles = CoordinateRange::each_within(Vector3::repeat(10.0));
+            let angles = [10.0; 3].map(CoordinateRange::within);
             let sides = [
                 CoordinateRange { min: -3.0, max: 9.0 },
                 CoordinateRange { min: -2.0, max: 3.0 },
@@ -515,7 +509,7 @@ mod tests {
             let moved = Pose { position: home.position + shift, ..home };
             let other = PoseSpace::at(moved).with_region(
                 region,
-                &CoordinateRange::each_within(Vector3::new(4.0, 0.5, 3.0)),
+                &[4.0, 0.5, 3.0].map(CoordinateRange::within),
                 &still,
             );
             for x in other.cube_points(50, &mut Rng::new(5)) {

@@ -31,7 +31,7 @@ use thiserror::Error;
 pub use self::exact_form::ExactKind;
 pub use self::flats::Reading;
 pub use self::form::{PartKind, SingularKind};
-pub use self::planes::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint, curve_value};
+pub use self::planes::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint};
 pub use self::shape::{CubicPencil, MovingPoint, Parametrisation};
 pub use self::spectrum::{Decision, Question};
 pub use component::{Component, FamilyKind, SampledLeg, flat_name};

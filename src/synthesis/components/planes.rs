@@ -487,13 +487,6 @@ fn singular_points(
     Ok((out, decision))
 }
 
-/// The value of a form at a homogeneous point of unit norm over the form's norm.
-#[must_use]
-pub fn curve_value(curve: &PlaneCurve, point: [f64; 3]) -> f64 {
-    let form = Form { degree: curve.degree, coefficients: curve.coefficients.clone() };
-    form.value(&unit(&point)) / form.norm()
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;

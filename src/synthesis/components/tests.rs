@@ -2,6 +2,8 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::form::Form;
+use super::spectrum::unit;
 use super::*;
 use crate::{LegMapTolerances, leg_map};
 use platform::manipulator::Leg;
@@ -260,7 +262,8 @@ fn six_sampled_legs_are_an_equivalent_platform_and_a_point_off_the_cubic_is_not_
     assert!(c.span.distance(&off) > 1e-6);
     let d = off.base - planes.base.origin;
     let x = planes.base.axes.map(|a| a.dot(&d) / a.norm_squared());
-    assert!(curve_value(&planes.base, [1.0, x[0], x[1]]).abs() > 1e-6);
+    let cubic = Form { degree: planes.base.degree, coefficients: planes.base.coefficients.clone() };
+    assert!(cubic.value(&unit(&[1.0, x[0], x[1]])).abs() > 1e-6 * cubic.norm());
     let partners = planes.partners(platform::manipulator::Body::Base, [1.0, x[0], x[1]], 1e-8).unwrap();
     assert_eq!(partners, Partners::None);
     // and on the cubic the partner is the platform end

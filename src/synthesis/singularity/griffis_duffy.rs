@@ -425,13 +425,22 @@ impl TriangleFrame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::singular_offset;
     use num::Rng;
     use platform::geom::{Pose, random_rotation};
     use platform::manipulator::Leg;
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())
+    }
+
+    /// The offset `t_k` with `det A = 0`, which is an affine function of it; `None`: no finite one, or every one.
+    fn singular_offset(t: &[f64; 6], k: usize) -> Option<f64> {
+        let [at_0, at_1] = [0.0, 1.0].map(|x| {
+            let mut t = *t;
+            t[k] = x;
+            offset_determinant(&t)
+        });
+        Some(at_0 / (at_0 - at_1)).filter(|x| x.is_finite())
     }
 
     /// Six legs on the sides of two triangles.

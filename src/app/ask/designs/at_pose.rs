@@ -20,6 +20,7 @@ use synthesis::singularity::{
 
 /// The questions at a pose.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct AtPoseOptions {
     /// The pose.
     pub pose: Pose,
@@ -39,8 +40,43 @@ pub struct AtPoseOptions {
     pub seed: u64,
 }
 
+impl AtPoseOptions {
+    /// The questions at a pose about the origin of the platform, in the axes of the base.
+    #[must_use]
+    pub fn at(pose: Pose) -> Self {
+        Self {
+            pose,
+            point: Vector3::zeros(),
+            axes: Body::Base,
+            wrench: None,
+            efforts: None,
+            leg: None,
+            directions: None,
+            seed: 1,
+        }
+    }
+
+    num::setters! {
+        /// The point that wrenches, shifts and stiffness are about, platform frame.
+        fn point(point: Vector3<f64>) = point;
+        /// The body whose axes vectors have.
+        fn axes(axes: Body) = axes;
+        /// A wrench on the platform: force and torque about the point.
+        fn wrench(wrench: impl Into<Option<[f64; 6]>>) = wrench.into();
+        /// Forces of the legs, positive where they push, or torques of the cranks.
+        fn efforts(efforts: impl Into<Option<[f64; 6]>>) = efforts.into();
+        /// The leg that is stuck or free, by its index.
+        fn leg(leg: impl Into<Option<usize>>) = leg.into();
+        /// Directions in which the nearest singular pose is sought.
+        fn directions(directions: impl Into<Option<usize>>) = directions.into();
+        /// The seed of the search.
+        fn seed(seed: u64) = seed;
+    }
+}
+
 /// Why there is no answer.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum NoAtPose {
     /// A leg has no length at the pose.
     #[error("the leg lengths at this pose are not finite positive numbers")]
@@ -94,6 +130,7 @@ pub struct AxisCapacity {
 
 /// The answer for a pose.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct AtPoseReport {
     /// Lengths or angles.
     pub drives: DrivesAt,

@@ -179,7 +179,7 @@ mod tests {
             })
             .collect();
         let noise = MeasurementNoise { length: 0.005, position: 0.01, rotation: 2e-5 };
-        let options = CalibrateOptions { noise: Some(noise), ..CalibrateOptions::default() };
+        let options = CalibrateOptions::default().noise(noise);
         let found = design.calibrate(&rows, &options).unwrap();
         let text = design.with_calibration(&found, None).unwrap().to_toml();
         let again = parse(&text, Format::Toml).unwrap().0;

@@ -7,7 +7,7 @@ use super::moving::{MotionMasses, MotionReport, PlatformMotion};
 use crate::Design;
 use machine::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
 use machine::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
-use machine::requirements::{Terms, leg_forces};
+use machine::requirements::{AssessOptions, Terms, leg_forces};
 use machine::rotary::RotaryPlatform;
 use num::Purpose;
 use platform::geom::Pose;
@@ -20,6 +20,7 @@ const SAME_LENGTH: f64 = 1e-6;
 
 /// The options of the figures.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct FigureOptions<'a> {
     /// Number of points of a Halton sequence in the region of poses; as many random points are added.
     pub points: usize,
@@ -35,9 +36,32 @@ pub struct FigureOptions<'a> {
     pub characteristic_length: f64,
 }
 
+impl<'a> FigureOptions<'a> {
+    /// Figures with this characteristic length, without motions and accuracy.
+    #[must_use]
+    pub fn new(characteristic_length: f64) -> Self {
+        let points = AssessOptions::default().points;
+        Self { points, seed: 1, motions: &[], masses: None, accuracy: None, characteristic_length }
+    }
+
+    num::setters! {
+        /// Number of points of a Halton sequence in the region of poses; as many random points are added.
+        fn points(points: usize) = points;
+        /// Seed of the random poses.
+        fn seed(seed: u64) = seed;
+        /// Motions about home.
+        fn motions(motions: &'a [PlatformMotion]) = motions;
+        /// The masses for the forces along the motions.
+        fn masses(masses: impl Into<Option<&'a MotionMasses>>) = masses.into();
+        /// The accuracy for the joint tolerances.
+        fn accuracy(accuracy: impl Into<Option<ErrorBound>>) = accuracy.into();
+    }
+}
+
 /// Figures of a design over the poses of its workspace, or at home if it states none. A figure is `None` if the design
 /// does not specify its quantity; an infinite force stands for a singular pose.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DesignFigures {
     /// The result of `assess`; `None` without requirements.
     pub assessment: Option<AssessReport>,

@@ -7,6 +7,7 @@ use synthesis::singularity::{Architecture, PoseHold, SingularEvidence, hold_at};
 
 /// A home pose at which the legs or rods do not hold the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SingularHome {
     /// The pose.
     pub pose: Pose,

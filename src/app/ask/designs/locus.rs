@@ -11,6 +11,7 @@ use platform::topology::Topology;
 
 /// The leg that varies, and the distance that is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct LocusOptions {
     /// The lengths of the other legs.
     pub lengths: LegLengths,
@@ -29,8 +30,31 @@ pub struct LocusOptions {
     pub seed: u64,
 }
 
+impl LocusOptions {
+    /// The usual number of lengths.
+    pub const STEPS: u32 = 201;
+
+    /// A leg that varies between two lengths while the others have theirs.
+    #[must_use]
+    pub fn new(lengths: LegLengths, leg: LegIndex, ends: [f64; 2]) -> Self {
+        Self { lengths, leg, ends, steps: Self::STEPS, between: None, method: None, seed: 1 }
+    }
+
+    num::setters! {
+        /// Number of lengths, both ends included; at least two.
+        fn steps(steps: u32) = steps;
+        /// Base joint and platform joint of the virtual leg.
+        fn between(between: impl Into<Option<(usize, usize)>>) = between.into();
+        /// The method of solution.
+        fn method(method: impl Into<Option<Method>>) = method.into();
+        /// The seed.
+        fn seed(seed: u64) = seed;
+    }
+}
+
 /// The reason why there is no locus.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NoLocus {
     /// The pair of joints is a leg.
     #[error("{0} joins these joints")]
@@ -110,6 +134,7 @@ impl LocusPoint {
 
 /// The squared lengths of a virtual leg while the length of one leg varies.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct LocusReport {
     /// The leg with variable length.
     pub leg: LegIndex,

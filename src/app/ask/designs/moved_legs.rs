@@ -41,6 +41,7 @@ pub struct LegMoveRequest {
 
 /// Why a text is no move.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum InvalidMove {
     /// It has another form.
     #[error("`{0}` is not a move")]
@@ -81,11 +82,21 @@ impl FromStr for LegMoveRequest {
 
 /// Options of a move of legs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct MoveOptions {
     /// All at once, along families of the given design, instead of one after another.
     pub together: bool,
     /// Options of the search for families.
     pub search: ComponentOptions,
+}
+
+impl MoveOptions {
+    num::setters! {
+        /// Whether the legs move all at once, along families of the given design.
+        fn together(together: bool) = together;
+        /// Options of the search for families.
+        fn search(search: ComponentOptions) = search;
+    }
 }
 
 /// Moves made at once, with the names of the families that they used.
@@ -103,6 +114,7 @@ pub struct MovedAtOnce {
 
 /// Moves of legs, with the platform they make.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct MovesReport {
     /// Moves made at once, one after another; the first singular one is the last.
     pub steps: Vec<MovedAtOnce>,
@@ -138,6 +150,7 @@ impl MovesReport {
 
 /// The reason that legs are not moved; a family that does not exist comes with the families that do.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NoMoves {
     /// The families cannot be found.
     #[error(transparent)]

@@ -1,7 +1,5 @@
 //! The movement of the legs and the forces of the drives along a motion, against the limits of the design.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Matrix6, Vector6};
 
 use crate::Design;
@@ -9,7 +7,7 @@ use machine::dynamics::{
     LeastStiffness, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, MovingBodies, PosePath,
     Vibration, drive_forces, least_stiffness, leg_motions, mass_matrix, stiffness_matrix, vibration,
 };
-use machine::requirements::{Load, Margin, Term, TermKind, Terms};
+use machine::requirements::{LeastMargins, Load, Margin, Term, TermKind, Terms};
 use machine::rotary::{CrankMotion, RotaryPlatform};
 use platform::geom::Pose;
 use platform::manipulator::{Manipulator, leg_determinant};
@@ -117,6 +115,7 @@ pub struct MotionInstant {
 
 /// A least margin with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct TimedMargin {
     /// The least margin.
     pub margin: Margin,
@@ -135,6 +134,7 @@ pub struct SingularInstant {
 
 /// The results along a motion.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct MotionReport {
     /// The instants in the order of time.
     pub instants: Vec<MotionInstant>,
@@ -153,6 +153,7 @@ pub struct MotionReport {
 
 /// The stiffness of a platform at a pose.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct StiffnessReport {
     /// The pose.
     pub pose: Pose,
@@ -243,23 +244,17 @@ impl Design {
     fn margins_along(&self, instants: &[MotionInstant]) -> Vec<TimedMargin> {
         let required = self.requirements();
         let terms = Terms::new(self.manipulator(), &required, &self.home_or_default());
-        let mut least: BTreeMap<TermKind, (Term, f64, &MotionInstant)> = BTreeMap::new();
+        let mut least: LeastMargins<&MotionInstant> = LeastMargins::default();
         for at in instants {
             let by_pose = terms.at(&at.state.pose).into_iter();
             let by_pose = by_pose.filter(|(t, _)| !is_of_motion(t.kind));
-            for (term, value) in by_pose.chain(self.drive_margins(at)) {
-                let entry = least.entry(term.kind).or_insert((term, value, at));
-                if value < entry.1 || value.is_nan() {
-                    *entry = (term, value, at);
-                }
-            }
+            least.see(by_pose.chain(self.drive_margins(at)), at);
         }
-        let timed = |(term, value, at): (Term, f64, &MotionInstant)| {
-            let pose = Some(at.state.pose);
-            let standing = terms.standing(term.kind, value, pose.as_ref());
-            TimedMargin { margin: Margin { term, value, pose, standing }, time: at.time }
+        let timed = |(term, value, at): (Term, f64, &MotionInstant)| TimedMargin {
+            margin: terms.margin((term, value), Some(at.state.pose)),
+            time: at.time,
         };
-        least.into_values().map(timed).collect()
+        least.each().map(timed).collect()
     }
 
     /// The greatest force and speed of a leg, or torque and speed (degrees per second) of a crank.

@@ -57,6 +57,7 @@ pub struct RequiredSize {
 
 /// The size of the workspace around home.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct WorkspaceSize {
     /// Straight paths at the orientation of home.
     pub rays: Vec<FreeRay>,

@@ -132,6 +132,7 @@ pub fn targets_in_words(targets: bool, assessed: Option<(Option<bool>, String)>)
 
 /// The equivalent platforms that a search has found.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct MoveSearchReport {
     /// The search; its candidates are in `platforms`.
     pub outcome: SearchOutcome,

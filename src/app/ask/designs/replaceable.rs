@@ -18,6 +18,7 @@ const MARKS: usize = 8;
 
 /// The requested families.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ReplaceableOptions {
     /// The threshold for zero, relative to the size of the body, and the seed.
     pub search: ComponentOptions,
@@ -33,10 +34,18 @@ impl ReplaceableOptions {
     pub fn all(search: ComponentOptions) -> Self {
         Self { search, family: None, samples: 0 }
     }
+
+    num::setters! {
+        /// Only this family, counted from 0.
+        fn family(family: impl Into<Option<usize>>) = family.into();
+        /// Number of random legs of each family.
+        fn samples(samples: u64) = samples;
+    }
 }
 
 /// The reason why there are no families.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NoReplaceableLegs {
     /// The search failed.
     #[error(transparent)]
@@ -67,6 +76,7 @@ pub struct ReplaceableFamily {
 
 /// The families of replaceable legs of a design.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ReplaceableLegs {
     /// All families, with the pairs of flats and the curves in them.
     pub found: Components,
@@ -133,6 +143,7 @@ impl ReplaceableLegs {
 /// There is no such pair of planes.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no such pair of planes; pairs of flats: {}", pairs.join(", "))]
+#[non_exhaustive]
 pub struct NoPlanes {
     /// The existing pairs of flats, with their numbers from 1.
     pub pairs: Vec<String>,

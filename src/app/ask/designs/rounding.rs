@@ -30,6 +30,7 @@ pub const TRIALS: u32 = 500;
 
 /// The grids, and the effort of the search.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct RoundingChoices {
     /// The grids of base and platform; `None` if the joints of the plate stay in place.
     pub grids: [Option<Grid>; 2],
@@ -53,6 +54,19 @@ impl RoundingChoices {
         let tool = Point3::origin();
         let (candidates, trials) = (CANDIDATES as usize, TRIALS as usize);
         Self { grids: *grids, free: false, keep: KEEP, candidates, tool, trials, seed }
+    }
+
+    num::setters! {
+        /// Whether origins and angles of the grids are optimised too.
+        fn free(free: bool) = free;
+        /// See [`RoundingProblem::keep`].
+        fn keep(keep: f64) = keep;
+        /// See [`RoundingProblem::candidates`].
+        fn candidates(candidates: usize) = candidates;
+        /// See [`RoundingProblem::tool`].
+        fn tool(tool: Point3<f64>) = tool;
+        /// See [`RoundingProblem::trials`].
+        fn trials(trials: usize) = trials;
     }
 }
 

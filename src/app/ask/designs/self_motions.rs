@@ -22,6 +22,7 @@ pub enum MotionStart {
 
 /// The curves to search for.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SelfMotionOptions {
     /// The start of the curves.
     pub start: MotionStart,
@@ -30,6 +31,21 @@ pub struct SelfMotionOptions {
     pub sections: u64,
     /// The step sizes of tracing, and the seed.
     pub motion: MotionOptions,
+}
+
+impl SelfMotionOptions {
+    /// The curves from this start, with one section.
+    #[must_use]
+    pub fn new(start: MotionStart) -> Self {
+        Self { start, sections: 1, motion: MotionOptions::default() }
+    }
+
+    num::setters! {
+        /// Number of random sections that cut all curves over the complex numbers.
+        fn sections(sections: u64) = sections;
+        /// The step sizes of tracing, and the seed.
+        fn motion(motion: MotionOptions) = motion;
+    }
 }
 
 num::words! {
@@ -51,6 +67,7 @@ num::words! {
 
 /// The reason why no curve is searched for.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NoSelfMotion {
     /// The exact joints are regular, but their nearest doubles are singular.
     #[error(
@@ -70,6 +87,7 @@ pub enum NoSelfMotion {
 
 /// The curves of poses with constant leg lengths.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct SelfMotionReport {
     /// The given pose.
     pub start: Option<Pose>,

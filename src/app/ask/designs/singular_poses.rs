@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::assessing::BOX_CELLS;
 use crate::Design;
 use fk::{Automatic, FkError, FkOptions, ForwardKinematics};
 use platform::geom::{Pose, PoseSpace, Region};
@@ -16,6 +17,7 @@ const STEPS: usize = 100;
 
 /// The options of the singular poses around a pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SingularPosesOptions {
     /// The pose in the centre.
     pub pose: Pose,
@@ -28,6 +30,25 @@ pub struct SingularPosesOptions {
     pub cells: usize,
     /// The seed.
     pub seed: u64,
+}
+
+impl SingularPosesOptions {
+    /// The poses around this one.
+    #[must_use]
+    pub fn about(pose: Pose) -> Self {
+        Self { pose, lengths: None, half_widths: None, cells: BOX_CELLS, seed: 1 }
+    }
+
+    num::setters! {
+        /// Lengths for which all assembly modes are evaluated.
+        fn lengths(lengths: impl Into<Option<LegLengths>>) = lengths.into();
+        /// Half widths of a box of poses: positions, design units, and components of the rotation vector, degrees.
+        fn half_widths(half_widths: impl Into<Option<[[f64; 3]; 2]>>) = half_widths.into();
+        /// Greatest number of cells of a proof.
+        fn cells(cells: usize) = cells;
+        /// The seed.
+        fn seed(seed: u64) = seed;
+    }
 }
 
 /// Figures of one pose.
@@ -45,6 +66,7 @@ pub struct PoseFigures {
 
 /// The reason why poses are not evaluated.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NoSingularPoses {
     /// At the pose a leg has no length.
     #[error("the leg lengths at this pose are not finite positive numbers")]
@@ -56,6 +78,7 @@ pub enum NoSingularPoses {
 
 /// Singular poses around a pose.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct SingularPosesReport {
     /// The lengths of the assembly modes.
     pub lengths: LegLengths,

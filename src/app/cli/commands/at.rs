@@ -64,20 +64,17 @@ pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failur
     if !(args.step > 0.0 && args.step.is_finite()) {
         return Err(Failure::refused("at::bad_numbers", "--step is not a positive number"));
     }
-    let asked = AtPoseOptions {
-        pose,
-        point,
-        axes: args.axes,
-        wrench: args
-            .wrench
-            .as_deref()
-            .map(|text| given(text, "--wrench", "FX,FY,FZ,TX,TY,TZ"))
-            .transpose()?,
-        efforts: args.forces.as_deref().map(|text| given(text, "--forces", "F1,..,F6")).transpose()?,
-        leg: args.leg.map(|leg| usize::from(leg) - 1),
-        directions: args.nearest_singular.then_some(args.directions as usize),
-        seed: if args.nearest_singular { context.seed() } else { 0 },
+    let six = |text: &Option<String>, option: &str, form: &str| -> Result<Option<[f64; 6]>, Failure> {
+        text.as_deref().map(|text| given(text, option, form)).transpose()
     };
+    let asked = AtPoseOptions::at(pose)
+        .point(point)
+        .axes(args.axes)
+        .wrench(six(&args.wrench, "--wrench", "FX,FY,FZ,TX,TY,TZ")?)
+        .efforts(six(&args.forces, "--forces", "F1,..,F6")?)
+        .leg(args.leg.map(|leg| usize::from(leg) - 1))
+        .directions(args.nearest_singular.then_some(args.directions as usize))
+        .seed(if args.nearest_singular { context.seed() } else { 0 });
     let found = design
         .at_pose(&frames, &asked)
         .map_err(|why| Failure::refused("at::not_computed", why.to_string()))?;

@@ -89,22 +89,23 @@ const BAD_MEASUREMENTS: &str = "calibrate::bad_measurements";
 
 impl CalibrateArgs {
     fn options(&self) -> CalibrateOptions {
-        CalibrateOptions {
-            noise: self.sigma_length.map(|length| MeasurementNoise {
-                length,
-                position: self.sigma_position.unwrap_or(0.0),
-                rotation: self.sigma_rotation_deg.unwrap_or(0.0).to_radians(),
-            }),
-            loss: self.loss,
-            loss_unit: self.loss_of,
-            held: HeldParts {
-                base: self.hold.contains(&HeldArg::Base),
-                platform: self.hold.contains(&HeldArg::Platform),
-                offsets: self.hold.contains(&HeldArg::Offsets),
-            },
-            start: self.start,
-            identified: self.identified,
-        }
+        let noise = |length| MeasurementNoise {
+            length,
+            position: self.sigma_position.unwrap_or(0.0),
+            rotation: self.sigma_rotation_deg.unwrap_or(0.0).to_radians(),
+        };
+        let held = HeldParts {
+            base: self.hold.contains(&HeldArg::Base),
+            platform: self.hold.contains(&HeldArg::Platform),
+            offsets: self.hold.contains(&HeldArg::Offsets),
+        };
+        CalibrateOptions::default()
+            .noise(self.sigma_length.map(noise))
+            .loss(self.loss)
+            .loss_unit(self.loss_of)
+            .held(held)
+            .start(self.start)
+            .identified(self.identified)
     }
 
     fn refuse_without_effect(&self, context: &Context) -> Result<(), Failure> {

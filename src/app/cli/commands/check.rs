@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use super::pentapod;
-use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::proof::ProofArgs;
-use crate::app::cli::{Answer, Exit, Failure};
-use ask::design::parse;
+use crate::app::cli::{Answer, Context, Exit, Failure};
+use ::files::design::{Accepts, SixOrFive};
 use records::{CheckAnswer, ProofFile};
 
 /// Arguments of `check`.
@@ -23,7 +22,7 @@ pub(crate) struct CheckArgs {
 
 /// Decides and explains.
 pub(crate) fn run(args: &CheckArgs, context: &mut Context) -> Result<Answer, Failure> {
-    let design = match context.load_six_or_five(&args.design, parse)? {
+    let design = match context.load_six_or_five(&args.design, Accepts::Legs)? {
         SixOrFive::Six(design) => design,
         SixOrFive::Five(five) => {
             context.no_effect("details", "the answer about five legs has no details")?;

@@ -144,14 +144,13 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &CompareQuestion) -> 
         let masses =
             LengthUnit::of(&design.units).ok().and_then(|unit| design.motion_masses(unit.metres, None));
         let length = out.answer.characteristic_length;
-        let found = design.figures(&FigureOptions {
-            points: asked.points,
-            seed: asked.seed,
-            motions: &motions,
-            masses: masses.as_ref(),
-            accuracy: asked.accuracy,
-            characteristic_length: length,
-        });
+        let options = FigureOptions::new(length)
+            .points(asked.points)
+            .seed(asked.seed)
+            .motions(&motions)
+            .masses(masses.as_ref())
+            .accuracy(asked.accuracy);
+        let found = design.figures(&options);
         out.answer.designs.push(FiguresRecord::new(design, path.clone(), &found, length));
         out.thumbnails.push(thumbnail(&drawn(design, &home), &home, &design.name));
     }

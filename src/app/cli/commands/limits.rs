@@ -75,11 +75,7 @@ pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Fa
     if all {
         context.no_effect("starts", "all given poses are allowed")?;
     }
-    let options = NearestPoseOptions {
-        starts: args.starts as usize,
-        seed: context.seed(),
-        ..NearestPoseOptions::default()
-    };
+    let options = NearestPoseOptions::default().starts(args.starts as usize).seed(context.seed());
     let nearest = if all { None } else { reach.nearest(&asked, &options) };
     let answer = LimitsAnswer {
         frames: (&frames.convention).into(),

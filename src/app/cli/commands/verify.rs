@@ -74,9 +74,7 @@ pub(crate) fn failure_of(error: &VerifyError) -> Failure {
         VerifyError::Lengths { .. } => Failure::refused("verify::lengths", error.to_string())
             .with_help("give design A a [home] pose and a [workspace] that the platform can reach"),
         VerifyError::Contradiction { .. } => Failure::internal(error.to_string()),
-        VerifyError::LegMap(_) | VerifyError::ForwardKinematics { .. } | VerifyError::Cancelled => {
-            Failure::new(Exit::Inconclusive, "verify::breakdown", error.to_string())
-                .with_help("try another --seed")
-        }
+        _ => Failure::new(Exit::Inconclusive, "verify::breakdown", error.to_string())
+            .with_help("try another --seed"),
     }
 }

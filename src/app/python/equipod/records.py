@@ -2033,6 +2033,8 @@ class FkAnswer(Record):
     warnings: tuple[WarningRecord, ...]
     #: The convention of `in_frames`.
     frames: Union[PoseConventionRecord, None]
+    #: The unit of lengths.
+    units: Union[str, None]
     #: Rows of the file.
     rows: Union[tuple[FkRowRecord, ...], None]
     #: The method that found them.
@@ -2138,6 +2140,8 @@ class FkOneAnswer(Record):
     unproved: tuple[SolutionRecord, ...]
     #: The convention of `in_frames`; of a row of a table that of the whole answer.
     frames: Union[PoseConventionRecord, None]
+    #: The unit of lengths; of a row of a table that of the whole answer.
+    units: Union[str, None]
     #: Proof that all poses up to a distance are listed; null: another proof, or none.
     bound: Union[BoundedProof, None]
     #: Library computations of `--method template`.
@@ -2191,6 +2195,8 @@ class FkRowRecord(Record):
     angles_deg: Union[tuple[float, ...], None]
     #: The convention of `in_frames`; of a row of a table that of the whole answer.
     frames: Union[PoseConventionRecord, None]
+    #: The unit of lengths; of a row of a table that of the whole answer.
+    units: Union[str, None]
     #: The method that found them.
     method: Union[Method, None]
     #: Completeness of the list.
@@ -2264,6 +2270,8 @@ class FkRowsAnswer(Record):
 
     #: The convention of `in_frames`.
     frames: PoseConventionRecord
+    #: The unit of lengths.
+    units: str
     #: Rows of the file.
     rows: tuple[FkRowRecord, ...]
 

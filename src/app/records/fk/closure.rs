@@ -1,8 +1,9 @@
 //! The exact closure polynomial beside the poses.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::number::left_out;
 use crate::{PolynomialRecord, squared_distance};
 use ask::Design;
 use fk::distance::SingularFactor;
@@ -11,7 +12,7 @@ use platform::manipulator::SquaredLegLengths;
 use platform::topology::{JointIndex, Step};
 
 /// The closure polynomial beside the poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ClosureRecord {
     /// Polynomial by trilaterations, in exact arithmetic.
@@ -26,7 +27,7 @@ pub enum ClosureRecord {
 }
 
 /// The closure polynomial in one squared distance, with its results on the number of real poses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClosurePolynomialRecord {
     /// The joints of the virtual leg; null: none is needed.
     pub virtual_leg: Option<[String; 2]>,
@@ -40,6 +41,7 @@ pub struct ClosurePolynomialRecord {
     #[serde(flatten)]
     pub polynomial: PolynomialRecord,
     /// Singular factors.
+    #[serde(deserialize_with = "left_out")]
     pub factors: Vec<SingularFactor>,
     /// Number of real poses at each real root; null: not determined by the polynomial.
     pub real_poses_at_roots: Option<Vec<usize>>,
@@ -49,7 +51,7 @@ pub struct ClosurePolynomialRecord {
 
 /// The polynomial in the squared distance of two joints whose roots are its values at all poses. Mirror images of a
 /// planar design have one root.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DistancePolynomialRecord {
     /// Two joints with unknown squared distance.
     pub unknown: [String; 2],
@@ -61,7 +63,7 @@ pub struct DistancePolynomialRecord {
 }
 
 /// One trilateration: a joint placed by its distances from three others.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
     /// Joints already placed.
     pub from: [String; 3],

@@ -3,7 +3,7 @@
 use super::{Claim, ExactNumbersOfPose, PoseText, ProofFile, RegionText, of_double};
 use ask::{AssessReport, Design};
 use machine::requirements::{
-    LegRequirement, MarginBound, PoseSpace, Requirements, TermKind, Terms, TiledRegion,
+    LeastMargins, LegRequirement, MarginBound, PoseSpace, Requirements, TermKind, Terms, TiledRegion,
 };
 use platform::geom::Pose;
 use platform::manipulator::Body;
@@ -30,6 +30,8 @@ struct Assessed<'a> {
     required: &'a Requirements,
     size: f64,
     poses: Vec<Pose>,
+    /// The least margin of each kind of requirement at these poses.
+    least: LeastMargins<()>,
     region: Option<(TiledRegion, RegionText)>,
 }
 
@@ -51,12 +53,17 @@ impl ProofFile {
         };
         let space = design.workspace.space(&design.home_or_default());
         let listed = std::iter::once(&space.home).chain(&space.poses).chain(&space.trajectory);
+        let poses: Vec<Pose> = listed.copied().collect();
+        let terms = Terms::new(m, &required, &space.home);
+        let mut least = LeastMargins::default();
+        poses.iter().for_each(|pose| least.see(terms.at(pose), ()));
         let assessed = Assessed {
             place: k,
-            terms: Terms::new(m, &required, &space.home),
+            terms,
             required: &required,
             size: m.size(),
-            poses: listed.copied().collect(),
+            poses,
+            least,
             region: TiledRegion::new(m, &space).map(|tiled| (tiled, (&space).into())),
         };
         for bound in &report.proof.bounds {
@@ -91,9 +98,7 @@ impl ProofFile {
             self.leave_out(kind.label(), "the checker does not evaluate this requirement");
             return;
         };
-        let margins = a.poses.iter().flat_map(|pose| a.terms.at(pose));
-        let margins = margins.filter(|(term, _)| term.kind == kind).map(|(_, margin)| margin);
-        let least = margins.fold(f64::INFINITY, f64::min) - ROUNDING * a.required.scale_of(kind, a.size);
+        let least = a.least.of(kind).unwrap_or(f64::INFINITY) - ROUNDING * a.required.scale_of(kind, a.size);
         if !(least.is_finite() && least >= 0.0) {
             self.leave_out(kind.label(), "it is violated or at its limit at one of the poses");
             return;

@@ -26,7 +26,7 @@ impl ProofFile {
             if found.jacobian.rank == 6 {
                 proof.regular_pose("regular".into(), (k, &legs), &pose, true);
             } else if let RankBound::Lattice { .. } = found.jacobian.bound {
-                proof.dependent_lines((k, &legs, m));
+                proof.dependent_lines(k, found);
             } else {
                 let rank = found.jacobian.rank;
                 proof.claim("generic-rank", Claim::GenericRank { design: k, rank, pose: (&pose).into() });

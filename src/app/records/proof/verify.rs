@@ -51,8 +51,8 @@ impl ProofFile {
             self.architecture(a);
         }
         if relation == Relation::Singular {
-            for side in [a, b] {
-                self.dependent_lines(side);
+            for (design, _, m) in [a, b] {
+                self.dependent_lines(design, &Architecture::of(m));
             }
         }
         if self.is_empty() {
@@ -74,8 +74,7 @@ impl ProofFile {
     }
 
     /// The claim about a design whose leg lines are dependent at every pose, although its leg vectors are not.
-    pub(super) fn dependent_lines(&mut self, (design, _, m): Numbered<'_>) {
-        let found = Architecture::of(m);
+    pub(super) fn dependent_lines(&mut self, design: usize, found: &Architecture) {
         if found.jacobian.rank < 6 && matches!(found.jacobian.bound, RankBound::Lattice { .. }) {
             self.claim(format!("dependent-lines-{}", design + 1), Claim::DependentLines { design });
         }

@@ -7,8 +7,9 @@ use super as answers;
 use crate::{Sheet, Table, left};
 use num::shown::significant;
 use records::{
-    AssessAnswer, CheckAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, LimitsAnswer, MapAnswer,
-    MotionAnswer, OptimizeAnswer, RoundAnswer, TolerancesAnswer, VerifyAnswer,
+    AssessAnswer, AtPoseAnswer, CheckAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, FkAnswer,
+    FkOneAnswer, LimitsAnswer, MapAnswer, MotionAnswer, OptimizeAnswer, RoundAnswer, TolerancesAnswer,
+    VerifyAnswer,
 };
 
 type Fields = Map<String, Value>;
@@ -22,7 +23,11 @@ const KINDS: [DocumentKind; 17] = [
     DocumentKind(&["samples", "map"], "Equivalence", |f, [a, b]| {
         read(f).map(|x: VerifyAnswer| answers::verify(&x, a, b))
     }),
-    DocumentKind(&["finite_count"], "Forward kinematics", |_, _| None),
+    DocumentKind(&["finite_count"], "Forward kinematics", |f, [a, _]| {
+        let mut one: FkOneAnswer = read(f)?;
+        let units = one.units.take()?;
+        Some(answers::fk(a, &units, &FkAnswer::One(Box::new(one))))
+    }),
     DocumentKind(&["status", "objective"], "Optimisation", |f, [a, _]| {
         read(f).map(|x: OptimizeAnswer| answers::optimize(a, &x))
     }),
@@ -44,7 +49,9 @@ const KINDS: [DocumentKind; 17] = [
     DocumentKind(&["architecturally_singular"], "Architectural singularity", |f, _| {
         read(f).map(|x: CheckAnswer| answers::check(&x, true))
     }),
-    DocumentKind(&["wrench_matrix", "resolution"], "At a pose", |_, _| None),
+    DocumentKind(&["wrench_matrix", "resolution"], "At a pose", |f, _| {
+        read(f).map(|x: AtPoseAnswer| answers::at_pose(&x))
+    }),
     DocumentKind(&["axes", "violated"], "Limits", |f, [a, _]| {
         read(f).map(|x: LimitsAnswer| answers::limits(a, &x))
     }),

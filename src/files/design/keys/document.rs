@@ -26,7 +26,7 @@ use super::{Code, FoundKey, KeyTable, TEXT, axes, joint_models, key};
 use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
-use crate::design::{DesignModel, Warning};
+use crate::design::{Accepts, DesignModel, Warning};
 use machine::requirements::{ForceUnit, MassUnit};
 use platform::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
@@ -120,8 +120,8 @@ fn placeholder() -> Option<Manipulator> {
 }
 
 /// The design, or `None` with the reasons in the report. Later checks use everything that earlier ones accepted, so one
-/// run shows all violations. Rods on cranks and joint offsets are refused unless `takes_cranks`.
-pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<DesignModel> {
+/// run shows all violations. Rods on cranks and joint offsets are refused unless the question `accepts` them.
+pub(crate) fn design(root: &Node, report: &mut Findings<'_>, accepts: Accepts) -> Option<DesignModel> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
         return report.refused(
@@ -147,7 +147,10 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let read_home = find(entries, "home").and_then(|e| home(report, &e.node));
     let (home, written_home) = read_home.unzip();
     design.home = home;
+    let takes_cranks = accepts != Accepts::Legs;
     let (cranks, crank_places) = cranks::cranks(report, entries, base.as_ref(), takes_cranks).unzip();
+    // no rod has joint offsets
+    let takes_offsets = accepts == Accepts::CranksAndOffsets || cranks.is_some();
     let crank_places = crank_places.unwrap_or_default();
     let constructions = match (&mut base, &mut platform) {
         (Some(base), Some(platform)) => {
@@ -173,7 +176,7 @@ pub(crate) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     design.workspace.frames_pivot = design.frames.pivot_on_platform();
     (design.optimize, design.search) = optimize(report, entries, bodies);
     (design.hardware, design.drive_table) = hardware(report, entries);
-    joint_models::refuse_coupled(report, entries, &design.hardware, takes_cranks);
+    joint_models::refuse_coupled(report, entries, &design.hardware, takes_offsets);
     design.speed = speed(report, entries);
     design.stiffness = stiffness(report, entries, &design.hardware, units.as_deref());
     (design.loads, design.keep_outs) = (loads(report, entries), keep_outs(report, entries));

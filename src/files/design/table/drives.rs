@@ -55,6 +55,7 @@ pub struct DesignUnits<'a> {
 
 /// Reasons why a table holds no drives.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum InvalidDriveTable {
     /// It is not a table.
     #[error(transparent)]

@@ -44,7 +44,7 @@
 //!   there is no root, there are two close ones, or data or digits are not good enough.
 //! * `pose_is_the_root`: has the pose the digits of the certified root? Its distance from all points of the enclosure
 //!   is at most [`NEAR`]. Otherwise the root is proved, but is not shown to be this pose.
-//! * [`Certifier::cluster_near`]: do exactly so many roots, two or more, counted with multiplicity, lie near this pose?
+//! * `Certifier::clusters_near`: do exactly so many roots, two or more, counted with multiplicity, lie near this pose?
 //!   It uses the bordered equations and Rouche's theorem of `cluster.rs`. The Jacobian has one small singular value.
 //! * [`is_of()`]: is a certified root one of a cluster? It is when it lies in the ball in which the roots of the
 //!   cluster are the only ones. Otherwise it may be or not.
@@ -111,7 +111,7 @@ pub use system::SquareData;
 use num_complex::Complex64;
 
 pub(crate) use cluster::ProvedCluster;
-use cluster::{MOST, clusters_near};
+use cluster::clusters_near;
 use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
@@ -368,28 +368,9 @@ impl Certifier {
         if distance <= NEAR || far_out { Ok(()) } else { Err(WhyUncertified::Deviation { distance }) }
     }
 
-    /// Decides whether some roots, two or more, counted with multiplicity, lie near the pose apart from all others: a
-    /// multiple one, or close ones. The smallest number that can be proved is taken; the pose of the answer is the
-    /// middle of the roots.
-    ///
-    /// # Errors
-    /// [`WhyUncertified`] of two roots: not that there are none.
-    pub fn cluster_near(
-        &self,
-        pose: &ComplexPose,
-    ) -> Result<(ComplexPose, ClusterCertificate), WhyUncertified> {
-        let mut why = WhyUncertified::SingularJacobian;
-        for (k, attempt) in clusters_near(&self.0, pose, MOST)?.enumerate() {
-            match attempt {
-                Ok(found) => return Ok(found),
-                Err(reason) if k == 0 => why = reason,
-                Err(_) => {}
-            }
-        }
-        Err(why)
-    }
-
-    /// [`cluster_near`](Self::cluster_near) of more and more roots, up to a number, where more than one can be proved.
+    /// Clusters of two or more roots, at most `most`, counted with multiplicity, that are proved to lie near the pose
+    /// apart from all others: a multiple root, or close ones. Small clusters come first; each pose is the middle of
+    /// the roots. None means that no cluster is proved.
     pub(crate) fn clusters_near(
         &self,
         pose: &ComplexPose,

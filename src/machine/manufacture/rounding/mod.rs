@@ -165,6 +165,7 @@ pub struct RoundedJoint {
 
 /// Both roundings of a design.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Rounding {
     /// The given design, evaluated in the same way.
     pub given: Evaluation,

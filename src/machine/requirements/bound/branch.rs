@@ -195,9 +195,8 @@ impl CellEvaluator<'_> {
             let pose = self.charts[chart].pose(&z);
             let there = self.terms.of_kind(&pose, kind);
             let least = there.reduce(|a, b| if b.1 < a.1 { b } else { a });
-            if let Some((term, value)) = least.filter(|l| l.1 < found.value) {
-                let standing = self.terms.standing(kind, value, Some(&pose));
-                found = Margin { term, value, pose: Some(pose), standing };
+            if let Some(least) = least.filter(|l| l.1 < found.value) {
+                found = self.terms.margin(least, Some(pose));
             }
         }
         let verdict = verdict(below, state.upper - safety_margin, slack);

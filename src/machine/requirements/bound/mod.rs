@@ -66,6 +66,7 @@ pub fn prove(
 
 /// The next stage of an assessment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum AssessStage {
     /// Searches for the worst pose of each requirement.
     Searches,

@@ -32,6 +32,7 @@ impl MarginVerdict {
 
 /// The least margin of a kind with its proved bound.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct MarginBound {
     /// The least margin found.
     pub found: Margin,

@@ -24,6 +24,7 @@ pub fn nearest_options(design: &Design, extension: f64) -> NearestOptions {
 
 /// The results for a design that is not octahedral.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct ExploredDesign {
     /// Its families of replaceable legs.
     pub families: ReplaceableLegs,

@@ -94,6 +94,7 @@ impl<'a> ExploreOptions<'a> {
 
 /// The reason why a design is not explored.
 #[derive(Debug, ThisError)]
+#[non_exhaustive]
 pub enum NoExploration {
     /// The best platform cannot be searched for.
     #[error(transparent)]

@@ -19,6 +19,7 @@ type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
 
 /// The results for an octahedral design.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct ExploredClass {
     /// Its triangles.
     pub octahedral: Octahedral,

@@ -59,11 +59,10 @@ pub(in crate::app::cli::commands) fn drawing(
 /// Lists the families.
 pub(crate) fn run(args: &EquivalentsComponentsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let options = ReplaceableOptions {
-        search: ComponentOptions { tolerance: args.tolerance, seed: context.seed() },
-        family: args.family.map(|k| k.wrapping_sub(1)),
-        samples: args.samples,
-    };
+    let search_options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
+    let options = ReplaceableOptions::all(search_options)
+        .family(args.family.map(|k| k.wrapping_sub(1)))
+        .samples(args.samples);
     let legs = search(&design, &options)?;
     if let Some(path) = &args.svg {
         let failure =

@@ -48,7 +48,8 @@ pub(super) fn written(
     let nearest = nearest_platform(&mut run)?;
     let met = requirements(&mut run)?;
     let verified = compared(&mut run)?;
-    let document_of_poses = document(FkRunRecord::from(&found.poses), run.provenance.clone(), &[])?;
+    let document_of_poses =
+        document(FkRunRecord::new(&found.poses, &design.units), run.provenance.clone(), &[])?;
     run.folder.keep(folder::FK, document_of_poses);
     run.folder.keep(folder::MODES, super::figures::modes(design, &found.poses));
     let totals = PoseTotalsRecord::new(&found.poses);

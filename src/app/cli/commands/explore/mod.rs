@@ -206,7 +206,7 @@ fn failed(why: NoExploration) -> Failure {
         NoExploration::Moves(why) => found::failed(&why),
         NoExploration::Comparison(why) => verify_command::failure_of(&why),
         NoExploration::Poses(why) => no_poses(&why),
-        NoExploration::Holes(_) | NoExploration::Families(_) => Failure::internal(why.to_string()),
+        _ => Failure::internal(why.to_string()),
     }
 }
 
@@ -306,7 +306,8 @@ fn written(
         folder.keep(folder::DETERMINANT, picture);
     }
     let verified = found.compared.as_ref().map(|c| verification(c, &provenance, &mut folder)).transpose()?;
-    folder.keep(folder::FK, document(FkRunRecord::from(&found.poses), provenance.clone(), &[])?);
+    folder
+        .keep(folder::FK, document(FkRunRecord::new(&found.poses, &design.units), provenance.clone(), &[])?);
     folder.keep(folder::MODES, figures::modes(&design, &found.poses));
 
     let of_search = found.search.checked().and_then(|c| Some((&c.design, c.assessed.as_ref()?)));

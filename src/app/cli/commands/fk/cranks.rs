@@ -17,7 +17,7 @@ use fk::{self, FkOptions, FkSolutions};
 use machine::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
 use platform::geom::Pose;
 use platform::manipulator::Manipulator;
-use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
+use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, RowFailure, SolvedRecord};
 
 /// Six angles in degrees.
 type AnglesDeg = [f64; 6];
@@ -170,7 +170,7 @@ impl CrankMachine<'_> {
             Some(FkRowRecord { outcome: FkRowOutcome::Solved(answer), .. }) if one => FkAnswer::One(answer),
             last => {
                 rows.extend(last);
-                FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&self.frames.convention).into(), rows }))
+                FkAnswer::rows(rows)
             }
         }
     }

@@ -14,18 +14,17 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use super::pentapod;
-use crate::app::cli::context::{Context, SixOrFive};
 use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::poses;
 use crate::app::cli::proof::ProofArgs;
-use crate::app::cli::{Answer, Exit, Failure};
-use ask::design::parse_with_cranks;
+use crate::app::cli::{Answer, Context, Exit, Failure};
+use ::files::design::{Accepts, SixOrFive};
 use ask::{Design, PoseFrames};
 use fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use platform::manipulator::{LegLengths, Manipulator};
 use records::{
-    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, METHODS, ProofFile,
-    RowFailure, SolvedRecord,
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, METHODS, ProofFile, RowFailure,
+    SolvedRecord,
 };
 
 use self::csv::PoseTable;
@@ -78,7 +77,7 @@ pub(crate) struct FkArgs {
 /// Solves one problem, or one for each row.
 pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failure> {
     let method: Option<Method> = args.method.parse().ok();
-    let design = match context.load_six_or_five(&args.design, parse_with_cranks)? {
+    let design = match context.load_six_or_five(&args.design, Accepts::CranksAndOffsets)? {
         SixOrFive::Six(design) => *design,
         SixOrFive::Five(five) => {
             let only = "it is for designs of six legs";
@@ -170,7 +169,7 @@ pub(super) fn pair(text: &str, design: &Design, code: &'static str) -> Result<(u
 
 /// The answer with its table if requested, or else with its sheet.
 fn answered(exit: Exit, answer: FkAnswer, design: &Design, table: &PoseTable) -> Answer {
-    let mut answer = answer.with_frames(&table.frames);
+    let mut answer = answer.with_frames(&table.frames, &design.units);
     if table.limits {
         let required = design.requirements();
         answer = answer.with_limits(&design.reach(&required));
@@ -203,7 +202,7 @@ fn many(
     let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, frames)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
     let rows = solved.into_iter().map(|(_, record)| record).collect();
-    (exit, FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&frames.convention).into(), rows })))
+    (exit, FkAnswer::rows(rows))
 }
 
 /// Exit code and record of one row.
@@ -244,7 +243,7 @@ pub(super) fn failure_of(error: &FkError) -> Failure {
             Failure::refused("fk::not_applicable", error.to_string()).with_help("take --method auto")
         }
         FkError::Contradiction { .. } => Failure::internal(error.to_string()),
-        FkError::Breakdown { .. } => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
+        _ => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
             .with_help("try another --method or --seed"),
     }
 }

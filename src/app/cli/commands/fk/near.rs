@@ -9,8 +9,7 @@ use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Rea
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
 use records::{
-    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, PoseUncertaintyRecord,
-    SolvedRecord,
+    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, NearRecord, PoseUncertaintyRecord, SolvedRecord,
 };
 
 /// The tracked machine: joints and legs, the pose from which distances are measured, and the length that converts
@@ -64,12 +63,7 @@ pub(super) fn followed(
                 });
             }
             let table = PoseTable { time_name: series.time_name.clone(), ..*table };
-            answered(
-                exit,
-                FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&table.frames.convention).into(), rows })),
-                design,
-                &table,
-            )
+            answered(exit, FkAnswer::rows(rows), design, &table)
         }
     }
 }

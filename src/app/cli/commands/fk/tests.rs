@@ -5,8 +5,8 @@ use fk::{
     RejectionReason, SolutionSet,
 };
 use nalgebra::{Rotation3, Vector3};
-use platform::geom::{ComplexPose, Pose, PoseConvention};
-use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
+use platform::geom::{ComplexPose, Pose};
+use records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, RowFailure, SolvedRecord};
 use serde_json::{Value, json};
 
 use crate::app::cli::failure::Failure;
@@ -89,12 +89,7 @@ fn a_row_without_answer_says_why_in_the_last_column() {
         row(3, FkRowOutcome::Solved(Box::new(solved))),
     ];
     assert_eq!(
-        sheet::answers::fk(
-            "x",
-            "mm",
-            &FkAnswer::Rows(Box::new(FkRowsAnswer { frames: (&PoseConvention::default()).into(), rows }))
-        )
-        .to_string(),
+        sheet::answers::fk("x", "mm", &FkAnswer::rows(rows)).to_string(),
         "line  method         finite  real  complete\n   \
          2  -                   -     -  the legs are not octahedral\n   \
          3  homotopy            3     1  ROOTS MAY BE MISSING\n"

@@ -232,10 +232,10 @@ mod tests {
     fn the_boundary_of_the_region_is_where_the_function_is_zero() {
         let middle = Pose { rotation: Rotation3::identity(), position: Vector3::new(5.0, 6.0, 7.0) };
         let space_of = |region: Region, translation: &[CoordinateRange; 3]| {
-            let half_angles = CoordinateRange::each_within(Vector3::new(6.0, 12.0, 18.0));
+            let half_angles = [6.0, 12.0, 18.0].map(CoordinateRange::within);
             PoseSpace::at(middle).with_region(region, translation, &half_angles)
         };
-        let about_home = CoordinateRange::each_within(Vector3::new(2.0, 3.0, 0.0));
+        let about_home = [2.0, 3.0, 0.0].map(CoordinateRange::within);
         let to_one_side = [
             CoordinateRange { min: -1.0, max: 3.0 },
             CoordinateRange { min: 0.0, max: 2.0 },

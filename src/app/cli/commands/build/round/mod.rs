@@ -205,15 +205,12 @@ pub(crate) fn run(args: &BuildRoundArgs, context: &mut Context) -> Result<Answer
             format!("--keep is {}, not a share of 0 or more", args.keep),
         ));
     }
-    let choices = RoundingChoices {
-        grids,
-        free: args.free_grid,
-        keep: args.keep,
-        candidates: args.candidates as usize,
-        tool,
-        trials: args.trials as usize,
-        seed: context.seed(),
-    };
+    let choices = RoundingChoices::on(&grids, context.seed())
+        .free(args.free_grid)
+        .keep(args.keep)
+        .candidates(args.candidates as usize)
+        .tool(tool)
+        .trials(args.trials as usize);
     let found = design.rounded(&choices).map_err(|why| {
         let message = why.to_string();
         if matches!(why, NoRounding::NotPlanar(_)) {

@@ -69,7 +69,7 @@ pub(crate) fn run(args: &EquivalentsMoveArgs, context: &mut Context) -> Result<A
     if moves.len() < 2 {
         context.no_effect("together", "a single leg is moved")?;
     }
-    let asked = MoveOptions { together: args.together, search: options };
+    let asked = MoveOptions::default().together(args.together).search(options);
     let found = design.move_legs(&moves, asked).map_err(|why| refusal(&why))?;
     let mut answer = MovesAnswer::new(&design, &found);
     if let (Some(path), Some(new), true) = (&args.output, &found.design, found.is_regular()) {
@@ -124,9 +124,7 @@ impl EquivalentsMoveArgs {
             InvalidMove::Leg(_) => {
                 Failure::refused("move::no_such_leg", why.to_string()).with_help("give a leg from 1 to 6")
             }
-            InvalidMove::Form(_) | InvalidMove::Parameter(_) => {
-                Failure::refused("move::bad_move", why.to_string()).with_help(FORM)
-            }
+            _ => Failure::refused("move::bad_move", why.to_string()).with_help(FORM),
         })
     }
 }
@@ -145,7 +143,6 @@ fn refusal(why: &NoMoves) -> Failure {
         NoMoves::NoSuchFamily { families, .. } => refused("move::no_such_family", families),
         NoMoves::Ambiguous { .. } => refused("move::ambiguous_family", "give the number of one of them"),
         NoMoves::Fixed(_) => refused("move::fixed", "move another leg, or remove the joint from `fixed`"),
-        NoMoves::Linalg(_) => Failure::internal(why.to_string()),
         NoMoves::Move { why, families } => {
             let code = match why {
                 RelocateError::NoSuchFamily { .. } => "move::no_such_family",
@@ -157,5 +154,6 @@ fn refusal(why: &NoMoves) -> Failure {
             };
             refused(code, families)
         }
+        _ => Failure::internal(why.to_string()),
     }
 }

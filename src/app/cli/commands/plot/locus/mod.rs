@@ -10,6 +10,7 @@ use crate::app::cli::commands::fk::{failure_of, lengths, pair};
 use crate::app::cli::output::{Answer, AnswerText};
 use crate::app::cli::{Context, Exit, Failure, OutputPath, files};
 use ask::{Design, LocusOptions, LocusReport, NoLocus};
+use fk::Method;
 use platform::manipulator::LegIndex;
 use records::{LocusAnswer, METHODS};
 use sheet::Sheet;
@@ -32,7 +33,7 @@ pub(crate) struct PlotLocusArgs {
     #[arg(long, value_name = "L")]
     to: f64,
     /// Number of lengths, both ends included
-    #[arg(long, value_name = "N", default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = LocusOptions::STEPS, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     steps: u32,
     /// Virtual leg, by its joints; default: the first that trilateration needs, or the first pair that no leg joins
     #[arg(long, value_name = "BASE,PLATFORM")]
@@ -81,15 +82,12 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
         .with_help("give six lengths separated by commas"));
     };
     let between = args.between.as_deref().map(|text| pair(text, design, "locus::unknown_joint"));
-    let options = LocusOptions {
-        lengths: given.distances,
-        leg: LegIndex::new(usize::from(args.leg - 1)).unwrap_or(LegIndex::FIRST), // refused above 6
-        ends: [args.from, args.to],
-        steps: args.steps,
-        between: between.transpose()?,
-        method: args.method.parse().ok(),
-        seed: context.seed(),
-    };
+    let leg = LegIndex::new(usize::from(args.leg - 1)).unwrap_or(LegIndex::FIRST); // refused above 6
+    let options = LocusOptions::new(given.distances, leg, [args.from, args.to])
+        .steps(args.steps)
+        .between(between.transpose()?)
+        .method(args.method.parse::<Method>().ok())
+        .seed(context.seed());
     design.locus(&options).map_err(|why| match why {
         NoLocus::IsLeg(leg) => {
             let names = args.between.as_deref().unwrap_or_default();
@@ -102,5 +100,6 @@ fn asked(args: &PlotLocusArgs, design: &Design, context: &Context) -> Result<Loc
         NoLocus::Lengths(_) => Failure::refused("locus::bad_lengths", format!("--from, --to: {why}"))
             .with_help("give lengths that are not negative"),
         NoLocus::Method(why) => failure_of(&why),
+        _ => Failure::internal(why.to_string()),
     })
 }

@@ -76,7 +76,7 @@ pub(in crate::app::cli::commands) fn drawing(
 fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, SelfMotionReport), Failure> {
     let design = context.load(&args.design)?;
     let motion = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
-    let options = SelfMotionOptions { start: start(args, &design)?, sections: args.sections, motion };
+    let options = SelfMotionOptions::new(start(args, &design)?).sections(args.sections).motion(motion);
     let found = design.self_motions(&options).map_err(|why| failure(&why))?;
     Ok((design, found))
 }
@@ -89,7 +89,7 @@ fn failure(why: &NoSelfMotion) -> Failure {
         NoSelfMotion::NoStart => {
             Failure::refused("motion::no_start", message).with_help("give --pose, or --sections 1 or more")
         }
-        NoSelfMotion::Poses(_) => Failure::internal(message),
+        _ => Failure::internal(message),
     }
 }
 

@@ -88,10 +88,14 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
     };
     let half_widths = args.shape.as_deref().map(half_widths).transpose()?;
     let seed = context.seed();
-    let asked = SingularPosesOptions { pose, lengths, half_widths, cells: args.cells, seed };
+    let asked = SingularPosesOptions::about(pose)
+        .lengths(lengths)
+        .half_widths(half_widths)
+        .cells(args.cells)
+        .seed(seed);
     let report = design.singular_poses(&asked).map_err(|why| match why {
         NoSingularPoses::NoLengths => Failure::refused("poses::bad_pose", why.to_string()),
-        NoSingularPoses::Modes(_) => Failure::internal(why.to_string()),
+        _ => Failure::internal(why.to_string()),
     })?;
     if let Some(path) = &args.svg {
         let figure = slice::figure(&design, args.slice, &pose, &report.options);
