@@ -1370,6 +1370,10 @@ class Jet:
     def __mul__(self, other: Jet) -> Jet:
         return Jet(self.value * other.value, [x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes)])
 
+    def square(self) -> Jet:
+        twice = self.value + self.value
+        return Jet(square(self.value), [twice * x for x in self.slopes])
+
     def times(self, x: Real) -> Jet:
         return Jet(self.value * x, [y * x for y in self.slopes])
 
@@ -1388,6 +1392,10 @@ JetVector = list[Jet]
 
 def jet_dot(u: JetVector, v: JetVector) -> Jet:
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def jet_square_of(v: JetVector) -> Jet:
+    return v[0].square() + v[1].square() + v[2].square()
 
 
 def jet_less(u: JetVector, v: JetVector) -> JetVector:
@@ -1418,7 +1426,7 @@ class LegOnCell:
 
     def __init__(self, region: Region, cell: Cell, leg: int, body: LegBody, ks: range, in_parts: bool) -> None:
         self.base, self.line = constants(region.base[leg], ks), region.line(cell, leg, ks)
-        end, square = [a + n for a, n in zip(self.base, self.line)], jet_dot(self.line, self.line)
+        end, square = [a + n for a, n in zip(self.base, self.line)], jet_square_of(self.line)
         self.parts = [(self.base, end, max(body.radius, body.rod))]
         if in_parts and body.has_rod and square.value.low > Real.of(body.cylinder**2).high:
             share = square.root().inverse().times(Real.of(body.cylinder))
@@ -1428,7 +1436,7 @@ class LegOnCell:
     def across(self, point: JetVector) -> JetVector:
         """A multiple of the vector from the line to a point, normal to the line."""
         arm = jet_less(point, self.base)
-        along, square = jet_dot(arm, self.line), jet_dot(self.line, self.line)
+        along, square = jet_dot(arm, self.line), jet_square_of(self.line)
         return [x * square - n * along for x, n in zip(arm, self.line)]
 
 
@@ -1468,11 +1476,14 @@ def leg_clearance(proof: Proof, claim: Any) -> str:
                 between = jet_dot(vectors[0], jet_less(at[1].base, at[0].base)).value
                 if code == "0" and between.low + between.high < 0:
                     vectors = [[-x for x in u] for u in vectors]
-                need(jet_dot(vectors[1], vectors[1]).value.low > 0, "a direction may vanish")
+                need(jet_square_of(vectors[1]).value.low > 0, "a direction may vanish")
                 gap = Real.of(least + clearance + pairs[1][0][2] + pairs[1][1][2])
-                sizes = [jet_dot(u, u).root().times(gap) for u in vectors]
-                for x, y in itertools.product(range(2), range(2)):
-                    here, there = (jet_dot(u, jet_less(q[y], p[x])) - size for u, (p, q), size in zip(vectors, pairs, sizes))
+                sizes = [jet_square_of(u).root().times(gap) for u in vectors]
+                # a direction normal to a leg has the same product with all points of its line: the base joint stands for them
+                ours, theirs = [-1] if code in "034" else [0, 1], [-1] if code in "012" else [0, 1]
+                for x, y in itertools.product(ours, theirs):
+                    points = [((legs[0].base if x < 0 else p[x]), (legs[1].base if y < 0 else q[y])) for legs, (p, q) in zip((at, over), pairs)]
+                    here, there = (jet_dot(u, jet_less(b, a)) - size for u, (a, b), size in zip(vectors, points, sizes))
                     need(region.least(here.value, there.slopes, ends) >= 0, f"legs {i + 1} and {j + 1} may be too near")
 
         cells += region.tiled(field(pair, "tree"), prove)
@@ -1509,7 +1520,7 @@ class Load:
         torque = [x + y for x, y in zip(own(self.torque), jet_cross(region.turned(cell, self.arm, ks), force))]
         for leg in range(6) if self.weights else ():
             line, (rod, moment) = region.line(cell, leg, ks), (constants(v, ks) for v in self.weights or ())
-            over = jet_dot(line, line).root().inverse()
+            over = jet_square_of(line).root().inverse()
             along = [x * over for x in line]
             lengthwise = jet_dot(along, moment)
             weight = [r + (m - u * lengthwise) * over for r, m, u in zip(rod, moment, along)]
@@ -1553,7 +1564,7 @@ def leg_force(proof: Proof, claim: Any) -> str:
                 solved(inverse, rest, [-x.slopes[k] - real_sum(b * p for b, p in zip(row, phi)) for x, row in zip(scaled_over, changes[k])]) for k in range(6)
             ]
             for i in range(6):
-                length_at, length = (jet_dot(line, line).root() for line in (region.line(middle, i, range(0)), region.line(cell, i, range(6))))
+                length_at, length = (jet_square_of(line).root() for line in (region.line(middle, i, range(0)), region.line(cell, i, range(6))))
                 force = phi_at[i] * length_at.value
                 along = [slopes[k][i] * length.value + phi[i] * length.slopes[k] for k in range(6)]
                 met = region.least(greatest - force, [-x for x in along], ends) >= 0 and region.least(greatest + force, along, ends) >= 0
@@ -1586,7 +1597,7 @@ def regular_region(proof: Proof, claim: Any) -> str:
             need(size < ONE, "the leg lines may be dependent")
 
     cells = region.tiled(field(claim, "tree"), prove)
-    return f"{design.name} is not singular at {region.poses()} ({counted(cells, 'cell')})"
+    return f"{design.name} is regular at {region.poses()} ({counted(cells, 'cell')})"
 
 
 CLAIMS: dict[str, Callable[[Proof, Any], str]] = {

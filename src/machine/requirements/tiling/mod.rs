@@ -27,7 +27,7 @@ use platform::geom::enclosed::{IntervalMatrix, IntervalVector, Rotation, apply, 
 use platform::geom::{cosine, turn, turn_slope};
 use platform::manipulator::{Body, Manipulator};
 
-/// Greatest number of cells of a tiling: a second of the program that checks it is about a thousand cells.
+/// Greatest number of cells of a tiling: the program that checks it takes one to thirty milliseconds for a cell.
 const MOST_CELLS: usize = 3000;
 /// Greatest square of a rotation vector; the coefficients of rotations are monotone up to it.
 const LARGEST_TURN: f64 = 20.0;

@@ -1,7 +1,7 @@
 //! Gaps between two leg bodies on a cell of a tiling.
 //!
 //! For every vector `u` the distance of two segments is at least `min u . (y - x) / |u|` over their ends `x` and `y`.
-//! So `u . (y - x) - gap |u|` has to be non-negative for four pairs of ends. The best direction at the middle of the
+//! So `u . (y - x) - gap |u|` has to be non-negative for all pairs of ends. The best direction at the middle of the
 //! cell is taken from nine that depend on the pose: normal to both legs, from an end of one segment across the other
 //! leg, or between two ends.
 
@@ -52,9 +52,16 @@ fn direction(code: usize, [(leg, part), (other, theirs)]: [PartOfLeg<'_>; 2]) ->
     }
 }
 
-/// `u . (y - x)` for the ends of two parts.
-fn separations<'a>(u: &'a JetVector, part: &'a Part, theirs: &'a Part) -> impl Iterator<Item = Jet> + 'a {
-    part.ends.iter().flat_map(move |x| theirs.ends.iter().map(move |y| dot(u, &minus(y, x))))
+/// `u . (y - x)` for the ends of two parts. A direction normal to a leg has the same product with all points of its
+/// line, and its base joint is the one that never moves.
+fn separations<'a>(
+    code: usize,
+    u: &'a JetVector,
+    [(leg, part), (other, theirs)]: [PartOfLeg<'a>; 2],
+) -> impl Iterator<Item = Jet> + 'a {
+    let ours = if matches!(code, 0 | 3 | 4) { std::slice::from_ref(&leg.base) } else { &part.ends[..] };
+    let theirs = if matches!(code, 0..=2) { std::slice::from_ref(&other.base) } else { &theirs.ends[..] };
+    ours.iter().flat_map(move |x| theirs.iter().map(move |y| dot(u, &minus(y, x))))
 }
 
 impl TiledRegion {
@@ -96,8 +103,8 @@ impl TiledRegion {
             let (Some(size_at), Some(size_over)) = (size_at, size_over) else {
                 return Err(super::widest(&|k| ends.half(k)));
             };
-            let values = separations(&u_at, at[0].1, at[1].1);
-            for (value, slopes) in values.zip(separations(&u_over, over[0].1, over[1].1)) {
+            let values = separations(code, &u_at, at);
+            for (value, slopes) in values.zip(separations(code, &u_over, over)) {
                 let (value, slopes) = (value - size_at.times(least), slopes - size_over.times(least));
                 let slopes = std::array::from_fn(|k| slopes.slope(k));
                 let f = Function { value: value.value, slopes, rest: [0.0; 6] };
@@ -151,7 +158,7 @@ fn best_direction(at: [PartOfLeg<'_>; 2]) -> usize {
     let middle = |x: Jet| x.value.centre_and_radius().0;
     let separation = |code: usize| {
         let [u, _] = directed(code, at, at);
-        let least = separations(&u, at[0].1, at[1].1).map(middle).fold(f64::INFINITY, f64::min);
+        let least = separations(code, &u, at).map(middle).fold(f64::INFINITY, f64::min);
         let size = middle(norm_squared(&u)).sqrt();
         if size > 0.0 { least / size } else { f64::NEG_INFINITY }
     };
