@@ -334,7 +334,7 @@ fn regions_aside_of_home_about_a_pivot_are_checked_and_their_faults_are_named() 
     proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["translation"][0][1]));
     proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["home"]["position"][2]));
     proof.refutes(id, |d| claim(d, id)["limits"][4] = "208".into());
-    proof.refutes(id, |d| change_first(&mut d["designs"][0]["legs"][2]["platform"][0]));
+    proof.refutes(id, |d| change_first(&mut d["designs"][0]["legs"][1]["platform"][0]));
     // a cell of the ellipsoid called outside, and a cell left out
     for (tree, changed) in [(0, "x"), (5, "")] {
         proof.refutes(id, |d| {
@@ -343,7 +343,7 @@ fn regions_aside_of_home_about_a_pivot_are_checked_and_their_faults_are_named() 
         });
     }
     let cone = "base_cone_angle-region";
-    proof.refutes(cone, |d| change_first(&mut claim(d, cone)["region"]["pivot"][2]));
+    proof.refutes(cone, |d| claim(d, cone)["axes"][3] = serde_json::json!(["1", "0", "0"]));
     proof.refutes(cone, |d| claim(d, cone)["axes"][3] = serde_json::json!(["0", "0", "0"]));
     proof.refutes("regular-region", |d| {
         claim(d, "regular-region")["region"]["translation"][2] = serde_json::json!(["-3", "-4"]);
@@ -393,7 +393,7 @@ fn gaps_between_legs_are_checked_and_their_faults_are_named() {
     let (id, home) = ("leg_clearance-region", "leg_clearance-home");
     let proof = proof.only(&[id, home]);
     for id in [id, home] {
-        proof.refutes(id, |d| claim(d, id)["at_least"] = "9".into());
+        proof.refutes(id, |d| claim(d, id)["at_least"] = "90".into());
         proof.refutes(id, |d| change_first(&mut claim(d, id)["clearance"]));
         proof.refutes(id, |d| change_first(&mut claim(d, id)["body"]["diameter"]));
         proof.refutes(id, |d| claim(d, id)["body"]["rod_diameter"] = "90".into());
@@ -404,8 +404,8 @@ fn gaps_between_legs_are_checked_and_their_faults_are_named() {
         });
         proof.refutes(id, |d| change_first(&mut d["designs"][0]["legs"][0]["platform"][1]));
     }
-    proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["translation"][0][1]));
-    proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["pivot"][2]));
+    proof.refutes(id, |d| claim(d, id)["region"]["translation"][0][1] = "90".into());
+    proof.refutes(id, |d| claim(d, id)["region"]["pivot"][2] = "900".into());
 }
 
 #[test]
@@ -424,13 +424,13 @@ fn leg_forces_are_checked_and_their_faults_are_named() {
     for id in [id, home] {
         proof.refutes(id, |d| change_first(&mut claim(d, id)["at_least"]));
         proof.refutes(id, |d| claim(d, id)["limit"] = "20".into());
-        proof.refutes(id, |d| change_first(&mut claim(d, id)["loads"][0]["force"][2]));
+        proof.refutes(id, |d| claim(d, id)["loads"][0]["force"][2] = "-900".into());
         proof.refutes(id, |d| claim(d, id)["loads"][0]["at"][0] = "900".into());
         proof.refutes(id, |d| claim(d, id)["loads"][0]["torque"][1] = "9000".into());
         proof.refutes(id, |d| claim(d, id)["loads"][0]["tree"] = "".into());
-        proof.refutes(id, |d| change_first(&mut d["designs"][0]["legs"][0]["platform"][0]));
     }
-    proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["translation"][0][1]));
+    proof.refutes(id, |d| claim(d, id)["region"]["translation"][0][1] = "90".into());
+    proof.refutes(id, |d| claim(d, id)["region"]["pivot"][2] = "900".into());
 }
 
 #[test]

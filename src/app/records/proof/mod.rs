@@ -148,8 +148,9 @@ enum Claim {
     RegularRegion { design: usize, region: Box<RegionText>, unit: String, tree: String },
 }
 
-/// The poses `R = exp([w]x) R_home`, `p = p_home + d + R_home q - R q` with the pivot `q`, platform frame. The intervals
-/// of `d` and `w`, base frame, are measured from home; an ellipsoid touches them.
+/// The poses `R = exp([w]x) R_home`, `p = p_home + d + R_home q - R q` with the pivot `q`, platform frame.
+///
+/// The intervals of `d` and `w`, base frame, are measured from home; an ellipsoid touches them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct RegionText {
     shape: Region,

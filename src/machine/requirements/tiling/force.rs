@@ -1,8 +1,8 @@
 //! Leg forces on a cell of a tiling.
 //!
 //! Forces `f_i = phi_i |n_i|` hold a load with the wrench `w` if `B phi = -w`. The columns of `B` are
-//! `(n_i, R b_i x n_i / unit)`. With `K` near the inverse of `B` at the middle of the cell and `|I - K B| <= q < 1` in the
-//! row-sum norm,
+//! `(n_i, R b_i x n_i / unit)`. With `K` near the inverse of `B` at the middle of the cell, and `|I - K B| <= q < 1` in
+//! the row-sum norm,
 //!
 //! ```text
 //! phi = c + (I - K B) phi,    c = -K w,    max |phi| <= max |c| / (1 - q).
