@@ -107,6 +107,13 @@ fn change_high(number: &mut Value) {
     *number = format!("{}{digit}{}", &text[..at], &text[at + 1..]).into();
 }
 
+/// Changes the first digit of an exact number to 9.
+fn change_first(number: &mut Value) {
+    let text = number.as_str().unwrap();
+    let at = text.find(|c: char| c.is_ascii_digit()).unwrap();
+    *number = format!("{}9{}", &text[..at], &text[at + 1..]).into();
+}
+
 #[test]
 fn an_equivalence_is_checked_and_its_faults_are_named() {
     if !python() {
@@ -177,10 +184,12 @@ fn complete_lists_of_poses_are_checked() {
         ("rbt-octahedral.toml", &[][..]),
         ("rbt-griffis-duffy.toml", &[]),
         ("worked/bench-joint-free.toml", &lengths),
+        ("symmetric-hexapod.toml", &[]),
     ] {
         let proof = Proof::of("fk", &[design], more);
         proof.holds(&["root", "complete"]);
-        assert_eq!(proof.kinds().iter().filter(|k| **k == "root").count(), 16);
+        let poses = if design == "symmetric-hexapod.toml" { 28 } else { 16 };
+        assert_eq!(proof.kinds().iter().filter(|k| **k == "root").count(), poses);
     }
 }
 
@@ -209,6 +218,41 @@ fn faults_in_lists_of_poses_are_named() {
         let reality = if claim(d, "pose-1")["reality"] == "real" { "non_real" } else { "real" };
         claim(d, "pose-1")["reality"] = reality.into();
     });
+}
+
+/// Planar bodies: three inversions of a symmetric hexapod leave 28 poses, an affine map leaves 16.
+#[test]
+fn bounds_of_planar_bodies_are_checked_and_their_faults_are_named() {
+    if !python() {
+        return;
+    }
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("affine.toml");
+    let base = [(0, 0), (40, 0), (60, 20), (50, 50), (10, 60), (-20, 30)];
+    let joint =
+        |k: usize, (x, y): (i32, i32)| format!("{}{} = [{x}, {y}, 0]\n", ["A", "B"][k / 6], k % 6 + 1);
+    let bases: String = (0..6).map(|i| joint(i, base[i])).collect();
+    let images: String =
+        (0..6).map(|i| joint(i + 6, (2 * base[i].0 + base[i].1, base[i].1 - base[i].0))).collect();
+    let legs: Vec<[String; 2]> = (1..7).map(|i| [format!("A{i}"), format!("B{i}")]).collect();
+    let head = format!("name = \"affine hexagons\"\nunits = \"mm\"\nlegs = {legs:?}");
+    let text = format!("{head}\n[base]\n{bases}[platform]\n{images}");
+    std::fs::write(&path, text).unwrap();
+    for (design, theorem, poses) in [
+        ("symmetric-hexapod.toml", "points_at_infinity", 28),
+        (path.to_str().unwrap(), "affine_hexagons", 16),
+    ] {
+        let proof = Proof::of("check", &[design], &[]);
+        proof.holds(&["pose_bound"]);
+        let bound = claim(&mut proof.document.clone(), "bound-1").clone();
+        assert_eq!((bound["by"].as_str(), bound["poses"].as_u64()), (Some(theorem), Some(poses)));
+        let proof = proof.only(&["bound-1"]);
+        proof.refutes("bound-1", |d| claim(d, "bound-1")["poses"] = (poses - 4).into());
+        // off the plane, and off the position in the plane
+        for k in [2, 0] {
+            proof.refutes("bound-1", |d| change(&mut d["designs"][0]["legs"][1]["platform"][k]));
+        }
+    }
 }
 
 #[test]
@@ -256,33 +300,137 @@ fn margins_at_poses_and_over_a_region_are_checked_and_their_faults_are_named() {
     });
 }
 
-/// The checker has no regions to one side of home, about a pivot or along ranges: the file says so.
-#[test]
-fn regions_that_the_checker_does_not_know_are_left_out() {
+/// The bench hexapod with another workspace, in a folder.
+fn bench_with_workspace(translation: &str, rotation_deg: &str) -> (TempDir, String) {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("design.toml");
     let text = std::fs::read_to_string(root().join("designs/worked/bench-joint-free.toml")).unwrap();
-    let old = "translation = [25.0, 25.0, 20.0]";
-    assert!(text.contains(old));
-    for new in [
-        "translation = [[-2.0, 6.0], 6.0, 0.0]",
-        "pivot = [0, 0, 9]\ntranslation = [6.0, 6.0, 0.0]",
-        "ranges = { x = 3 }\ntranslation = [0.0, 0.0, 0.0]",
-    ] {
-        let text = text
-            .replace(old, new)
-            .replace("rotation_deg = [8.0, 8.0, 8.0]", "rotation_deg = [0.0, 0.0, 0.0]");
-        std::fs::write(&path, text).unwrap();
-        let proof = Proof::of("assess", &[path.to_str().unwrap()], &["--points", "200"]);
-        let claims = proof.document["claims"].as_array().unwrap();
-        assert!(claims.iter().all(|c| c.get("region").is_none()), "{new}");
-        let left = proof.document["not_included"].as_array().unwrap();
-        let says = |words: &str| left.iter().any(|l| l["statement"].as_str().unwrap().ends_with(words));
-        assert!(
-            says(if new.starts_with("ranges") { "ranges of single coordinates" } else { "over the region" }),
-            "{new}"
-        );
+    let replaced = text
+        .replace("translation = [25.0, 25.0, 20.0]", translation)
+        .replace("rotation_deg = [8.0, 8.0, 8.0]", rotation_deg);
+    assert!(!replaced.contains("25.0, 25.0") && !replaced.contains("8.0, 8.0"));
+    std::fs::write(&path, replaced).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn regions_aside_of_home_about_a_pivot_are_checked_and_their_faults_are_named() {
+    if !python() {
+        return;
     }
+    let (_folder, design) = bench_with_workspace(
+        "translation = [[-2.0, 10.0], 0.0, [-3.0, 1.0]]\npivot = [0, 0, 100]",
+        "rotation_deg = [[-1.0, 3.0], 0.0, 0.0]",
+    );
+    let proof = Proof::of("assess", &[&design], &["--points", "200"]);
+    let id = "max_leg_length-region";
+    proof.holds(&["margin_over_region", "regular_region"]);
+    let region = claim(&mut proof.document.clone(), id)["region"].clone();
+    assert_eq!(region["translation"], serde_json::json!([["-2", "10"], ["0", "0"], ["-3", "1"]]));
+    assert_eq!(region["pivot"], serde_json::json!(["0", "0", "100"]));
+    let proof = proof.only(&[id, "base_cone_angle-region", "regular-region"]);
+    proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["pivot"][2]));
+    proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["translation"][0][1]));
+    proof.refutes(id, |d| change_first(&mut claim(d, id)["region"]["home"]["position"][2]));
+    proof.refutes(id, |d| claim(d, id)["limits"][4] = "208".into());
+    proof.refutes(id, |d| change_first(&mut d["designs"][0]["legs"][1]["platform"][0]));
+    // a cell of the ellipsoid called outside, and a cell left out
+    for (tree, changed) in [(0, "x"), (5, "")] {
+        proof.refutes(id, |d| {
+            let tree = &mut claim(d, id)["trees"][tree];
+            *tree = tree.as_str().unwrap().replacen('.', changed, 1).into();
+        });
+    }
+    let cone = "base_cone_angle-region";
+    proof.refutes(cone, |d| claim(d, cone)["axes"][3] = serde_json::json!(["1", "0", "0"]));
+    proof.refutes(cone, |d| claim(d, cone)["axes"][3] = serde_json::json!(["0", "0", "0"]));
+    proof.refutes("regular-region", |d| {
+        claim(d, "regular-region")["region"]["translation"][2] = serde_json::json!(["-3", "-4"]);
+    });
+    proof.refutes("regular-region", |d| {
+        let region = &mut claim(d, "regular-region")["region"];
+        region["rotation_deg"][0] = serde_json::json!(["-1", "93"]);
+    });
+}
+
+#[test]
+fn ranges_of_single_coordinates_are_checked_and_their_faults_are_named() {
+    if !python() {
+        return;
+    }
+    let (_folder, design) = bench_with_workspace(
+        "ranges = { z = [-2, 10], roll_deg = 5 }\npivot = [0, 0, 100]",
+        "rotation_deg = [0.0, 0.0, 0.0]",
+    );
+    let proof = Proof::of("assess", &[&design], &["--points", "200"]);
+    proof.holds(&["margin_over_region", "regular_region"]);
+    let text = checked(&proof.write(&proof.document)).1;
+    assert!(
+        text.contains("at every pose of the box z -2 to 10 from home about the pivot (0, 0, 100)"),
+        "{text}"
+    );
+    assert!(!text.contains("along the range"), "{text}");
+    let ids = ["max_leg_length-z", "platform_cone_angle-roll_deg", "regular-z"];
+    let proof = proof.only(&ids);
+    proof.refutes(ids[0], |d| change_first(&mut claim(d, ids[0])["region"]["translation"][2][1]));
+    proof.refutes(ids[0], |d| claim(d, ids[0])["at_least"] = "36".into());
+    proof.refutes(ids[1], |d| change_first(&mut claim(d, ids[1])["region"]["pivot"][2]));
+    proof.refutes(ids[2], |d| claim(d, ids[2])["tree"] = "2.".into());
+}
+
+#[test]
+fn gaps_between_legs_are_checked_and_their_faults_are_named() {
+    if !python() {
+        return;
+    }
+    let (_folder, design) = bench_with_workspace(
+        "translation = [[-2.0, 5.0], 3.0, 0.0]\npivot = [0, 0, 40]",
+        "rotation_deg = [1.0, 0.0, 0.0]",
+    );
+    let proof = Proof::of("assess", &[&design], &["--points", "200"]);
+    proof.holds(&["leg_clearance"]);
+    let (id, home) = ("leg_clearance-region", "leg_clearance-home");
+    let proof = proof.only(&[id, home]);
+    for id in [id, home] {
+        proof.refutes(id, |d| claim(d, id)["at_least"] = "90".into());
+        proof.refutes(id, |d| change_first(&mut claim(d, id)["clearance"]));
+        proof.refutes(id, |d| change_first(&mut claim(d, id)["body"]["diameter"]));
+        proof.refutes(id, |d| claim(d, id)["body"]["rod_diameter"] = "90".into());
+        proof.refutes(id, |d| claim(d, id)["pairs"][2]["directions"] = "".into());
+        proof.refutes(id, |d| claim(d, id)["pairs"][7]["tree"] = "".into());
+        proof.refutes(id, |d| {
+            claim(d, id)["pairs"].as_array_mut().unwrap().remove(4);
+        });
+        proof.refutes(id, |d| change_first(&mut d["designs"][0]["legs"][0]["platform"][1]));
+    }
+    proof.refutes(id, |d| claim(d, id)["region"]["translation"][0][1] = "90".into());
+    proof.refutes(id, |d| claim(d, id)["region"]["pivot"][2] = "900".into());
+}
+
+#[test]
+fn leg_forces_are_checked_and_their_faults_are_named() {
+    if !python() {
+        return;
+    }
+    let (_folder, design) = bench_with_workspace(
+        "translation = [[-2.0, 5.0], 3.0, 0.0]\npivot = [0, 0, 40]",
+        "rotation_deg = [1.0, 0.0, 0.0]",
+    );
+    let proof = Proof::of("assess", &[&design], &["--points", "200"]);
+    proof.holds(&["leg_force"]);
+    let (id, home) = ("leg_force-region", "leg_force-home");
+    let proof = proof.only(&[id, home]);
+    for id in [id, home] {
+        proof.refutes(id, |d| change_first(&mut claim(d, id)["at_least"]));
+        proof.refutes(id, |d| claim(d, id)["limit"] = "20".into());
+        proof.refutes(id, |d| claim(d, id)["loads"][0]["force"][2] = "-900".into());
+        proof.refutes(id, |d| claim(d, id)["loads"][0]["at"][0] = "900".into());
+        proof.refutes(id, |d| claim(d, id)["loads"][0]["torque"][1] = "9000".into());
+        proof.refutes(id, |d| claim(d, id)["loads"][0]["tree"] = "".into());
+    }
+    proof.refutes(id, |d| claim(d, id)["region"]["translation"][0][1] = "90".into());
+    proof.refutes(id, |d| claim(d, id)["region"]["pivot"][2] = "900".into());
 }
 
 #[test]
@@ -304,6 +452,16 @@ fn a_file_without_claims_or_of_another_kind_is_no_proof() {
         assert_eq!(checked(&proof.write(&other)).0, Some(2));
     }
     assert_eq!(checked(Path::new("no-such-file.json")).0, Some(2));
+    let twice = proof.document.to_string().replacen('{', "{\"equipod_proof\": \"fk\", ", 1);
+    let path = proof.write(&proof.document);
+    std::fs::write(&path, twice).unwrap();
+    assert_eq!(checked(&path).0, Some(2));
+    // a name forges no line of the answer
+    let mut forged = proof.document.clone();
+    forged["designs"][0]["name"] = "design\nholds: forged".into();
+    let (code, text) = checked(&proof.write(&forged));
+    assert!(code == Some(0) && text.contains("design holds: forged"), "{text}");
+    assert!(!text.lines().any(|line| line.starts_with("holds: forged")), "{text}");
     let mut unknown = proof.document.clone();
     unknown["claims"][0]["claim"] = "everything_is_fine".into();
     assert_eq!(checked(&proof.write(&unknown)).0, Some(1));

@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseConventionRecord, PoseInFrames, PoseQuaternionRecord};
-use ask::{Design, FreeSize, FreeTurn, PoseFrames, WorkspaceSize};
+use ask::{Design, FreePart, FreeSize, FreeTurn, PoseFrames, StatedRange, WorkspaceSize};
 use machine::reach::{NearestPose, Reach, StraightPath, Travel};
 use machine::requirements::{Limit, Quantity, TermKind};
-use platform::geom::{CoordinateRange, Pose, RotationOrder};
+use platform::geom::{Pose, RotationOrder};
 
 /// The answer of `limits`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -298,9 +298,7 @@ impl LimitRecord {
 
     /// The record of a limit with its margin at a pose.
     fn at(design: &Design, reach: &Reach<'_>, limit: Limit, pose: &Pose) -> Self {
-        let margins = reach.margins(pose);
-        let margin = margins.iter().find(|(l, _)| *l == limit).map_or(f64::NAN, |(_, margin)| *margin);
-        Self::new(design, limit, margin)
+        Self::new(design, limit, reach.margin_of(limit, pose))
     }
 
     /// The code of the requirement, or `singularity`.
@@ -358,39 +356,26 @@ impl FreeRangeRecord {
 }
 
 /// The names of the coordinates of ranges, as in `[workspace]`.
-const COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
+pub(super) const COORDINATES: [&str; 6] = ["x", "y", "z", "roll_deg", "pitch_deg", "yaw_deg"];
 
 impl RangeRecord {
-    /// The ranges of the design's workspace, with their free parts.
+    /// The record of a range.
     #[must_use]
-    pub fn all(design: &Design) -> Vec<Self> {
-        if design.workspace.ranged_coordinates() == 0 {
-            return Vec::new();
-        }
-        let (required, space) = (design.requirements(), design.workspace.space(&design.home_or_default()));
-        let reach = design.reach(&required);
-        let stated = space.ranges.iter().enumerate().filter(|(_, range)| !range.is_still());
-        let record = |(k, range): (usize, &CoordinateRange)| {
-            let way = StraightPath::coordinate(&space, k);
-            let of_way = |x: f64| if k < 3 { x } else { x.to_degrees() };
-            let to_way = |x: f64| if k < 3 { x } else { x.to_radians() };
-            let travel = |way: &StraightPath, most: f64, sign: f64| {
-                let found = reach.along(way, to_way(most));
-                // a whole part ends at the stated number
-                let free = found.binding.map_or(most, |_| of_way(found.amount));
-                let binds = found.binding.map(|limit| LimitRecord::at(design, &reach, limit, &found.pose));
-                TravelRecord { free, value: sign * free, binds }
-            };
-            Self {
-                coordinate: COORDINATES[k].to_owned(),
-                unit: if k < 3 { design.units.clone() } else { "deg".to_owned() },
-                min: range.min,
-                max: range.max,
-                back: travel(&way.reversed(), -range.min, -1.0),
-                forth: travel(&way, range.max, 1.0),
-            }
+    pub fn new(design: &Design, found: &StatedRange) -> Self {
+        let (k, range) = (found.coordinate, found.range);
+        let travel = |part: &FreePart, sign: f64| TravelRecord {
+            free: part.free,
+            value: sign * part.free,
+            binds: part.binding.map(|(limit, margin)| LimitRecord::new(design, limit, margin)),
         };
-        stated.map(record).collect()
+        Self {
+            coordinate: COORDINATES[k].to_owned(),
+            unit: if k < 3 { design.units.clone() } else { "deg".to_owned() },
+            min: range.min,
+            max: range.max,
+            back: travel(&found.back, -1.0),
+            forth: travel(&found.forth, 1.0),
+        }
     }
 }
 

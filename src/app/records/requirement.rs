@@ -126,7 +126,7 @@ view! {
         },
         /// Ranges of single coordinates with their free parts. Absent: the design states none.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        pub ranges: Vec<RangeRecord> = RangeRecord::all(design),
+        pub ranges: Vec<RangeRecord> = found.ranges.iter().map(|range| RangeRecord::new(design, range)).collect(),
         /// Number of poses sampled.
         pub poses: usize = proof.poses,
         /// Number of workspace cells of the proof.

@@ -92,6 +92,13 @@ impl<'a> Reach<'a> {
         terms.chain(ratio).collect()
     }
 
+    /// The margin of one limit at a pose; NaN if the pose has no such margin.
+    #[must_use]
+    pub fn margin_of(&self, limit: Limit, pose: &Pose) -> f64 {
+        let margins = self.margins(pose);
+        margins.iter().find(|(other, _)| *other == limit).map_or(f64::NAN, |(_, margin)| *margin)
+    }
+
     /// Whether a margin is met at its pose; a margin equal to its limit within rounding is met.
     #[must_use]
     pub fn is_met(&self, limit: Limit, margin: f64, pose: &Pose) -> bool {

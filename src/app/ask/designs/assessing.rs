@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::{Error, SingularHome};
+use super::{Error, SingularHome, StatedRange};
 use crate::Design;
 use crate::equivalents::Equivalents;
 use files::design::Workspace;
@@ -203,6 +203,8 @@ pub struct AssessReport {
     pub regularity_cells: usize,
     /// The pose with the worst conditioning of the Jacobian among the sampled poses.
     pub conditioning: LeastConditioning,
+    /// The ranges of single coordinates with their free parts.
+    pub ranges: Vec<StatedRange>,
 }
 
 impl AssessReport {
@@ -466,6 +468,7 @@ impl Design {
             regularity,
             regularity_cells,
             conditioning,
+            ranges: self.stated_ranges(),
         })
     }
 

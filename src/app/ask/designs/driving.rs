@@ -119,7 +119,7 @@ impl Design {
             let motions = motions.iter().map(|m| design.along(m, masses.as_ref())).collect();
             let [of_drive, _] = design.requirements().of_drives_and_rest();
             let own = design.proved(&of_drive, seed);
-            let mut assessed = rest.clone();
+            let mut assessed = AssessReport { ranges: design.stated_ranges(), ..rest.clone() };
             assessed.proof.poses += own.poses;
             assessed.proof.bounds.extend(own.bounds);
             assessed.proof.bounds.sort_by_key(|b| b.found.term.kind);
@@ -171,6 +171,8 @@ impl Design {
             regularity,
             regularity_cells,
             conditioning,
+            // the limits of a drive change them
+            ranges: Vec::new(),
         }
     }
 

@@ -59,6 +59,7 @@ pub use optimizing::{
     OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, RelaxedRequirement, SearchedDrive,
 };
 pub use pentapod::{HeldLine, PentapodReport, about_five_legs};
+pub use reaching::{FreePart, StatedRange};
 pub use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
 pub use relocating::{MoveSearchReport, MoveTargets, MovedPlatform, SearchWord, targets_in_words};
 pub use replaceable::{NoPlanes, NoReplaceableLegs, ReplaceableFamily, ReplaceableLegs, ReplaceableOptions};

@@ -2,8 +2,31 @@
 
 use super::Error;
 use crate::Design;
-use machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach};
+use machine::reach::{FreeRange, NearestPose, NearestPoseOptions, Reach, StraightPath};
+use machine::requirements::{CoordinateRange, Limit};
 use platform::geom::Pose;
+
+/// A range of a single coordinate that the design states, with its free part; computed in doubles, without proof.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StatedRange {
+    /// The coordinate, from 0: `x`, `y`, `z`, and rotations about these axes.
+    pub coordinate: usize,
+    /// Its ends, design units or degrees.
+    pub range: CoordinateRange,
+    /// Free part towards smaller values.
+    pub back: FreePart,
+    /// Free part towards greater values.
+    pub forth: FreePart,
+}
+
+/// The free part of a range to one side of home.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreePart {
+    /// Its length, design units or degrees.
+    pub free: f64,
+    /// The requirement violated beyond its end, with its margin there; `None` if the whole range is free.
+    pub binding: Option<(Limit, f64)>,
+}
 
 impl Design {
     /// The free travel of each of the six numbers of a pose (x, y, z, roll, pitch, yaw) while the others stay fixed. It
@@ -46,6 +69,31 @@ impl Design {
     pub fn nearest_allowed(&self, asked: &Pose, options: &NearestPoseOptions) -> Result<NearestPose, Error> {
         let required = self.requirements();
         self.reach(&required).nearest(asked, options).ok_or(Error::NoAllowedPose)
+    }
+
+    /// The ranges of the workspace with their free parts.
+    #[must_use]
+    pub fn stated_ranges(&self) -> Vec<StatedRange> {
+        if self.workspace.ranged_coordinates() == 0 {
+            return Vec::new();
+        }
+        let (required, space) = (self.requirements(), self.workspace.space(&self.home_or_default()));
+        let reach = self.reach(&required);
+        let stated = space.ranges.iter().enumerate().filter(|(_, range)| !range.is_still());
+        let with_free_parts = |(k, range): (usize, &CoordinateRange)| {
+            let way = StraightPath::coordinate(&space, k);
+            let part = |way: &StraightPath, most: f64| {
+                let found = reach.along(way, if k < 3 { most } else { most.to_radians() });
+                let amount = if k < 3 { found.amount } else { found.amount.to_degrees() };
+                // a whole part ends at the stated number
+                let free = found.binding.map_or(most, |_| amount);
+                let margin_of = |limit| (limit, reach.margin_of(limit, &found.pose));
+                FreePart { free, binding: found.binding.map(margin_of) }
+            };
+            let (back, forth) = (part(&way.reversed(), -range.min), part(&way, range.max));
+            StatedRange { coordinate: k, range: *range, back, forth }
+        };
+        stated.map(with_free_parts).collect()
     }
 
     /// The limits of the design, prepared for many poses.

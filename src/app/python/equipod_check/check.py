@@ -244,6 +244,31 @@ def determinant(rows: Sequence[Row]) -> Number:
     return product if rank == len(rows) else Number({})
 
 
+def kernel(rows: Sequence[Row]) -> list[Row]:
+    """A basis of the vectors whose products with all rows are zero."""
+    work, count = [list(row) for row in rows], len(rows[0])
+    leading: list[int] = []
+    for column in range(count):
+        rank = len(leading)
+        pivot = next((i for i in range(rank, len(work)) if not work[i][column].is_zero()), None)
+        if pivot is None:
+            continue
+        work[rank], work[pivot] = work[pivot], work[rank]
+        inverse = work[rank][column].inverse()
+        work[rank] = [x * inverse for x in work[rank]]
+        for i, row in enumerate(work):
+            if i != rank and not row[column].is_zero():
+                work[i] = [x - row[column] * y for x, y in zip(row, work[rank])]
+        leading.append(column)
+    basis = []
+    for free in (k for k in range(count) if k not in leading):
+        vector = [Number.of(int(k == free)) for k in range(count)]
+        for row, column in zip(work, leading):
+            vector[column] = -row[free]
+        basis.append(vector)
+    return basis
+
+
 # --- designs ---------------------------------------------------------------------------------------------------------------------------------------
 
 
@@ -682,10 +707,118 @@ def bound_by_lines(design: Design) -> int:
     return 40
 
 
+# Polynomials in three unknowns by exponents.
+Form = dict[tuple[int, int, int], Number]
+
+
+def times(f: Form, g: Form) -> Form:
+    out: Form = {}
+    for (a, b, c), x in f.items():
+        for (d, e, h), y in g.items():
+            key = (a + d, b + e, c + h)
+            out[key] = out.get(key, Number({})) + x * y
+    return out
+
+
+def combined(*parts: tuple[int | Number, Form, Form]) -> Form:
+    """The sum of some multiples of products."""
+    out: Form = {}
+    for factor, f, g in parts:
+        for key, x in times(f, g).items():
+            out[key] = out.get(key, Number({})) + x * (factor if isinstance(factor, Number) else Number.of(factor))
+    return out
+
+
+def slope(f: Form, k: int) -> Form:
+    out: Form = {}
+    for key, x in f.items():
+        if key[k]:
+            out[(key[0] - (k == 0), key[1] - (k == 1), key[2] - (k == 2))] = x * Number.of(key[k])
+    return out
+
+
+def monomials(degree: int) -> list[tuple[int, int, int]]:
+    return [(i, j, degree - i - j) for i in range(degree + 1) for j in range(degree + 1 - i)]
+
+
+def left(conics: Sequence[Form], degree: int) -> int:
+    """The dimension that the ideal of some conics leaves of the forms of a degree. Zero: the conics have no common zero."""
+    zero = Number({})
+    rows = [[f.get((m[0] - d[0], m[1] - d[1], m[2] - d[2]), zero) for m in monomials(degree)] for f in conics for d in monomials(degree - 2)]
+    return len(rows[0]) - eliminate(rows)[0]
+
+
+class Plane:
+    """Joints of a body in a plane, not on a line: coordinates (1, s, t) of x = o + s e + t f, and the products e.e, e.f, f.f."""
+
+    def __init__(self, points: list[Row], e: Row, f: Row) -> None:
+        self.products = ee, ef, ff = dot(e, e), dot(e, f), dot(f, f)
+        scale = (ee * ff - ef * ef).inverse()
+        self.points = []
+        for x in points:
+            d = [u - v for u, v in zip(x, points[0])]
+            de, df = dot(d, e), dot(d, f)
+            self.points.append([Number.of(1), (ff * de - ef * df) * scale, (ee * df - ef * de) * scale])
+
+    @staticmethod
+    def of(points: list[Row]) -> Plane | None:
+        if eliminate([[Number.of(1), *x] for x in points])[0] != 3:
+            return None
+        arms = [[u - v for u, v in zip(x, points[0])] for x in points]
+        e, f = next(pair for pair in itertools.combinations(arms, 2) if eliminate(pair)[0] == 2)
+        return Plane(points, e, f)
+
+    def isotropic(self, u: Sequence[Form], v: Sequence[Form]) -> Form:
+        """The symmetric product of two vectors (e.w, f.w) that vanishes for equal ones if the part of w in the plane is isotropic."""
+        ee, ef, ff = self.products
+        return combined((ff, u[0], v[0]), (-ef, u[0], v[1]), (-ef, u[1], v[0]), (ee, u[1], v[1]))
+
+
+def planes(design: Design) -> tuple[Plane, Plane] | None:
+    base, platform = Plane.of(design.base), Plane.of(design.platform)
+    return (base, platform) if base and platform else None
+
+
+def bound_by_affine_map(design: Design) -> int:
+    """16 for planar bodies whose joints are affine images of each other."""
+    bodies = planes(design)
+    related = bodies is not None and eliminate([[*a, *b[1:]] for a, b in zip(bodies[0].points, bodies[1].points)])[0] == 3
+    return 16 if related else 40
+
+
+def bound_by_points_at_infinity(design: Design) -> int:
+    """40 - 4 n for two planar bodies with n inversions (completeness.md, points at infinity).
+
+    A common point at infinity of all legs is a matrix W with X^T W X' = 0 for the ends X, X' of each leg. Its lower two rows have rank one, and so have its right two columns:
+    five conics in the plane of such matrices. If they leave n <= 3 dimensions of cubics and of quartics, they have n zeros with multiplicity (persistence: Gotzmann 1978). Each
+    is simple if no zero lets all minors of the Jacobian matrix vanish too. It has four points at infinity if neither projection is isotropic.
+    """
+    bodies = planes(design)
+    basis = kernel([[x * y for x in a for y in b] for a, b in zip(bodies[0].points, bodies[1].points)]) if bodies else []
+    if not bodies or len(basis) != 3:
+        return 40
+    unknowns = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    w: list[list[Form]] = [[{unknown: vector[3 * i + j] for unknown, vector in zip(unknowns, basis)} for j in range(3)] for i in range(3)]
+    conics = [combined((1, w[1][i], w[2][j]), (-1, w[1][j], w[2][i])) for i, j in itertools.combinations(range(3), 2)]
+    conics += [combined((1, w[i][1], w[j][2]), (-1, w[j][1], w[i][2])) for i, j in ((0, 1), (0, 2))]
+    n = left(conics, 3)
+    if not 1 <= n <= 3 or left(conics, 4) != n:
+        return 40
+    gradients = [[slope(f, k) for k in range(3)] for f in conics]
+    minors = [combined((1, g[k], h[m]), (-1, g[m], h[k])) for g, h in itertools.combinations(gradients, 2) for k, m in itertools.combinations(range(3), 2)]
+    # the lower rows are multiples of the projection of one body, the right columns of the other
+    lower, right = [[w[1][j], w[2][j]] for j in range(3)], [[w[j][1], w[j][2]] for j in range(3)]
+    lengths = [[plane.isotropic(u, v) for u, v in itertools.combinations_with_replacement(vectors, 2)] for plane, vectors in zip(bodies, (lower, right))]
+    isolated = all(left(conics + more, 4) == 0 for more in (minors, *lengths))
+    return 40 - 4 * n if isolated else 40
+
+
 BOUNDS: dict[str, tuple[Callable[[Design], int], str]] = {
     "six_legs": (lambda design: 40, "six legs have at most 40 isolated poses"),
     "shared_joints": (bound_by_shared_joints, "the joints that legs share allow no more"),
     "joints_on_a_line": (bound_by_lines, "joints of one body on a line allow no more"),
+    "affine_hexagons": (bound_by_affine_map, "planar bodies that are affine images of each other allow no more"),
+    "points_at_infinity": (bound_by_points_at_infinity, "the others of 40 are at infinity"),
 }
 
 # --- claims ----------------------------------------------------------------------------------------------------------------------------------------
@@ -941,7 +1074,12 @@ def margin(proof: Proof, claim: Any) -> str:
                 raise Refuted(f"`{kind}` is no requirement that this program checks")
             need(met, f"leg {i + 1} violates it at pose {k + 1}")
     unit = "degrees" if "angle" in kind else design.units
-    return f"{design.name} meets {kind} with a margin of {shown(least)} {unit} or more at {counted(len(poses), 'pose')}"
+    return f"{design.name} meets {kind} {listed(limits)} with a margin of {shown(least)} {unit} or more at {counted(len(poses), 'pose')}"
+
+
+def listed(numbers: Sequence[Number | Fraction]) -> str:
+    """Numbers in words; equal ones as one."""
+    return shown(numbers[0]) if len(set(numbers)) == 1 else f"({', '.join(shown(x) for x in numbers)})"
 
 
 def angle_is_below(u: Row, v: Row, degrees: Fraction) -> bool:
@@ -957,7 +1095,7 @@ def angle_is_below(u: Row, v: Row, degrees: Fraction) -> bool:
 
 # --- regions of poses ------------------------------------------------------------------------------------------------------------------------------
 
-# Tilings are checked in these coordinates: translation and rotation vector over their half widths, in the cube [-1, 1]^6.
+# Tilings are checked in these coordinates: distances of translation and rotation vector from the middle of the region over its half widths, in the cube [-1, 1]^6.
 Ends = tuple[list[Fraction], list[Fraction]]
 Vector = list[Real]
 Matrix = list[Vector]
@@ -1016,7 +1154,7 @@ class Cell:
     """Rotations, their slopes and positions over a cell."""
 
     def __init__(self, region: Region, ends: Ends) -> None:
-        x = [Real(Real.of(low).low, Real.of(high).high) * width for low, high, width in zip(ends[0], ends[1], region.widths)]
+        x = [middle + Real(Real.of(low).low, Real.of(high).high) * width for middle, low, high, width in zip(region.middle, ends[0], ends[1], region.widths)]
         w = x[3:]
         s = square(w[0]) + square(w[1]) + square(w[2])
         need(s.high <= LARGEST_TURN * ONE, "the rotations of the region are too large")
@@ -1043,21 +1181,35 @@ class Cell:
 
 
 class Region:
-    """A box or an ellipsoid of poses about home."""
+    """The poses R = exp([w]x) R_home, p = p_home + d + R_home q - R q with the pivot q: d and w in intervals, or each in the ellipsoid that touches its intervals.
+
+    So R b + p = exp([w]x) R_home (b - q) + (p_home + R_home q + d): the joints b are measured from the pivot, and d displaces the pivot."""
 
     def __init__(self, design: Design, record: Any) -> None:
         self.shape = field(record, "shape")
         need(self.shape in ("box", "ellipsoid"), f"`{self.shape}` is no shape of a region")
-        home = Pose.of(field(record, "home"))
-        translation, degrees = (a_list(field(record, name), 3, fraction) for name in ("translation", "rotation_deg"))
-        need(all(x >= 0 for x in translation + degrees), "a half width is negative")
-        half_turn = pi()
-        self.used = [x > 0 for x in translation + degrees]
-        self.widths = [Real.of(x) for x in translation] + [Real.of(x / 180) * half_turn for x in degrees]
-        self.position = [Real.of(x) for x in home.position]
+        self.pose = home = Pose.of(field(record, "home"))
+        self.pivot = pivot = a_list(field(record, "pivot"), 3, number)
+        self.intervals = [interval for name in ("translation", "rotation_deg") for interval in a_list(field(record, name), 3, lambda x: a_list(x, 2, fraction))]
+        need(all(low <= high for low, high in self.intervals), "an interval ends below its beginning")
+        self.used = [low < high for low, high in self.intervals]
+        units = [Real.of(1)] * 3 + [Real.of(Fraction(1, 180)) * pi()] * 3
+        self.middle = [Real.of((low + high) / 2) * unit for (low, high), unit in zip(self.intervals, units)]
+        self.widths = [Real.of((high - low) / 2) * unit for (low, high), unit in zip(self.intervals, units)]
+        # the place of the pivot for d = 0
+        self.position = [Real.of(p + dot(row, pivot)) for p, row in zip(home.position, home.rotation)]
         self.home = [[Real.of(x) for x in row] for row in home.rotation]
         self.base = [[Real.of(x) for x in a] for a in design.base]
-        self.platform = [[Real.of(dot(row, b)) for row in home.rotation] for b in design.platform]
+        self.platform = [[Real.of(dot(row, [x - q for x, q in zip(b, pivot)])) for row in home.rotation] for b in design.platform]
+
+    def poses(self) -> str:
+        """Words for its poses."""
+        names = ("x", "y", "z", "rotation about x", "rotation about y", "rotation about z")
+        parts = [f"{name} {shown(low)} to {shown(high)}" for name, (low, high) in zip(names, self.intervals) if low or high]
+        if not parts:
+            return f"the pose {self.pose}"
+        pivot = "" if all(q.is_zero() for q in self.pivot) else f" about the pivot ({', '.join(shown(q) for q in self.pivot)})"
+        return f"every pose of the {self.shape} {', '.join(parts)} from home{pivot}"
 
     def tiled(self, tree: Any, prove: Callable[[Cell, Cell, Ends], None]) -> int:
         """Checks the cells of a tree, which tile the region, and counts them."""
@@ -1096,6 +1248,15 @@ class Region:
         arm = apply(cell.rotation, self.platform[leg])
         return [x + p - a for x, p, a in zip(arm, cell.position, self.base[leg])]
 
+    def line(self, cell: Cell, leg: int, ks: range) -> JetVector:
+        along = [self.along(cell, leg, k) for k in ks]
+        return [Jet(x, [t[j] for t in along]) for j, x in enumerate(self.leg(cell, leg))]
+
+    def turned(self, cell: Cell, at_home: Vector, ks: range) -> JetVector:
+        """A vector that rotates from home."""
+        along = [[x * self.widths[k] for x in apply(cell.slopes[k - 3], at_home)] if k >= 3 else [ZERO] * 3 for k in ks]
+        return [Jet(x, [t[j] for t in along]) for j, x in enumerate(apply(cell.rotation, at_home))]
+
     def least(self, value: Real, slopes: Vector, ends: Ends) -> int:
         """A lower bound on a cell, over 2^BITS, of a function with this value at the middle and these slopes."""
         out, half, z = value.low, half_widths(ends), [scaled((a + b) / 2) for a, b in zip(*ends)]
@@ -1109,7 +1270,7 @@ class Region:
         return out
 
     def lines(self, cell: Cell, unit: Real) -> Matrix:
-        """Rows (n, R b x (p - a) / unit)."""
+        """Rows (n, R b x (p - a) / unit): moments about the pivot."""
         rows = []
         for a, b in zip(self.base, self.platform):
             arm, lever = apply(cell.rotation, b), [p - x for p, x in zip(cell.position, a)]
@@ -1140,6 +1301,11 @@ def square_of(v: Vector) -> Real:
     return square(v[0]) + square(v[1]) + square(v[2])
 
 
+def product(left_factor: Matrix, right_factor: Matrix) -> Matrix:
+    columns = list(zip(*right_factor))
+    return [[real_sum(x * y for x, y in zip(row, column)) for column in columns] for row in left_factor]
+
+
 def margin_over_region(proof: Proof, claim: Any) -> str:
     """A requirement on the legs, met at every pose of a region: a bound on each cell of a tiling."""
     design, kind, least = proof.design(claim), field(claim, "requirement"), fraction(field(claim, "at_least"))
@@ -1148,6 +1314,7 @@ def margin_over_region(proof: Proof, claim: Any) -> str:
     trees = a_list(field(claim, "trees"), 6, lambda tree: tree)
     need(kind in ("min_leg_length", "max_leg_length", "base_cone_angle", "platform_cone_angle"), f"`{kind}` is no requirement that this program checks")
     axes = a_list(field(claim, "axes"), 6, lambda x: [Real.of(v) for v in a_list(x, 3, number)]) if "cone_angle" in kind else []
+    need(all(square_of(m).low > 0 for m in axes), "an axis has no direction")
     two, cells = Real.of(2), 0
     for i in range(6):
         limit = limits[i] + least if kind == "min_leg_length" else limits[i] - least
@@ -1180,7 +1347,232 @@ def margin_over_region(proof: Proof, claim: Any) -> str:
 
         cells += region.tiled(trees[i], prove)
     unit = "degrees" if axes else design.units
-    return f"{design.name} meets {kind} with a margin of {shown(least)} {unit} or more at every pose of the region ({counted(cells, 'cell')})"
+    return f"{design.name} meets {kind} {listed(limits)} with a margin of {shown(least)} {unit} or more at {region.poses()} ({counted(cells, 'cell')})"
+
+
+class Jet:
+    """A function over a cell: its values, and its slopes along some coordinates."""
+
+    __slots__ = ("slopes", "value")
+
+    def __init__(self, value: Real, slopes: list[Real]) -> None:
+        self.value, self.slopes = value, slopes
+
+    def __add__(self, other: Jet) -> Jet:
+        return Jet(self.value + other.value, [x + y for x, y in zip(self.slopes, other.slopes)])
+
+    def __sub__(self, other: Jet) -> Jet:
+        return Jet(self.value - other.value, [x - y for x, y in zip(self.slopes, other.slopes)])
+
+    def __neg__(self) -> Jet:
+        return Jet(-self.value, [-x for x in self.slopes])
+
+    def __mul__(self, other: Jet) -> Jet:
+        return Jet(self.value * other.value, [x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes)])
+
+    def square(self) -> Jet:
+        twice = self.value + self.value
+        return Jet(square(self.value), [twice * x for x in self.slopes])
+
+    def times(self, x: Real) -> Jet:
+        return Jet(self.value * x, [y * x for y in self.slopes])
+
+    def root(self) -> Jet:
+        value = self.value.sqrt()
+        over = (value + value).inverse()
+        return Jet(value, [x * over for x in self.slopes])
+
+    def inverse(self) -> Jet:
+        value = self.value.inverse()
+        return Jet(value, [-(x * value * value) for x in self.slopes])
+
+
+JetVector = list[Jet]
+
+
+def jet_dot(u: JetVector, v: JetVector) -> Jet:
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def jet_square_of(v: JetVector) -> Jet:
+    return v[0].square() + v[1].square() + v[2].square()
+
+
+def jet_less(u: JetVector, v: JetVector) -> JetVector:
+    return [x - y for x, y in zip(u, v)]
+
+
+def jet_cross(u: JetVector, v: JetVector) -> JetVector:
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+
+def constants(v: Vector, ks: range) -> JetVector:
+    return [Jet(x, [ZERO for _ in ks]) for x in v]
+
+
+class LegBody:
+    """All points within a radius of the cylinder, which begins at the base joint, and of the rod, which continues to the platform joint."""
+
+    def __init__(self, record: Any) -> None:
+        self.radius, self.cylinder, self.rod = fraction(field(record, "diameter")) / 2, Fraction(0), Fraction(0)
+        self.has_rod = "rod_diameter" in record
+        if self.has_rod:
+            self.cylinder, self.rod = fraction(field(record, "cylinder_length")), fraction(record["rod_diameter"]) / 2
+        need(min(self.radius, self.cylinder, self.rod) >= 0, "a size of the leg is negative")
+
+
+class LegOnCell:
+    """The line of a leg over a cell and the ends of its parts, each with its radius. A leg that may be shorter than its cylinder is one part with the greater radius."""
+
+    def __init__(self, region: Region, cell: Cell, leg: int, body: LegBody, ks: range, in_parts: bool) -> None:
+        self.base, self.line = constants(region.base[leg], ks), region.line(cell, leg, ks)
+        end, square = [a + n for a, n in zip(self.base, self.line)], jet_square_of(self.line)
+        self.parts = [(self.base, end, max(body.radius, body.rod))]
+        if in_parts and body.has_rod and square.value.low > Real.of(body.cylinder**2).high:
+            share = square.root().inverse().times(Real.of(body.cylinder))
+            top = [a + n * share for a, n in zip(self.base, self.line)]
+            self.parts = [(self.base, top, body.radius), (top, end, body.rod)]
+
+    def across(self, point: JetVector) -> JetVector:
+        """A multiple of the vector from the line to a point, normal to the line."""
+        arm = jet_less(point, self.base)
+        along, square = jet_dot(arm, self.line), jet_square_of(self.line)
+        return [x * square - n * along for x, n in zip(arm, self.line)]
+
+
+def direction(code: str, one: LegOnCell, p: Any, two: LegOnCell, q: Any) -> JetVector:
+    """A vector that depends on the pose: normal to both legs, normal to one of them from an end on the other, or between two ends. Any vector proves what is proved with it."""
+    need(len(code) == 1 and code in "012345678", "a direction is missing")
+    k = int(code)
+    if k == 0:
+        return jet_cross(one.line, two.line)
+    if k <= 2:
+        return [-x for x in two.across(p[k - 1])]
+    return one.across(q[k - 3]) if k <= 4 else jet_less(q[(k - 5) % 2], p[(k - 5) // 2])
+
+
+def leg_clearance(proof: Proof, claim: Any) -> str:
+    """A gap between all legs that share no joint, at every pose of a region: u.(y - x) >= gap |u| for the ends of two segments, with some vector u at each pose."""
+    design, region, body = proof.design(claim), Region(proof.design(claim), field(claim, "region")), LegBody(field(claim, "body"))
+    least, clearance = fraction(field(claim, "at_least")), fraction(field(claim, "clearance"))
+    need(least >= 0 and clearance >= 0, "the margin or the clearance is negative")
+    given = {tuple(a_list(field(pair, "legs"), 2, int)): pair for pair in field(claim, "pairs")}
+    cells = 0
+    for i, j in itertools.combinations(range(6), 2):
+        if design.base[i] == design.base[j] or design.platform[i] == design.platform[j]:
+            continue
+        need((i + 1, j + 1) in given, f"legs {i + 1} and {j + 1} are missing")
+        pair = given[(i + 1, j + 1)]
+        codes = iter(field(pair, "directions"))
+
+        def prove(middle: Cell, cell: Cell, ends: Ends, i: int = i, j: int = j, codes: Any = codes) -> None:
+            over = [LegOnCell(region, cell, leg, body, range(6), True) for leg in (i, j)]
+            at = [LegOnCell(region, middle, leg, body, range(0), len(o.parts) == 2) for leg, o in zip((i, j), over)]
+            need(all(len(a.parts) == len(o.parts) for a, o in zip(at, over)), "the parts of a leg are undecided")
+            for s, t in itertools.product(range(len(over[0].parts)), range(len(over[1].parts))):
+                code = next(codes, "")
+                pairs = [(legs[0].parts[s], legs[1].parts[t]) for legs in (at, over)]
+                vectors = [direction(code, legs[0], p, legs[1], q) for legs, (p, q) in zip((at, over), pairs)]
+                between = jet_dot(vectors[0], jet_less(at[1].base, at[0].base)).value
+                if code == "0" and between.low + between.high < 0:
+                    vectors = [[-x for x in u] for u in vectors]
+                need(jet_square_of(vectors[1]).value.low > 0, "a direction may vanish")
+                gap = Real.of(least + clearance + pairs[1][0][2] + pairs[1][1][2])
+                sizes = [jet_square_of(u).root().times(gap) for u in vectors]
+                # a direction normal to a leg has the same product with all points of its line: the base joint stands for them
+                ours, theirs = [-1] if code in "034" else [0, 1], [-1] if code in "012" else [0, 1]
+                for x, y in itertools.product(ours, theirs):
+                    points = [((legs[0].base if x < 0 else p[x]), (legs[1].base if y < 0 else q[y])) for legs, (p, q) in zip((at, over), pairs)]
+                    here, there = (jet_dot(u, jet_less(b, a)) - size for u, (a, b), size in zip(vectors, points, sizes))
+                    need(region.least(here.value, there.slopes, ends) >= 0, f"legs {i + 1} and {j + 1} may be too near")
+
+        cells += region.tiled(field(pair, "tree"), prove)
+    return f"legs of {design.name} that share no joint are {shown(clearance)} {design.units} apart, with a margin of {shown(least)} {design.units} or more, at {region.poses()} ({counted(cells, 'cell')})"
+
+
+class Load:
+    """A force at a point of the platform frame and a torque, which keep their direction in the frame of a body, and the weights of the legs."""
+
+    def __init__(self, region: Region, record: Any) -> None:
+        def vector(name: str, of: Any) -> Row:
+            return a_list(field(of, name), 3, number)
+
+        def at_home(v: Row) -> Vector:
+            return [Real.of(dot(row, v)) for row in region.pose.rotation]
+
+        self.name, self.region = str(field(record, "name")), region
+        fixed_to = field(record, "fixed_to")
+        need(fixed_to in ("base", "platform"), f"`{fixed_to}` is no body")
+        self.turns = fixed_to == "platform"
+        self.force, self.torque = ((at_home(v) if self.turns else [Real.of(x) for x in v]) for v in (vector("force", record), vector("torque", record)))
+        self.arm = at_home([x - q for x, q in zip(vector("at", record), region.pivot)])
+        weights = record.get("leg_weights")
+        self.weights = None if weights is None else [[Real.of(x) for x in vector(name, weights)] for name in ("rod", "moment")]
+
+    def wrench(self, cell: Cell, ks: range) -> JetVector:
+        """Force, and torque about the pivot."""
+        region = self.region
+
+        def own(v: Vector) -> JetVector:
+            return region.turned(cell, v, ks) if self.turns else constants(v, ks)
+
+        force = own(self.force)
+        torque = [x + y for x, y in zip(own(self.torque), jet_cross(region.turned(cell, self.arm, ks), force))]
+        for leg in range(6) if self.weights else ():
+            line, (rod, moment) = region.line(cell, leg, ks), (constants(v, ks) for v in self.weights or ())
+            over = jet_square_of(line).root().inverse()
+            along = [x * over for x in line]
+            lengthwise = jet_dot(along, moment)
+            weight = [r + (m - u * lengthwise) * over for r, m, u in zip(rod, moment, along)]
+            torque = [x + y for x, y in zip(torque, jet_cross(region.turned(cell, region.platform[leg], ks), weight))]
+            force = [x + y for x, y in zip(force, weight)]
+        return force + torque
+
+
+def solved(inverse: Matrix, rest: Matrix, right: Vector) -> Vector:
+    """The solutions of B x = right, with K for `inverse` and I - K B for `rest`: x = K right + (I - K B) x, so |x| <= |K right| / (1 - |I - K B|)."""
+    start = [real_sum(x * y for x, y in zip(row, right)) for row in inverse]
+    norm = max(sum(x.size() for x in row) for row in rest)
+    need(norm < ONE, "the leg lines may be dependent")
+    size = -(-max(x.size() for x in start) * ONE // (ONE - norm))
+    return [x + real_sum(y * Real(-size, size) for y in row) for x, row in zip(start, rest)]
+
+
+def leg_force(proof: Proof, claim: Any) -> str:
+    """Leg forces under loads at every pose of a region: f = phi |n| with B phi = -w for the columns (n, R b x n / unit) of B. Slopes solve B phi_k = -w_k - B_k phi."""
+    design, region = proof.design(claim), Region(proof.design(claim), field(claim, "region"))
+    least, limit, unit = (fraction(field(claim, name)) for name in ("at_least", "limit", "unit"))
+    need(least >= 0 and unit > 0, "the margin is negative, or the unit is not positive")
+    scale, greatest, loads, cells = Real.of(1 / unit), Real.of(limit - least), field(claim, "loads"), 0
+    need(isinstance(loads, list) and len(loads) > 0, "no loads are listed")
+    for record in loads:
+        load = Load(region, record)
+
+        def prove(middle: Cell, cell: Cell, ends: Ends, load: Load = load) -> None:
+            half, one = half_widths(ends), Real.of(1)
+            lines = [list(column) for column in zip(*region.lines(middle, scale))]
+            inverse = [[Real(z[0], z[0]) for z in row] for row in approximate_inverse([[((x.low + x.high) // 2, 0) for x in row] for row in lines])]
+            changes = [[list(column) for column in zip(*region.changes(cell, scale, k))] for k in range(6)]
+            start, solved_changes = product(inverse, lines), [product(inverse, change) for change in changes]
+            rest_at = [[(one if i == j else ZERO) - x for j, x in enumerate(row)] for i, row in enumerate(start)]
+            reach = [[sum(up(change[i][j].size() * h) for change, h in zip(solved_changes, half)) for j in range(6)] for i in range(6)]
+            rest = [[x + Real(-r, r) for x, r in zip(row, out)] for row, out in zip(rest_at, reach)]
+            at, over = load.wrench(middle, range(0)), load.wrench(cell, range(6))
+            scaled_at, scaled_over = ([x if j < 3 else x.times(scale) for j, x in enumerate(w)] for w in (at, over))
+            phi_at, phi = solved(inverse, rest_at, [-x.value for x in scaled_at]), solved(inverse, rest, [-x.value for x in scaled_over])
+            slopes = [
+                solved(inverse, rest, [-x.slopes[k] - real_sum(b * p for b, p in zip(row, phi)) for x, row in zip(scaled_over, changes[k])]) for k in range(6)
+            ]
+            for i in range(6):
+                length_at, length = (jet_square_of(line).root() for line in (region.line(middle, i, range(0)), region.line(cell, i, range(6))))
+                force = phi_at[i] * length_at.value
+                along = [slopes[k][i] * length.value + phi[i] * length.slopes[k] for k in range(6)]
+                met = region.least(greatest - force, [-x for x in along], ends) >= 0 and region.least(greatest + force, along, ends) >= 0
+                need(met, f"the force of leg {i + 1} may be too large under {load.name}")
+
+        cells += region.tiled(field(record, "tree"), prove)
+    names = ", ".join(str(field(record, "name")) for record in loads)
+    return f"leg forces of {design.name} under {names} are at most {shown(limit)}, with a margin of {shown(least)} or more, at {region.poses()} ({counted(cells, 'cell')})"
 
 
 def regular_region(proof: Proof, claim: Any) -> str:
@@ -1195,12 +1587,7 @@ def regular_region(proof: Proof, claim: Any) -> str:
         at = region.lines(middle, scale)
         inverse = approximate_inverse([[((x.low + x.high) // 2, 0) for x in row] for row in at])
         k_rows = [[Real(z[0], z[0]) for z in row] for row in inverse]
-
-        def product(m: Matrix) -> Matrix:
-            columns = list(zip(*m))
-            return [[real_sum(x * y for x, y in zip(row, column)) for column in columns] for row in k_rows]
-
-        start, changes = product(at), [product(region.changes(cell, scale, k)) for k in range(6)]
+        start, changes = product(k_rows, at), [product(k_rows, region.changes(cell, scale, k)) for k in range(6)]
         one = Real.of(1)
         for i in range(6):
             size = 0
@@ -1210,12 +1597,12 @@ def regular_region(proof: Proof, claim: Any) -> str:
             need(size < ONE, "the leg lines may be dependent")
 
     cells = region.tiled(field(claim, "tree"), prove)
-    return f"no pose of the region is singular for {design.name} ({counted(cells, 'cell')})"
+    return f"{design.name} is regular at {region.poses()} ({counted(cells, 'cell')})"
 
 
 CLAIMS: dict[str, Callable[[Proof, Any], str]] = {
     check.__name__: check
-    for check in (leg_map, no_leg_map, dependency, leg_rank, regular_pose, generic_rank, dependent_lines, pose_bound, equivalent_bound, root, complete, distinct, no_pose, margin, margin_over_region, regular_region)
+    for check in (leg_map, no_leg_map, dependency, leg_rank, regular_pose, generic_rank, dependent_lines, pose_bound, equivalent_bound, root, complete, distinct, no_pose, margin, margin_over_region, leg_clearance, leg_force, regular_region)
 }
 
 
@@ -1241,8 +1628,15 @@ def read(text: str) -> dict[str, Any]:
     def no_float(digits: str) -> Any:
         raise NoProof(f"the number {digits} is no exact number")
 
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        """Other readers may take the first of two values."""
+        out = dict(pairs)
+        if len(out) < len(pairs):
+            raise NoProof("a key is repeated")
+        return out
+
     try:
-        document = json.loads(text, parse_float=no_float, parse_constant=no_float)
+        document = json.loads(text, parse_float=no_float, parse_constant=no_float, object_pairs_hook=once)
     except (ValueError, RecursionError) as error:
         raise NoProof(f"it is no JSON document: {error}") from error
     if not isinstance(document, dict) or not isinstance(document.get("equipod_proof"), str):
@@ -1254,8 +1648,13 @@ def read(text: str) -> dict[str, Any]:
     return document
 
 
-def run(path: str, say: Callable[[str], None] = print) -> int:
+def run(path: str, write: Callable[[str], None] = print) -> int:
     """Checks a file, says each claim, and gives the exit code."""
+
+    def say(text: str) -> None:
+        # a name in the file writes no line of its own
+        write("".join(letter if letter.isprintable() else " " for letter in text))
+
     # Exact numbers of a proof may have more digits than Python converts by default.
     if hasattr(sys, "set_int_max_str_digits"):
         sys.set_int_max_str_digits(1_000_000)

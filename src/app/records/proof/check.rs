@@ -62,6 +62,9 @@ impl ProofFile {
             Theorem::SharedJoints { .. } => Some(BoundWord::SharedJoints),
             Theorem::Octahedral if shares_all_joints(legs) => Some(BoundWord::SharedJoints),
             Theorem::FiveOnALine | Theorem::FourOnALine => Some(BoundWord::JointsOnALine),
+            Theorem::AffineHexagons => Some(BoundWord::AffineHexagons),
+            // butterflies count more than once, which the checker does not know
+            Theorem::PointsAtInfinity { butterflies: 0, .. } => Some(BoundWord::PointsAtInfinity),
             _ => None,
         };
         let (id, poses) = (format!("bound-{}", k + 1), theorem.bound());

@@ -14,7 +14,7 @@ use serde::Serialize;
 use num::algebraic::Algebraic;
 use num::exact::{Rational, determinant, rational, relations};
 use platform::geom::Pose;
-use platform::manipulator::{ExactLegs, Level, Manipulator};
+use platform::manipulator::{Body, ExactLegs, Level, Manipulator};
 use synthesis::singularity::RationalPose;
 
 use super::SCHEMA_VERSION;
@@ -125,17 +125,79 @@ enum Claim {
         region: Box<RegionText>,
         trees: Vec<String>,
     },
+    /// The gap of any two legs without a shared joint is the clearance and this margin at every pose of a region.
+    LegClearance {
+        design: usize,
+        at_least: String,
+        clearance: String,
+        body: LegBodyText,
+        region: Box<RegionText>,
+        pairs: Vec<PairText>,
+    },
+    /// Every leg force under each load is the limit less this margin at most, at every pose of a region. Moments are
+    /// divided by the unit.
+    LegForce {
+        design: usize,
+        at_least: String,
+        limit: String,
+        unit: String,
+        region: Box<RegionText>,
+        loads: Vec<LoadText>,
+    },
     /// `det J` is nonzero at every pose of a region, by a tiling; moments are divided by the unit.
     RegularRegion { design: usize, region: Box<RegionText>, unit: String, tree: String },
 }
 
-/// A region of poses about home: half widths of the translation and of the rotation vector, base frame.
+/// The poses `R = exp([w]x) R_home`, `p = p_home + d + R_home q - R q` with the pivot `q`, platform frame.
+///
+/// The intervals of `d` and `w`, base frame, are measured from home; an ellipsoid touches them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct RegionText {
     shape: Region,
     home: PoseText,
-    translation: [String; 3],
-    rotation_deg: [String; 3],
+    pivot: [String; 3],
+    translation: [[String; 2]; 3],
+    rotation_deg: [[String; 2]; 3],
+}
+
+/// The body of each leg: all points within half a diameter of the cylinder, which begins at the base joint, or of the
+/// rod, which continues to the platform joint. Without rod the cylinder is the whole leg.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct LegBodyText {
+    diameter: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cylinder_length: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rod_diameter: Option<String>,
+}
+
+/// A force at a point of the platform frame and a torque, which keep their direction in the frame of a body, with the
+/// weights of the legs and the tiling.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct LoadText {
+    name: String,
+    force: [String; 3],
+    torque: [String; 3],
+    at: [String; 3],
+    fixed_to: Body,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    leg_weights: Option<LegWeightsText>,
+    tree: String,
+}
+
+/// The force `rod + (moment - u (u . moment)) / q` on the platform joint of each leg with length `q` and direction `u`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct LegWeightsText {
+    rod: [String; 3],
+    moment: [String; 3],
+}
+
+/// The tiling for two legs, from 1, and a direction for each pair of their parts on each cell.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct PairText {
+    legs: [usize; 2],
+    tree: String,
+    directions: String,
 }
 
 /// Exactly one pose lies within `radius` of the centre, and no other within `uniqueness_radius`.
@@ -182,6 +244,8 @@ enum BoundWord {
     SixLegs,
     SharedJoints,
     JointsOnALine,
+    AffineHexagons,
+    PointsAtInfinity,
 }
 
 /// An exact pose: the rotation of a quaternion of any norm, scalar part first, and a position.
@@ -227,7 +291,10 @@ impl Claim {
             | Self::Complete { .. }
             | Self::NoPose { .. } => "completeness.md",
             Self::Root(_) | Self::Distinct { .. } => "certificates.md",
-            Self::Margin { .. } | Self::MarginOverRegion { .. } => "requirements.md",
+            Self::Margin { .. }
+            | Self::MarginOverRegion { .. }
+            | Self::LegClearance { .. }
+            | Self::LegForce { .. } => "requirements.md",
             Self::RegularRegion { .. } => "parallel-singularities.md",
         }
     }

@@ -1,7 +1,8 @@
 //! Tilings of a region of poses: cells, on each of which one inequality proves a requirement.
 //!
-//! Points of the region have coordinates in the cube `[-1, 1]^6`: translation and rotation vector over their half
-//! widths. A cell with the middle `z` and half widths `h` is proved by the mean value form
+//! Points of the region have coordinates in the cube `[-1, 1]^6`: distances of translation and rotation vector from the
+//! middle of the region, over the half widths. Platform points are measured from the pivot, so that the translation
+//! moves the pivot alone. A cell with the middle `z` and half widths `h` is proved by the mean value form
 //!
 //! ```text
 //! f(x) >= f(z) - sum_k |c_k| h_k - sum_k r_k h_k,       slopes over the cell within r_k of c_k.
@@ -14,6 +15,9 @@
 //! [`prove_telling`](super::prove_telling) need fewer cells; these are so simple that another program can check them.
 //! The program `equipod-check` does, with the same formulas in integers.
 
+mod force;
+mod pair;
+
 use nalgebra::{Matrix6, Vector3};
 
 use super::{PoseSpace, Region};
@@ -23,7 +27,7 @@ use platform::geom::enclosed::{IntervalMatrix, IntervalVector, Rotation, apply, 
 use platform::geom::{cosine, turn, turn_slope};
 use platform::manipulator::{Body, Manipulator};
 
-/// Greatest number of cells of a tiling: a second of the program that checks it is about a thousand cells.
+/// Greatest number of cells of a tiling: the program that checks it takes one to thirty milliseconds for a cell.
 const MOST_CELLS: usize = 3000;
 /// Greatest square of a rotation vector; the coefficients of rotations are monotone up to it.
 const LARGEST_TURN: f64 = 20.0;
@@ -59,11 +63,16 @@ pub enum LegRequirement {
 pub struct TiledRegion {
     region: Region,
     home: Rotation,
+    /// The pivot, platform frame.
+    pivot: Vector3<f64>,
+    /// The pivot at home.
     position: IntervalVector,
-    /// Half widths: translation, then rotation in radians.
+    /// Middle of translation and rotation vector, measured from home, design units and radians.
+    middle: [Interval; 6],
+    /// Half widths of the same.
     widths: [Interval; 6],
     base: [IntervalVector; 6],
-    /// Platform joints rotated to home.
+    /// Platform joints measured from the pivot, rotated to home.
     platform: [IntervalVector; 6],
     /// Length by which moments are divided.
     unit: f64,
@@ -125,26 +134,31 @@ fn sum(u: &IntervalVector, v: &IntervalVector) -> IntervalVector {
 }
 
 impl TiledRegion {
-    /// `None` without a region, for rotations too large for the formulas, and for a region that has not home in its
-    /// middle or rotates about a pivot.
+    /// `None` for rotations too large for the formulas. A space without region has its home.
     #[must_use]
     pub fn new(m: &Manipulator, space: &PoseSpace) -> Option<Self> {
-        let turns = [0, 1, 2].map(|k| radians(space.rotation_deg[k]));
-        let largest: f64 = turns.iter().map(|w| w.hi() * w.hi()).sum();
-        let about_home = space.middle.iter().chain(&space.pivot).all(|x| *x == 0.0);
-        if space.axes().is_empty() || !about_home || largest > 0.99 * LARGEST_TURN {
+        let in_units = |k: usize, x: f64| if k < 3 { Interval::from(x) } else { radians(x) };
+        let middle: [Interval; 6] = std::array::from_fn(|k| in_units(k, space.middle[k]));
+        let widths: [Interval; 6] = std::array::from_fn(|k| {
+            in_units(k, if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3] })
+        });
+        let largest: f64 = (3..6).map(|k| (middle[k].magnitude() + widths[k].magnitude()).powi(2)).sum();
+        if largest > 0.99 * LARGEST_TURN {
             return None;
         }
         let home = exact_rotation(&space.home);
         let ends: [[IntervalVector; 2]; 6] = std::array::from_fn(|i| m.enclosed_ends(i));
-        let translation = [0, 1, 2].map(|k| Interval::from(space.translation[k]));
+        let pivot = <[f64; 3]>::from(space.pivot).map(Interval::from);
+        let origin = <[f64; 3]>::from(space.home.position).map(Interval::from);
         Some(Self {
             region: space.region,
             home,
-            position: <[f64; 3]>::from(space.home.position).map(Interval::from),
-            widths: std::array::from_fn(|k| if k < 3 { translation[k] } else { turns[k - 3] }),
+            pivot: space.pivot,
+            position: sum(&origin, &apply(&home, &pivot)),
+            middle,
+            widths,
             base: ends.map(|[base, _]| base),
-            platform: ends.map(|[_, platform]| apply(&home, &platform)),
+            platform: ends.map(|[_, platform]| apply(&home, &minus(&platform, &pivot))),
             unit: 2f64.powi(m.platform_rms_radius().max(f64::MIN_POSITIVE).log2().round() as i32),
         })
     }
@@ -162,16 +176,16 @@ impl TiledRegion {
     /// follows. A point is a proved cell, an `x` one outside the ellipsoid.
     #[must_use]
     pub fn leg_tiling(&self, leg: usize, required: LegRequirement) -> Option<String> {
-        self.tiling(&|ends| self.leg_cell(leg, required, ends))
+        self.tiling(&mut |ends| self.leg_cell(leg, required, ends))
     }
 
     /// A tiling that proves `det J` nonzero at every pose of the region.
     #[must_use]
     pub fn regular_tiling(&self) -> Option<String> {
-        self.tiling(&|ends| self.regular_cell(ends))
+        self.tiling(&mut |ends| self.regular_cell(ends))
     }
 
-    fn tiling(&self, prove: &dyn Fn(&Ends) -> Split) -> Option<String> {
+    fn tiling(&self, prove: &mut dyn FnMut(&Ends) -> Split) -> Option<String> {
         let half = self.widths.map(|w| if w == Interval::ZERO { 0.0 } else { 1.0 });
         let mut open = vec![Ends { low: half.map(|h| -h), high: half }];
         let (mut tree, mut cells) = (String::new(), 0);
@@ -205,7 +219,7 @@ impl TiledRegion {
     fn cell(&self, ends: &Ends) -> Cell {
         let x: [Interval; 6] = std::array::from_fn(|k| {
             let ends = Interval::new(ends.low[k], ends.high[k]).unwrap_or(Interval::WHOLE);
-            ends * self.widths[k]
+            self.middle[k] + ends * self.widths[k]
         });
         let w = [x[3], x[4], x[5]];
         let position = sum(&self.position, &[x[0], x[1], x[2]]);
@@ -328,7 +342,8 @@ impl TiledRegion {
         (!proved).then(|| widest(&|k| size(k) * ends.half(k)))
     }
 
-    /// Rows `(n, R b x n / unit)` of the leg lines, moments about the platform origin; `R b x n = R b x (p - a)`.
+    /// Rows `(n, R b x n / unit)` of the leg lines, moments about the pivot; `R b x n = R b x (p - a)` with joints `b`
+    /// measured from the pivot and its position `p`.
     fn lines(&self, cell: &Cell) -> IntervalMatrix {
         std::array::from_fn(|i| {
             let arm = apply(&cell.rotation, &self.platform[i]);
@@ -367,10 +382,10 @@ mod tests {
     use super::*;
     use nalgebra::{Point3, Rotation3};
     use num::Rng;
-    use platform::geom::Pose;
+    use platform::geom::{CoordinateRange, Pose};
     use platform::manipulator::Leg;
 
-    fn hexapod() -> Manipulator {
+    pub(super) fn hexapod() -> Manipulator {
         let joint = |radius: f64, degrees: f64| {
             let (sine, cosine) = degrees.to_radians().sin_cos();
             Point3::new(radius * cosine, radius * sine, 0.0)
@@ -383,7 +398,7 @@ mod tests {
         Manipulator::from_legs(legs).unwrap()
     }
 
-    fn space(region: Region, scale: f64) -> PoseSpace {
+    pub(super) fn space(region: Region, scale: f64) -> PoseSpace {
         PoseSpace {
             region,
             translation: Vector3::new(40.0, 40.0, 30.0) * scale,
@@ -392,11 +407,20 @@ mod tests {
         }
     }
 
+    /// The same about a pivot, to one side of home.
+    pub(super) fn aside(region: Region) -> PoseSpace {
+        let intervals = |ends: [(f64, f64); 3]| ends.map(|(min, max)| CoordinateRange { min, max });
+        let translation = intervals([(-10.0, 40.0), (-30.0, 0.0), (-20.0, 20.0)]);
+        let rotation_deg = intervals([(-2.0, 7.0), (0.0, 0.0), (0.0, 4.0)]);
+        let space = PoseSpace { pivot: Vector3::new(20.0, -10.0, 90.0), ..space(region, 1.0) };
+        space.with_region(region, &translation, &rotation_deg)
+    }
+
     #[test]
     fn what_holds_with_room_is_tiled_and_what_fails_at_a_pose_is_not() {
         let m = hexapod();
-        for region in [Region::Box, Region::Ellipsoid] {
-            let space = space(region, 1.0);
+        let spaces = [Region::Box, Region::Ellipsoid].map(|region| [space(region, 1.0), aside(region)]);
+        for space in spaces.into_iter().flatten() {
             let tiled = TiledRegion::new(&m, &space).unwrap();
             let poses: Vec<Pose> =
                 space.cube_points(300, &mut Rng::new(1)).iter().map(|x| space.pose(x)).collect();
