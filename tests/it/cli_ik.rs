@@ -48,6 +48,24 @@ fn the_record_has_one_pose_or_rows() {
 }
 
 #[test]
+fn a_pose_is_within_limits_only_if_every_requirement_is_met() {
+    let folder = tempfile::tempdir().unwrap();
+    let stiff = folder.path().join("stiff.toml");
+    let text = std::fs::read_to_string(LIMITED).unwrap();
+    let narrow = text.replace("base_cone_angle_deg = 35.0", "base_cone_angle_deg = 10.0");
+    assert_ne!(narrow, text);
+    std::fs::write(&stiff, narrow).unwrap();
+    let stiff = stiff.to_str().unwrap();
+    // the lengths are allowed at both poses, and the joint angles at the first only
+    for (pose, allowed) in [("home", true), ("0,0,212,0,0,40", false)] {
+        let ik = document(&equipod(&["ik", stiff, "--pose", pose, "--json"]));
+        let at = document(&equipod(&["at", stiff, "--pose", pose, "--json"]));
+        assert_eq!((&ik["within_limits"], &at["allowed"]), (&allowed.into(), &allowed.into()), "{ik}");
+        assert!(ik["outside"].is_null(), "{ik}");
+    }
+}
+
+#[test]
 fn angles_of_joints_jacobian_and_margins_stand_beside_the_lengths() {
     let one = document(&equipod(&["ik", LIMITED, "--pose", "5,0,212,0,4,0", "--json"]));
     let joints = &one["joints"];
