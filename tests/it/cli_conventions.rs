@@ -110,8 +110,11 @@ fn tables_in_another_unit_of_length_give_the_same_answers() {
     let row: Vec<String> = meant.iter().rev().map(|l| (l / 1000.0).to_string()).collect();
     let legs = file("l.csv", &format!("l5_m,l4_m,l3_m,l2_m,l1_m,l0_m\n{}\n", row.join(",")));
     let near = asked(&["fk", design.to_str().unwrap(), "--lengths", &legs, "--near", "home"]);
-    let position = numbers(&near["rows"][0]["pose"]["p"]);
+    let position = numbers(&near["rows"][0]["near"]["reached"]["p"]);
     assert!(differ(&position, &[10.0, -20.0, 660.0]) < 1e-6, "{near}");
+    let short = equipod(&["fk", design.to_str().unwrap(), "--lengths", "0.7,0.8,0.7,0.8,0.7,0.8"]);
+    let said = String::from_utf8_lossy(&short.stderr).into_owned();
+    assert!(said.contains("in another unit, or travels?"), "{said}");
     let travel = file("t.csv", "ext1,ext2,ext3,ext4,ext5,ext6\n1,2,3,4,5,6\n");
     let refused = asked(&["fk", design.to_str().unwrap(), "--lengths", &travel]);
     assert!(refused["error"]["help"].as_str().unwrap().contains("least length"), "{refused}");

@@ -3,6 +3,8 @@
 use super::cli_frame::{document, equipod};
 
 const DESIGN: &str = "designs/symmetric-hexapod.toml";
+/// A design without requirements.
+const WITHOUT_LIMITS: &str = "designs/rbt-octahedral.toml";
 /// A design whose legs have limits.
 const LIMITED: &str = "designs/presets/bench-l16.toml";
 
@@ -23,7 +25,9 @@ fn column<'a>(rows: &'a [Vec<String>], name: &str) -> Vec<&'a str> {
 #[test]
 fn lengths_of_poses_are_a_table_without_preamble() {
     let rows = table(&["ik", DESIGN]);
-    assert_eq!(rows[0], ["leg_1_mm", "leg_2_mm", "leg_3_mm", "leg_4_mm", "leg_5_mm", "leg_6_mm"]);
+    let legs = ["leg_1_mm", "leg_2_mm", "leg_3_mm", "leg_4_mm", "leg_5_mm", "leg_6_mm"];
+    assert_eq!((&rows[0][..6], rows[0][6].as_str()), (&legs.map(String::from)[..], "within_limits"));
+    assert_eq!(table(&["ik", WITHOUT_LIMITS])[0].len(), 6);
     assert_eq!(rows.len(), 2);
     // the design has the lengths of its home pose
     let home: f64 = rows[1][0].parse().unwrap();
@@ -38,7 +42,8 @@ fn lengths_of_poses_are_a_table_without_preamble() {
 fn the_record_has_one_pose_or_rows() {
     let one = document(&equipod(&["ik", DESIGN, "--json"]));
     assert_eq!(one["lengths"].as_array().unwrap().len(), 6);
-    assert!(one["within_limits"].is_null() && one["pose"]["R"][0][0] == 1.0);
+    assert!(one["within_limits"] == true && one["pose"]["R"][0][0] == 1.0);
+    assert!(document(&equipod(&["ik", WITHOUT_LIMITS, "--json"]))["within_limits"].is_null());
     let two = document(&equipod(&["ik", LIMITED, "--pose", "home", "--pose", "0,0,1000,0,0,0", "--json"]));
     assert_eq!(two["rows"].as_array().unwrap().len(), 2);
     assert_eq!(two["rows"][1]["within_limits"], false);

@@ -545,7 +545,7 @@ mod tests {
         assert!(why("x,y\n1 cm,2\n3,4\n").contains("`3` has no unit"));
         assert!(why("x_mm,y\n1 cm,2\n3 cm,4\n").contains("`x_mm` is in mm, and its cells are in cm"));
         // one group of three digits may be a decimal
-        assert_eq!(sheet("x;y\n3.100;1,5\n").number("3.100"), None);
+        assert_eq!(sheet("x;y;z\n3.100;1,5;2,5\n").number("3.100"), None);
     }
 
     #[test]

@@ -43,12 +43,35 @@ pub(in crate::app::cli::commands) fn given(
         return Ok(GivenLengths::One(ShownLengths { shown, distances: own }));
     };
     if text.contains(',') || text.parse::<f64>().is_ok() {
-        return six(text, &offsets, &design.units).map(GivenLengths::One).map_err(|message| {
+        let one = six(text, &offsets, &design.units).map_err(|message| {
             Failure::refused("fk::bad_lengths", format!("--lengths: {message}"))
                 .with_help("give six lengths separated by commas, or a CSV file")
-        });
+        })?;
+        doubt_unit(&one, design, context);
+        return Ok(GivenLengths::One(one));
     }
-    rows(Path::new(text), (&offsets, &design.units), context).map(GivenLengths::Rows)
+    let rows = rows(Path::new(text), (&offsets, &design.units), context)?;
+    if let Some(row) = rows.rows.first() {
+        doubt_unit(&row.value, design, context);
+    }
+    Ok(GivenLengths::Rows(rows))
+}
+
+/// Ratio of lengths to those at home from which on they are probably in another unit.
+const DOUBTFUL_RATIO: f64 = 5.0;
+
+/// Notes lengths that are far from those at the home pose of the design.
+fn doubt_unit(given: &ShownLengths, design: &Design, context: &Context) {
+    let Some(home) = design.home.and_then(|home| home.lengths(design.manipulator())) else { return };
+    let mean = |lengths: [f64; 6]| lengths.iter().sum::<f64>() / 6.0;
+    let (own, at_home) = (mean(given.distances.get()), mean(home.get()));
+    let ratio = own / at_home;
+    if !(ratio > 1.0 / DOUBTFUL_RATIO && ratio < DOUBTFUL_RATIO) {
+        context.note(&format!(
+            "The lengths are {own:.3} {units} on average, and at home {at_home:.3} {units}: are they in another unit, or travels?",
+            units = design.units
+        ));
+    }
 }
 
 impl ShownLengths {
