@@ -539,6 +539,7 @@ pub(super) fn read(text: &str) -> Option<Result<PointTable, InvalidPointTable>> 
     let values = named_values(text, &mut guesses)?;
     let bodies = points(&values, &mut guesses)
         .or_else(|| coordinate_lists(&values).map(Ok))
+        .or_else(|| named_legs(&values, &mut guesses))
         .or_else(|| numbered_points(&values, &mut guesses).map(Ok))
         .or_else(|| legs(&values, &mut guesses).map(Ok))
         .or_else(|| polar(&values, text, &mut guesses))?;
@@ -579,6 +580,46 @@ fn coordinate_lists(values: &[(String, ListValue)]) -> Option<[ListedBody; 2]> {
     };
     let bodies: Vec<ListedBody> = bodies.into_iter().map(of).collect::<Option<_>>()?;
     bodies.try_into().ok()
+}
+
+/// Points with names, and six legs as pairs of these names.
+fn named_legs(
+    values: &[(String, ListValue)],
+    guesses: &mut Vec<String>,
+) -> Option<Result<[ListedBody; 2], InvalidPointTable>> {
+    let pair = |value: &ListValue| match value {
+        ListValue::List(list) => match &list[..] {
+            [ListValue::Text(a), ListValue::Text(b)] => Some([a.clone(), b.clone()]),
+            _ => None,
+        },
+        _ => None,
+    };
+    let pairs = |value: &ListValue| match value {
+        ListValue::List(list) if list.len() == 6 => list.iter().map(pair).collect::<Option<Vec<_>>>(),
+        _ => None,
+    };
+    let (at, legs) = values.iter().enumerate().find_map(|(k, (_, value))| Some((k, pairs(value)?)))?;
+    let point = |joint: &String| {
+        let found = values.iter().enumerate().find_map(|(k, (name, value))| {
+            let own =
+                name.strip_suffix(joint.as_str()).is_some_and(|way| way.is_empty() || way.ends_with('_'));
+            let list = value.numbers().filter(|list| own && (2..=3).contains(&list.len()))?;
+            Some((name.clone(), k, point_of(&list)))
+        });
+        found.ok_or_else(|| {
+            let message =
+                format!("`{}` names the joint `{joint}`, which has no list of coordinates", values[at].0);
+            InvalidPointTable::Form(message)
+        })
+    };
+    let body = |end: usize| -> Result<ListedBody, InvalidPointTable> {
+        let joints = legs.iter().map(|leg| point(&leg[end])).collect::<Result<Vec<_>, _>>()?;
+        let name = joints[0].0.chars().filter(|c| !c.is_ascii_digit()).collect();
+        let used = joints.iter().map(|(_, k, _)| *k).chain([at]).collect();
+        Ok(ListedBody { name, points: std::array::from_fn(|leg| joints[leg].2), used })
+    };
+    guesses.push(format!("The legs join the joints that `{}` names.", values[at].0));
+    Some(body(0).and_then(|first| Ok([first, body(1)?])))
 }
 
 /// Single points with a number in their names: `B1 = [..]`, or the members of an object for each body.

@@ -501,6 +501,19 @@ fn what_programs_print_and_write_is_read() {
         let table = read(&text);
         assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
     }
+    // the legs are stated, in another order than that of the numbers
+    let joints = [Body::Base, Body::Platform].map(|b| named(b, "\"", ":").join(", "));
+    let order = [(2, 5), (1, 4), (3, 3), (6, 2), (5, 1), (4, 6)];
+    let stated = order.map(|(a, b)| format!("[\"B{a}\", \"P{b}\"]")).join(", ");
+    let text =
+        format!("{{\"legs\": [{stated}], \"base\": {{{}}}, \"platform\": {{{}}}}}", joints[0], joints[1]);
+    let table = read(&text);
+    for (leg, (a, b)) in table.legs.iter().zip(order) {
+        let meant = [BASE[a - 1], PLATFORM[b - 1]].map(Point3::from);
+        assert_eq!([leg.base, leg.platform], meant, "{:?}", table.guesses);
+    }
+    let why = refusal(&text.replace("\"P6\"]", "\"P7\"]"));
+    assert!(why.contains("the joint `P7`, which has no list of coordinates"), "{why}");
     let scaled = read(&format!("B = 0.5 * [{}];\nP = [{}] * 2;\n", points(BASE), points(PLATFORM)));
     assert_eq!((scaled.legs[3].base.x, scaled.legs[3].platform.x), (-200.74 / 2.0, -195.63 * 2.0));
     assert!(scaled.guesses.iter().any(|g| g.contains("multiplied by 0.5")), "{:?}", scaled.guesses);
