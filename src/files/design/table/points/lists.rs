@@ -561,17 +561,16 @@ fn coordinate_lists(values: &[(String, ListValue)]) -> Option<[ListedBody; 2]> {
         let word = plain(name);
         let Some(axis) = word.chars().last().and_then(|c| "xyz".find(c)) else { continue };
         let stem = word[..word.len() - 1].to_owned();
-        match bodies.iter_mut().find(|(known, _)| *known == stem) {
-            Some((_, places)) => places[axis] = Some(k),
-            None => {
-                let mut places = [None; 3];
-                places[axis] = Some(k);
-                bodies.push((stem, places));
-            }
+        if let Some((_, places)) = bodies.iter_mut().find(|(known, _)| *known == stem) {
+            places[axis] = Some(k);
+        } else {
+            let mut places = [None; 3];
+            places[axis] = Some(k);
+            bodies.push((stem, places));
         }
     }
     let of = |(stem, places): (String, [Option<usize>; 3])| {
-        (places[0]?, places[1]?);
+        let [Some(_), Some(_), _] = places else { return None };
         let list = |place: Option<usize>| place.and_then(|k| values[k].1.numbers());
         let lists = places.map(list);
         let at = |i: usize| lists.each_ref().map(|list| list.as_ref().map_or(0.0, |list| list[i]));
@@ -622,9 +621,12 @@ fn named_legs(
     Some(body(0).and_then(|first| Ok([first, body(1)?])))
 }
 
+/// A point with the number in its name and its place among the values.
+type NumberedPoint = (u64, usize, Point3<f64>);
+
 /// Single points with a number in their names: `B1 = [..]`, or the members of an object for each body.
 fn numbered_points(values: &[(String, ListValue)], guesses: &mut Vec<String>) -> Option<[ListedBody; 2]> {
-    let mut bodies: Vec<(String, Vec<(u64, usize, Point3<f64>)>)> = Vec::new();
+    let mut bodies: Vec<(String, Vec<NumberedPoint>)> = Vec::new();
     for (k, (name, value)) in values.iter().enumerate() {
         let Some(list) = value.numbers().filter(|list| (2..=3).contains(&list.len())) else { continue };
         let Some(number) = only_number(name) else { continue };
@@ -636,7 +638,7 @@ fn numbered_points(values: &[(String, ListValue)], guesses: &mut Vec<String>) ->
         }
     }
     bodies.retain(|(_, joints)| joints.len() == 6);
-    let numbers = |(_, joints): &mut (String, Vec<(u64, usize, Point3<f64>)>)| {
+    let numbers = |(_, joints): &mut (String, Vec<NumberedPoint>)| {
         joints.sort_by_key(|(number, ..)| *number);
         joints.iter().map(|(number, ..)| *number).collect::<Vec<_>>()
     };
@@ -646,7 +648,7 @@ fn numbered_points(values: &[(String, ListValue)], guesses: &mut Vec<String>) ->
         return None;
     }
     guesses.push("Joints with the same number are the ends of one leg.".into());
-    let of = |(name, joints): (String, Vec<(u64, usize, Point3<f64>)>)| ListedBody {
+    let of = |(name, joints): (String, Vec<NumberedPoint>)| ListedBody {
         name,
         points: std::array::from_fn(|i| joints[i].2),
         used: joints.iter().map(|(_, k, _)| *k).collect(),

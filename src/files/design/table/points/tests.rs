@@ -332,7 +332,8 @@ fn joints_with_the_same_number_are_one_leg_wherever_they_stand() {
                     let (name, rest) = line.split_once(',').unwrap();
                     format!("{rest},{name}\n")
                 })
-                .collect::<String>(),
+                .collect::<Vec<_>>()
+                .concat(),
     ] {
         let table = read(&text);
         assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
@@ -343,7 +344,12 @@ fn joints_with_the_same_number_are_one_leg_wherever_they_stand() {
     assert!(refusal(&twice).contains("line 3: leg 1 has two joints of the base"), "{}", refusal(&twice));
     let comma = |x: f64| x.to_string();
     let rows = six(",", "", comma);
-    let rows: String = rows.lines().enumerate().map(|(i, line)| format!("{},{line}\n", i.max(1))).collect();
+    let rows: String = rows
+        .lines()
+        .enumerate()
+        .map(|(i, line)| format!("{},{line}\n", i.max(1)))
+        .collect::<Vec<_>>()
+        .concat();
     let why = refusal(&format!("leg,bx,by,bz,px,py,pz\n{rows}"));
     assert!(why.contains("line 3: leg 1 is there twice"), "{why}");
 }
@@ -355,7 +361,8 @@ fn rows_in_turn_are_told_by_their_heights() {
             let p = if k % 2 == 0 { BASE[k / 2] } else { PLATFORM[k / 2] };
             format!("{},{},{}\n", p[0], p[1], if k % 2 == 0 { 0 } else { 400 })
         })
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let table = read(&turns);
     assert!(is_meant(&table), "{:?}", table.guesses);
     assert_eq!(table.home.unwrap().position.z.to_bits(), 400.0_f64.to_bits());
@@ -372,7 +379,8 @@ fn legs_along_the_columns_are_turned() {
                 let list = body.of((BASE, PLATFORM));
                 format!("{}{}\n", word(body, k % 3), row(list, k % 3))
             })
-            .collect()
+            .collect::<Vec<_>>()
+            .concat()
     };
     let axis = |k: usize| ["x", "y", "z"][k];
     let both = |k: usize| format!("{},{},{}\n", axis(k), row(BASE, k), row(PLATFORM, k));
@@ -386,7 +394,8 @@ fn legs_along_the_columns_are_turned() {
         }),
         // only so both bodies are flat
         rows(&|_, _| String::new()),
-        "joint,B1,B2,B3,B4,B5,B6,P1,P2,P3,P4,P5,P6\n".to_owned() + &(0..3).map(both).collect::<String>(),
+        "joint,B1,B2,B3,B4,B5,B6,P1,P2,P3,P4,P5,P6\n".to_owned()
+            + &(0..3).map(both).collect::<Vec<_>>().concat(),
     ] {
         let table = read(&text);
         assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
@@ -418,7 +427,7 @@ fn units_of_a_table_are_taken_from_every_place_or_refused() {
 fn columns_that_are_not_used_are_named_and_heights_are_z() {
     let with = |header: &str, more: &str| {
         let lines = six(",", "", |x| x.to_string());
-        let lines: String = lines.lines().map(|line| format!("{line},{more}\n")).collect();
+        let lines: String = lines.lines().map(|line| format!("{line},{more}\n")).collect::<Vec<_>>().concat();
         read(&format!("{header}\n{lines}"))
     };
     let table = with("bx,by,bz,px,py,pz,length,n", "450,1");
@@ -428,7 +437,10 @@ fn columns_that_are_not_used_are_named_and_heights_are_z() {
         table.guesses
     );
     let flat = |p: [f64; 3]| format!("{},{}", p[0], p[1]);
-    let lines: String = (0..6).map(|i| format!("{},25,{},-18\n", flat(BASE[i]), flat(PLATFORM[i]))).collect();
+    let lines: String = (0..6)
+        .map(|i| format!("{},25,{},-18\n", flat(BASE[i]), flat(PLATFORM[i])))
+        .collect::<Vec<_>>()
+        .concat();
     let header = "base_x,base_y,base_pin_height,plat_x,plat_y,plat_pin_height";
     let table = read(&format!("{header}\n{lines}"));
     assert_eq!((table.legs[2].base.z, table.legs[2].platform.z), (25.0, -18.0));
@@ -558,12 +570,14 @@ fn faults_name_their_place() {
             .lines()
             .take(6)
             .map(|line| format!("{line}\n"))
-            .collect::<String>()
+            .collect::<Vec<_>>()
+            .concat()
         + "Platform\nleg,x,y,z\n"
         + &in_order([11, 10, 9, 8, 7, 6, 0, 0, 0, 0, 0, 0], |_, i| (i + 1).to_string())
             .lines()
             .take(6)
             .map(|line| format!("{line}\n"))
-            .collect::<String>();
+            .collect::<Vec<_>>()
+            .concat();
     assert!(is_meant(&read(&blocks)));
 }
