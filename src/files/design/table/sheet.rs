@@ -189,6 +189,7 @@ impl CellTable {
     fn take_units_of_cells(&mut self) -> Result<(), InvalidSheet> {
         let width = self.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
         let mut of_columns: Vec<Option<CellUnit>> = vec![None; width];
+        let mut marked = None;
         for (column, known) in of_columns.iter_mut().enumerate() {
             let mut bare = None;
             for row in &mut self.rows {
@@ -210,6 +211,9 @@ impl CellTable {
                     }
                     (Some(unit), _) => *known = Some(unit),
                 }
+                if unit.is_none() && *cell != plain && marked.is_none() {
+                    marked = Some(format!("Marks between thousands are left out: `{cell}` is {plain}."));
+                }
                 *cell = plain;
             }
             if let (Some(unit), Some(place)) = (*known, bare) {
@@ -219,6 +223,7 @@ impl CellTable {
                 )));
             }
         }
+        self.guesses.extend(marked);
         let Some(header) = &mut self.header else {
             let mut units = of_columns.iter().flatten().filter_map(|unit| match unit {
                 CellUnit::Length(label) => Some(*label),
@@ -544,6 +549,8 @@ mod tests {
         assert!(why("x,y\n1 cm,2\n3 mm,4\n").contains("line 3, column 1: `3 mm` is in mm"));
         assert!(why("x,y\n1 cm,2\n3,4\n").contains("`3` has no unit"));
         assert!(why("x_mm,y\n1 cm,2\n3 cm,4\n").contains("`x_mm` is in mm, and its cells are in cm"));
+        let marked = sheet("x;y\n3.100,5;-20\n4;1,5\n").guesses;
+        assert!(marked.iter().any(|g| g.ends_with("`3.100,5` is 3100,5.")), "{marked:?}");
         // one group of three digits may be a decimal
         assert_eq!(sheet("x;y;z\n3.100;1,5;2,5\n").number("3.100"), None);
     }

@@ -495,7 +495,7 @@ fn what_programs_print_and_write_is_read() {
                 .map(|i| format!("  - base: {:?}\n    platform: {:?}\n", leg(i).0, leg(i).1))
                 .concat(),
         format!(
-            "const struct leg legs[6] = {{\n{}\n}};",
+            "struct leg legs[6] = {{\n{}\n}};",
             [0, 1, 2, 3, 4, 5]
                 .map(|i| format!("{{{:?}, {:?}}}", leg(i).0, leg(i).1).replace('[', "{").replace(']', "}"))
                 .join(",\n")
