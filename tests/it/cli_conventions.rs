@@ -90,6 +90,47 @@ fn lengths_of_controllers_come_from_options_columns_and_the_design() {
 }
 
 #[test]
+fn tables_in_another_unit_of_length_give_the_same_answers() {
+    let (folder, design) = machine("");
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let metres = file(
+        "m.csv",
+        "t [s];x [m];y [m];z [m];roll [rad];pitch [rad];yaw [rad]\n0;0,01;-0,02;0,66;0;0;0,1\n",
+    );
+    let turn = 0.1f64.to_degrees();
+    let meant = lengths(&design, &["--pose", &format!("10,-20,660,0,0,{turn}")]);
+    assert!(differ(&lengths(&design, &[&metres]), &meant) < 1e-9);
+    let said = equipod(&["ik", design.to_str().unwrap(), &metres]);
+    let said = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(said.contains("Lengths in m, as the table says, are converted to mm."), "{said}");
+    let row: Vec<String> = meant.iter().rev().map(|l| (l / 1000.0).to_string()).collect();
+    let legs = file("l.csv", &format!("l5_m,l4_m,l3_m,l2_m,l1_m,l0_m\n{}\n", row.join(",")));
+    let near = asked(&["fk", design.to_str().unwrap(), "--lengths", &legs, "--near", "home"]);
+    let position = numbers(&near["rows"][0]["near"]["reached"]["p"]);
+    assert!(differ(&position, &[10.0, -20.0, 660.0]) < 1e-6, "{near}");
+    let short = equipod(&["fk", design.to_str().unwrap(), "--lengths", "0.7,0.8,0.7,0.8,0.7,0.8"]);
+    let said = String::from_utf8_lossy(&short.stderr).into_owned();
+    assert!(said.contains("in another unit, or travels?"), "{said}");
+    let travel = file("t.csv", "ext1,ext2,ext3,ext4,ext5,ext6\n1,2,3,4,5,6\n");
+    let refused = asked(&["fk", design.to_str().unwrap(), "--lengths", &travel]);
+    assert!(refused["error"]["help"].as_str().unwrap().contains("least length"), "{refused}");
+}
+
+#[test]
+fn worst_poses_of_a_design_with_frames_name_their_prefix() {
+    let (_folder, design) = machine(
+        "[frames]\npivot = [0, 0, 50]\n[workspace]\nranges = { x = 5 }\n[hardware]\nleg_length = [500, 1000]\n",
+    );
+    let said = equipod(&["assess", design.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(said.contains("write `base:` before them"), "{said}");
+}
+
+#[test]
 fn pivot_home_up_and_units_mean_what_they_say() {
     let (_folder, design) = machine("");
     let home = lengths(&design, &[]);

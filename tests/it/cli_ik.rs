@@ -3,6 +3,8 @@
 use super::cli_frame::{document, equipod};
 
 const DESIGN: &str = "designs/symmetric-hexapod.toml";
+/// A design without requirements.
+const WITHOUT_LIMITS: &str = "designs/rbt-octahedral.toml";
 /// A design whose legs have limits.
 const LIMITED: &str = "designs/presets/bench-l16.toml";
 
@@ -23,7 +25,9 @@ fn column<'a>(rows: &'a [Vec<String>], name: &str) -> Vec<&'a str> {
 #[test]
 fn lengths_of_poses_are_a_table_without_preamble() {
     let rows = table(&["ik", DESIGN]);
-    assert_eq!(rows[0], ["leg_1_mm", "leg_2_mm", "leg_3_mm", "leg_4_mm", "leg_5_mm", "leg_6_mm"]);
+    let legs = ["leg_1_mm", "leg_2_mm", "leg_3_mm", "leg_4_mm", "leg_5_mm", "leg_6_mm"];
+    assert_eq!((&rows[0][..6], rows[0][6].as_str()), (&legs.map(String::from)[..], "within_limits"));
+    assert_eq!(table(&["ik", WITHOUT_LIMITS])[0].len(), 6);
     assert_eq!(rows.len(), 2);
     // the design has the lengths of its home pose
     let home: f64 = rows[1][0].parse().unwrap();
@@ -38,13 +42,32 @@ fn lengths_of_poses_are_a_table_without_preamble() {
 fn the_record_has_one_pose_or_rows() {
     let one = document(&equipod(&["ik", DESIGN, "--json"]));
     assert_eq!(one["lengths"].as_array().unwrap().len(), 6);
-    assert!(one["within_limits"].is_null() && one["pose"]["R"][0][0] == 1.0);
+    assert!(one["within_limits"] == true && one["pose"]["R"][0][0] == 1.0);
+    assert!(document(&equipod(&["ik", WITHOUT_LIMITS, "--json"]))["within_limits"].is_null());
     let two = document(&equipod(&["ik", LIMITED, "--pose", "home", "--pose", "0,0,1000,0,0,0", "--json"]));
     assert_eq!(two["rows"].as_array().unwrap().len(), 2);
     assert_eq!(two["rows"][1]["within_limits"], false);
     assert_eq!(two["rows"][1]["outside"], serde_json::json!([1, 2, 3, 4, 5, 6]));
     let bad = document(&equipod(&["ik", DESIGN, "--pose", "1,2,3", "--json"]));
     assert_eq!(bad["error"]["code"], "ik::bad_pose");
+}
+
+#[test]
+fn a_pose_is_within_limits_only_if_every_requirement_is_met() {
+    let folder = tempfile::tempdir().unwrap();
+    let stiff = folder.path().join("stiff.toml");
+    let text = std::fs::read_to_string(LIMITED).unwrap();
+    let narrow = text.replace("base_cone_angle_deg = 35.0", "base_cone_angle_deg = 10.0");
+    assert_ne!(narrow, text);
+    std::fs::write(&stiff, narrow).unwrap();
+    let stiff = stiff.to_str().unwrap();
+    // the lengths are allowed at both poses, and the joint angles at the first only
+    for (pose, allowed) in [("home", true), ("0,0,212,0,0,40", false)] {
+        let ik = document(&equipod(&["ik", stiff, "--pose", pose, "--json"]));
+        let at = document(&equipod(&["at", stiff, "--pose", pose, "--json"]));
+        assert_eq!((&ik["within_limits"], &at["allowed"]), (&allowed.into(), &allowed.into()), "{ik}");
+        assert!(ik["outside"].is_null(), "{ik}");
+    }
 }
 
 #[test]

@@ -265,11 +265,13 @@ impl Context {
                 let mut poses = None;
                 let frames =
                     PoseFrames { convention: design.trajectory_frames(), home: design.home_or_default() };
+                let units = design.units.clone();
                 if let Some(trajectory) = &mut design.workspace.trajectory {
                     // the name is relative to the folder of the design
                     let table = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
                     let bytes = files::read_table(&table)?;
-                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", &frames, self)?;
+                    let read =
+                        rows::poses_of(&bytes, &table, "design::bad_trajectory", (&frames, &units), self)?;
                     trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
                     poses = Some((table, bytes));
                 }

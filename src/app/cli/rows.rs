@@ -20,17 +20,19 @@ pub(crate) struct TableName<'a> {
     pub(crate) form: &'static str,
 }
 
-/// Rows read by `record` from a table in any usual notation; guesses about it go to standard error.
+/// Rows read by `record` from a table in any usual notation; guesses about it go to standard error. Lengths are those
+/// of a design in `units`.
 ///
 /// # Errors
 /// Exit 2, naming all bad lines; a table without a record is refused too.
 pub(crate) fn read<T>(
     kind: SeriesKind,
     table: TableName<'_>,
+    units: &str,
     context: &Context,
     record: impl Fn(&str) -> Result<T, String>,
 ) -> Result<TimeSeries<T>, Failure> {
-    told(kind.read(&files::read_table(table.path)?, record), table, context)
+    told(kind.read(&files::read_table(table.path)?, units, record), table, context)
 }
 
 /// The table, with its guesses on standard error.
@@ -52,6 +54,8 @@ fn told<T>(
             InvalidSeries::Order(_) => {
                 "state --rotation-order, such as moving-xyz, fixed-xyz or vector, or rotation_order in [frames]".into()
             }
+            InvalidSeries::Travel(_) => "add the least length of a leg to its travel".into(),
+            InvalidSeries::Unit(..) => "give the design a known unit of length, or the table the unit of the design".into(),
             _ => format!("write {}", table.form),
         };
         Failure::refused(table.code, message).with_help(help)
@@ -67,10 +71,10 @@ fn told<T>(
 pub(crate) fn poses(
     path: &Path,
     code: &'static str,
-    frames: &PoseFrames,
+    (frames, units): (&PoseFrames, &str),
     context: &Context,
 ) -> Result<TimeSeries<Pose>, Failure> {
-    poses_of(&files::read_table(path)?, path, code, frames, context)
+    poses_of(&files::read_table(path)?, path, code, (frames, units), context)
 }
 
 /// The poses of a table read before.
@@ -81,11 +85,11 @@ pub(crate) fn poses_of(
     bytes: &[u8],
     path: &Path,
     code: &'static str,
-    frames: &PoseFrames,
+    (frames, units): (&PoseFrames, &str),
     context: &Context,
 ) -> Result<TimeSeries<Pose>, Failure> {
-    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz, or name the columns x,y,z,u,v,w or surge,sway,heave,roll,pitch,yaw";
-    told(read_poses(bytes, &frames.convention, &frames.home), TableName { path, code, form }, context)
+    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz, or name the columns in the first line: t for times, x,y,z,u,v,w or surge,sway,heave,roll,pitch,yaw";
+    told(read_poses(bytes, &frames.convention, &frames.home, units), TableName { path, code, form }, context)
 }
 
 /// The poses of a table with six lengths each.
@@ -95,13 +99,13 @@ pub(crate) fn poses_of(
 pub(crate) fn poses_with_lengths(
     path: &Path,
     code: &'static str,
-    frames: &PoseFrames,
+    (frames, units): (&PoseFrames, &str),
     context: &Context,
 ) -> Result<TimeSeries<(Pose, [f64; 6])>, Failure> {
     let form = "a pose and six lengths a line: x,y,z,roll_deg,pitch_deg,yaw_deg,l1,..,l6 or x,y,z,qw,qx,qy,qz,l1,..,l6";
     let bytes = files::read_table(path)?;
     told(
-        read_poses_with_lengths(&bytes, &frames.convention, &frames.home),
+        read_poses_with_lengths(&bytes, &frames.convention, &frames.home, units),
         TableName { path, code, form },
         context,
     )

@@ -10,7 +10,7 @@ use super::{
 use ask::{Design, PoseFrames};
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
-use machine::requirements::{JointAngles, LeastMargins, Term, TermKind, Terms};
+use machine::requirements::{JointAngles, LeastMargins, Term, Terms};
 use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{inverse_condition, jacobian};
 
@@ -75,8 +75,9 @@ view! {
         /// angles refer to drives and real axes, and there are no margins.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub drives: Option<DriveLengthsRecord> = None,
-        /// Whether all lengths are within `leg_length`, ends included; null: the design limits none.
-        pub within_limits: Option<bool> = limits.map(|_| outside.is_empty()),
+        /// Whether the pose meets all requirements of the design, the length limits included; null: it has none. For
+        /// joints that are not ideal, whether the drive lengths are within `leg_length`.
+        pub within_limits: Option<bool> = (!margins.is_empty()).then(|| outside.is_empty() && all_met),
         /// Legs outside `leg_length`, from 1.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub outside: Vec<usize> = outside,
@@ -101,7 +102,7 @@ view! {
         #[serde(skip_serializing_if = "Option::is_none")]
         pub uncertainty: Option<PoseUncertaintyRecord> = None,
         /// Least margin by kind of requirement.
-        pub margins: Vec<PoseMarginRecord> = PoseMarginRecord::all(design, terms, pose),
+        pub margins: Vec<PoseMarginRecord> = PoseMarginRecord::least(design, margins),
     }
     /// The record of a pose with these joint distances; `terms` are the requirements of the design.
     pub fn new(
@@ -118,6 +119,8 @@ view! {
             }
             None => Vec::new(),
         };
+        let margins = terms.at(pose);
+        let all_met = meets_all(terms, &margins, pose);
         let offsets = design.leg_offsets();
         let rows = jacobian(m, pose, 1.0);
         let scaled = jacobian(m, pose, design.characteristic_length());
@@ -208,11 +211,23 @@ impl IkRecord {
     }
 }
 
+/// Whether all these margins at a pose are met; a margin of zero to rounding is.
+pub(super) fn meets_all(terms: &Terms<'_>, margins: &[(Term, f64)], pose: &Pose) -> bool {
+    margins
+        .iter()
+        .all(|(term, margin)| *margin > 0.0 || terms.standing(term.kind, *margin, Some(pose)).is_met())
+}
+
 impl PoseMarginRecord {
     /// The least margin of each kind at a pose.
     pub(super) fn all(design: &Design, terms: &Terms<'_>, pose: &Pose) -> Vec<Self> {
+        Self::least(design, terms.at(pose))
+    }
+
+    /// The least of these margins of each kind.
+    fn least(design: &Design, margins: Vec<(Term, f64)>) -> Vec<Self> {
         let mut least = LeastMargins::default();
-        least.see(terms.at(pose), ());
+        least.see(margins, ());
         let record = |(term, margin, ()): (Term, f64, ())| Self {
             name: term.kind,
             margin: Number(margin),

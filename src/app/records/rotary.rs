@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::ik::meets_all;
 use super::{Number, PoseConventionRecord, PoseInFrames, PoseMarginRecord, PoseRecord};
 use ask::{Design, PoseFrames};
 use machine::requirements::Terms;
@@ -38,8 +39,7 @@ pub struct RotaryIkRecord {
     pub angles_deg: Option<[f64; 6]>,
     /// First rod that does not reach; null: all rods reach.
     pub out_of_reach: Option<OutOfReachRecord>,
-    /// Whether all angles are within their limits, ends included; null: a rod does not reach, or the design limits no
-    /// angle.
+    /// Whether the pose meets all requirements of the design, the angle limits included; null: a rod does not reach.
     pub within_limits: Option<bool>,
     /// Legs with cranks beyond their limits, from 1.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -121,7 +121,10 @@ impl RotaryIkRecord {
             margins: PoseMarginRecord::all(design, &terms, pose),
         };
         match platform.both_angles(pose) {
-            Ok(both) => out.add(design, platform, pose, &both),
+            Ok(both) => {
+                out.add(design, platform, pose, &both);
+                out.within_limits = Some(out.outside.is_empty() && meets_all(&terms, &terms.at(pose), pose));
+            }
             Err(missing) => {
                 out.out_of_reach = Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by });
             }
@@ -146,9 +149,6 @@ impl RotaryIkRecord {
         self.cranks = (0..6).map(crank).collect();
         self.angles_deg = Some(kept.map(f64::to_degrees));
         self.outside = platform.beyond_limits(&kept);
-        if legs.iter().any(|leg| leg.limits.is_some()) {
-            self.within_limits = Some(self.outside.is_empty());
-        }
         self.jacobian = platform
             .crank_jacobian(pose, &kept)
             .map(|rows| std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))));

@@ -42,7 +42,7 @@ pub enum NotScaled {
 
 /// The factor of lengths as a fraction in lowest terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct LengthRatio {
+pub(super) struct LengthRatio {
     times: u64,
     over: u64,
 }
@@ -56,12 +56,17 @@ impl LengthRatio {
         Self { times: from / a, over: to / a }
     }
 
+    /// From a unit to another one, by their labels; `None` if one is unknown.
+    pub(super) fn of_labels(from: &str, to: &str) -> Option<Self> {
+        Some(Self::between(micrometres(from)?, micrometres(to)?))
+    }
+
     fn inverse(self) -> Self {
         Self { times: self.over, over: self.times }
     }
 
     /// With one rounding where one of the two numbers is 1.
-    fn of(self, x: f64) -> f64 {
+    pub(super) fn of(self, x: f64) -> f64 {
         x * self.times as f64 / self.over as f64
     }
 

@@ -40,10 +40,11 @@ impl Design {
         let (mut design, _) = parsed(&read(path)?, Format::of_path(path))
             .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
         let (home, frames) = (design.home_or_default(), design.trajectory_frames());
+        let units = design.units.clone();
         if let Some(trajectory) = &mut design.workspace.trajectory {
             let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
             let bytes = std::fs::read(&file).map_err(|source| Error::File { path: file.clone(), source })?;
-            let table = read_poses(&bytes, &frames, &home)
+            let table = read_poses(&bytes, &frames, &home, &units)
                 .map_err(|why| Error::Trajectory { file, bad: why.sentences() })?;
             trajectory.poses = table.rows.into_iter().map(|row| row.value).collect();
         }

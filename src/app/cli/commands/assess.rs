@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::build::drives;
+use crate::app::cli::frames::FrameArgs;
 use crate::app::cli::progress::ProgressLine;
 use crate::app::cli::proof::ProofArgs;
 use crate::app::cli::{Answer, Context, Failure};
@@ -63,6 +64,9 @@ pub(crate) fn run(args: &AssessArgs, context: &mut Context) -> Result<Answer, Fa
         }
         other => Failure::internal(other.to_string()),
     })?;
+    if !FrameArgs::default().of(&design).convention.is_usual() {
+        context.note("Worst poses are x,y,z of the platform origin with roll, pitch, yaw: write `base:` before them in other commands.");
+    }
     args.proof.write(context, || ProofFile::assess(&design, &found))?;
     let lightest_drive = drives::lightest(&args.design, &design, context)?;
     let record = AssessAnswer { lightest_drive, ..AssessAnswer::new(&design, &found) };

@@ -128,9 +128,12 @@ pub(crate) fn run(args: &CalibrateArgs, context: &mut Context) -> Result<Answer,
     let options = args.options();
     let Some(path) = &args.measurements else { return plan(args, &design, &options, context) };
     let mut poses = args.convention.of(&design);
-    let (rows, lines) = measurements(path, &mut poses, context)?;
-    let check =
-        args.check.as_deref().map(|path| measurements(path, &mut poses.clone(), context)).transpose()?;
+    let (rows, lines) = measurements(path, &mut poses, &design.units, context)?;
+    let check = args
+        .check
+        .as_deref()
+        .map(|path| measurements(path, &mut poses.clone(), &design.units, context))
+        .transpose()?;
     let found = design.calibrate(&rows, &options).map_err(|e| failure_of(&e))?;
     let frames = frames(args, &design, &found)?;
     let mut record =
@@ -230,9 +233,10 @@ fn failure_of(error: &Error) -> Failure {
 fn measurements(
     path: &Path,
     poses: &mut PoseFrames,
+    units: &str,
     context: &Context,
 ) -> Result<(Vec<Measurement>, Vec<usize>), Failure> {
-    let series = rows::poses_with_lengths(path, BAD_MEASUREMENTS, poses, context)?;
+    let series = rows::poses_with_lengths(path, BAD_MEASUREMENTS, (poses, units), context)?;
     poses.convention = series.frames;
     note_frames(poses, context);
     let measured = |(pose, lengths): (Pose, [f64; 6])| Measurement { pose, lengths };

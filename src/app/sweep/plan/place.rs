@@ -59,7 +59,7 @@ impl BasePlan {
     /// A text that is no table of poses.
     pub fn with_poses(mut self, table: &[u8]) -> Result<Self, InvalidSeries> {
         let (home, frames) = (self.design.home_or_default(), self.design.trajectory_frames());
-        let read = read_poses(table, &frames, &home)?;
+        let read = read_poses(table, &frames, &home, &self.design.units)?;
         if let Some(own) = &self.design.workspace.trajectory
             && let Ok(place) = self.place(TRAJECTORY)
         {

@@ -11,7 +11,7 @@ use crate::design::violation::Findings;
 const NEAR: f64 = 0.7;
 
 /// Greatest magnitude of a number: its square and fourth power still fit a double.
-pub(super) const LARGEST: f64 = 1e60;
+pub(in crate::design) const LARGEST: f64 = 1e60;
 
 /// Refuses every key that is not in `known`.
 pub fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {

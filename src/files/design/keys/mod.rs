@@ -39,6 +39,7 @@ pub(super) use renamed::give_new_names;
 pub use schema::SCHEMA;
 
 use self::found::FoundKey;
+pub(super) use self::found::LARGEST;
 use self::kind::TEXT;
 use super::Code;
 use super::tree::{Entry, Node, Span, find};

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::header::plain;
+use super::header::{CellUnit, converted, length_unit, plain};
 use super::sheet::{CellTable, InvalidSheet, SheetRow};
 use platform::geom::{AngleUnit, InvalidPose, ListedFrom, Pose, PoseConvention, RotationOrder};
 
@@ -79,6 +79,12 @@ pub enum InvalidSeries {
     /// Columns name each axis once, and the order turns about one of them twice.
     #[error("`{0}` names every axis once, and the rotation order {1} turns about one of them twice")]
     Twice(String, String),
+    /// The unit of a column and that of the design have no known ratio.
+    #[error("`{0}` is in {1}, and the unit `{2}` of the design is not a known one")]
+    Unit(String, &'static str, String),
+    /// Columns of travel where lengths are needed.
+    #[error("`{0}` is a travel and not a length from joint centre to joint centre")]
+    Travel(String),
     /// Rows that cannot be read, each with its line.
     #[error("{}", quoted(.0))]
     Rows(Vec<String>),
@@ -106,6 +112,10 @@ struct SeriesColumns {
     values: Option<Vec<usize>>,
     /// Columns of angles in radians that are read in degrees.
     radians: Vec<usize>,
+    /// Columns of lengths in another unit than that of the design, with their units.
+    foreign: Vec<(usize, &'static str)>,
+    /// The unit of the design.
+    units: String,
     /// The convention of the poses.
     frames: PoseConvention,
     /// The number of named columns; 0 without names.
@@ -117,21 +127,23 @@ impl SeriesKind {
     /// commas.
     ///
     /// A header may name a column of times and, in any order, those of the values. Without names the values are all
-    /// columns except the time, in their order. Lines without numbers before the first row are titles.
+    /// columns except the time, in their order. Lines without numbers before the first row are titles. Lengths in
+    /// another unit than `units`, as a name or a title says, are converted.
     ///
     /// # Errors
     /// [`InvalidSeries`].
     pub fn read<T>(
         self,
         bytes: &[u8],
+        units: &str,
         record: impl Fn(&str) -> Result<T, String>,
     ) -> Result<TimeSeries<T>, InvalidSeries> {
-        read_rows(RowKind::Six(self), bytes, |_, text| record(text))
+        read_rows(RowKind::Six(self), bytes, units, |_, text| record(text))
     }
 }
 
 /// Reads a table of poses in a convention. Names of columns say what it leaves open: the order of `u, v, w`, that
-/// `surge, sway, heave` count from home, the units of angles.
+/// `surge, sway, heave` count from home, the units of angles. Positions become those of the unit of the design.
 ///
 /// # Errors
 /// [`InvalidSeries`].
@@ -139,8 +151,9 @@ pub fn read_poses(
     bytes: &[u8],
     stated: &PoseConvention,
     home: &Pose,
+    units: &str,
 ) -> Result<TimeSeries<Pose>, InvalidSeries> {
-    read_rows(RowKind::Poses { stated, with_lengths: false }, bytes, |frames, text| {
+    read_rows(RowKind::Poses { stated, with_lengths: false }, bytes, units, |frames, text| {
         frames.read_text(text, home).map_err(|why| why.to_string())
     })
 }
@@ -153,8 +166,9 @@ pub fn read_poses_with_lengths(
     bytes: &[u8],
     stated: &PoseConvention,
     home: &Pose,
+    units: &str,
 ) -> Result<TimeSeries<(Pose, [f64; 6])>, InvalidSeries> {
-    read_rows(RowKind::Poses { stated, with_lengths: true }, bytes, |frames, text| {
+    read_rows(RowKind::Poses { stated, with_lengths: true }, bytes, units, |frames, text| {
         let fields: Vec<&str> = text.split(',').collect();
         if !(12..=13).contains(&fields.len()) {
             return Err(format!("{} values instead of a pose and six lengths", fields.len()));
@@ -173,6 +187,7 @@ pub fn read_poses_with_lengths(
 fn read_rows<T>(
     kind: RowKind<'_>,
     bytes: &[u8],
+    units: &str,
     record: impl Fn(&PoseConvention, &str) -> Result<T, String>,
 ) -> Result<TimeSeries<T>, InvalidSeries> {
     let mut sheet = match CellTable::read(bytes, LEAST_NUMBERS) {
@@ -182,7 +197,7 @@ fn read_rows<T>(
     };
     let mut guesses = std::mem::take(&mut sheet.guesses);
     let header = sheet.header.clone().unwrap_or_default();
-    let columns = kind.columns(&header, &mut guesses)?;
+    let columns = kind.columns(&sheet, units, &mut guesses)?;
     let (mut rows, mut bad) = (Vec::new(), Vec::new());
     for row in &sheet.rows {
         let has_numbers = row.cells.iter().any(|c| sheet.number(c).is_some());
@@ -210,23 +225,31 @@ fn read_rows<T>(
 }
 
 impl RowKind<'_> {
-    fn columns(self, header: &[String], guesses: &mut Vec<String>) -> Result<SeriesColumns, InvalidSeries> {
-        let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
+    fn columns(
+        self,
+        sheet: &CellTable,
+        units: &str,
+        guesses: &mut Vec<String>,
+    ) -> Result<SeriesColumns, InvalidSeries> {
+        let header: &[String] = sheet.header.as_deref().unwrap_or_default();
+        let names: Vec<String> = header.iter().map(|name| plain(&numbered_name(name))).collect();
         let time = names.iter().position(|name| is_time(name));
-        let is_in_radians = |c: usize| angle_unit_of(&header[c]) == Some(AngleUnit::Radians);
         let mut frames = PoseConvention::default();
         let mut radians = Vec::new();
         let values = match self {
-            Self::Six(SeriesKind::Lengths) => numbered_columns(&names, &LENGTH_WORDS),
-            Self::Six(SeriesKind::Angles) => {
-                let found = numbered_columns(&without_angle_units(&names), &ANGLE_WORDS);
-                radians.extend(found.iter().flatten().copied().filter(|c| is_in_radians(*c)));
+            Self::Six(SeriesKind::Lengths) => {
+                let found = numbered_columns(&names, &LENGTH_WORDS);
+                if let Some(travel) = found.iter().flatten().find(|c| is_travel(&names[**c])) {
+                    return Err(InvalidSeries::Travel(header[*travel].clone()));
+                }
                 found
             }
+            Self::Six(SeriesKind::Angles) => numbered_columns(&without_angle_units(&names), &ANGLE_WORDS),
             Self::Poses { stated, with_lengths } => {
                 frames = *stated;
                 let lengths = with_lengths.then(|| numbered_columns(&names, &LENGTH_WORDS));
-                let found = named_pose(header, &names, stated)?.filter(|_| lengths != Some(None));
+                let titled = PoseConvention { angles: stated.angles.or(sheet.angle_unit), ..*stated };
+                let found = named_pose(header, &names, &titled)?.filter(|_| lengths != Some(None));
                 found.map(|named| {
                     frames = named.frames;
                     guesses.extend(named.guesses);
@@ -235,21 +258,33 @@ impl RowKind<'_> {
                 })
             }
         };
-        guesses.extend(time.map(|c| format!("The column `{}` holds times.", header[c])));
-        let header_says_radians = match self {
-            Self::Six(_) => !radians.is_empty(),
-            Self::Poses { .. } => {
-                let angles = values.iter().flat_map(|list| list.iter().skip(3).take(3));
-                angles.copied().any(is_in_radians)
+        let width = sheet.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
+        let in_order: Vec<usize> = (0..width).filter(|c| Some(*c) != time).collect();
+        let taken = values.as_ref().unwrap_or(&in_order);
+        let is_in_radians = |c: &usize| {
+            let named = header.get(*c).and_then(|name| angle_unit_of(name));
+            named.or(sheet.angle_unit) == Some(AngleUnit::Radians)
+        };
+        let angles: &[usize] = match self {
+            Self::Six(SeriesKind::Angles) => taken,
+            Self::Six(SeriesKind::Lengths) => &[],
+            // three angles, and not the four numbers of a quaternion
+            Self::Poses { with_lengths, .. } => {
+                let end = taken.len().saturating_sub(if with_lengths { LEGS } else { 0 });
+                if end == 6 { &taken[3..6] } else { &[] }
             }
         };
-        if header_says_radians {
-            guesses.push("The angles are in radians, as the header says.".into());
+        let is_read_in_degrees = values.is_none() && frames.angles.is_none();
+        if matches!(self, Self::Six(_)) || is_read_in_degrees {
+            radians.extend(angles.iter().copied().filter(is_in_radians));
         }
-        if values.is_none() && !header.is_empty() && matches!(self, Self::Poses { .. }) {
-            guesses.push(
-                "The names of the columns say nothing about poses: the columns are taken in order.".into(),
-            );
+        guesses.extend(time.map(|c| format!("The column `{}` holds times.", header[c])));
+        if !angles.is_empty() && angles.iter().any(is_in_radians) {
+            guesses.push("The angles are in radians, as the table says.".into());
+        }
+        let foreign = self.foreign_lengths(sheet, taken, units, guesses)?;
+        if values.is_none() {
+            guesses.extend(self.order_taken(&frames, in_order.len(), !header.is_empty()));
         }
         let unused = (0..header.len())
             .filter(|c| Some(*c) != time && values.as_ref().is_some_and(|list| !list.contains(c)));
@@ -257,7 +292,74 @@ impl RowKind<'_> {
         if !unused.is_empty() {
             guesses.push(format!("These columns are not used: {}.", unused.join(", ")));
         }
-        Ok(SeriesColumns { time, values, radians, frames, named: header.len() })
+        Ok(SeriesColumns {
+            time,
+            values,
+            radians,
+            foreign,
+            units: units.to_owned(),
+            frames,
+            named: header.len(),
+        })
+    }
+
+    /// The columns of lengths in another unit than that of the design.
+    ///
+    /// # Errors
+    /// A unit without a known ratio to that of the design.
+    fn foreign_lengths(
+        self,
+        sheet: &CellTable,
+        taken: &[usize],
+        units: &str,
+        guesses: &mut Vec<String>,
+    ) -> Result<Vec<(usize, &'static str)>, InvalidSeries> {
+        let lengths: Vec<usize> = match self {
+            Self::Six(SeriesKind::Lengths) => taken.to_vec(),
+            Self::Six(SeriesKind::Angles) => Vec::new(),
+            Self::Poses { with_lengths, .. } => {
+                let after = if with_lengths { taken.len().saturating_sub(LEGS).max(3) } else { taken.len() };
+                taken.iter().take(3).chain(taken.iter().skip(after)).copied().collect()
+            }
+        };
+        let header: &[String] = sheet.header.as_deref().unwrap_or_default();
+        let mut foreign = Vec::new();
+        for c in lengths {
+            let name = header.get(c).map_or("", String::as_str);
+            let Some(unit) = length_unit(name).or(sheet.length_unit).filter(|unit| *unit != units) else {
+                continue;
+            };
+            if converted(1.0, unit, units).is_none() {
+                return Err(InvalidSeries::Unit(name.to_owned(), unit, units.to_owned()));
+            }
+            foreign.push((c, unit));
+        }
+        let mut said: Vec<&str> = foreign.iter().map(|(_, unit)| *unit).collect();
+        said.dedup();
+        guesses.extend(
+            said.iter()
+                .map(|unit| format!("Lengths in {unit}, as the table says, are converted to {units}.")),
+        );
+        Ok(foreign)
+    }
+
+    /// The guess about columns without known names.
+    fn order_taken(self, frames: &PoseConvention, count: usize, named: bool) -> Option<String> {
+        let Self::Poses { with_lengths, .. } = self else { return None };
+        let rotation = match count.saturating_sub(if with_lengths { LEGS } else { 0 }) {
+            6 => format!("three angles of the order {}", frames.order()),
+            7 => frames.quaternion_order().written(["qw", "qx", "qy", "qz"]).join(","),
+            _ => return None,
+        };
+        let order = format!("x,y,z,{rotation}");
+        // three angles without names are the usual form of a table
+        match (named, count) {
+            (true, _) => Some(format!(
+                "The names of the columns say nothing about poses: the columns are taken in the order {order}."
+            )),
+            (false, 7) => Some(format!("The columns are taken in the order {order}.")),
+            (false, _) => None,
+        }
     }
 }
 
@@ -281,8 +383,12 @@ impl SeriesColumns {
             Some(list) => list.iter().copied().filter(|c| *c < row.cells.len()).collect(),
             None => (0..row.cells.len()).filter(|c| Some(*c) != self.time).collect(),
         };
-        let value = |c: usize| match sheet.number(cell(c)) {
-            Some(angle) if self.radians.contains(&c) => format!("{:?}", angle.to_degrees()),
+        let unit = |c: usize| self.foreign.iter().find(|(column, _)| *column == c).map(|(_, unit)| *unit);
+        let value = |c: usize| match (sheet.number(cell(c)), unit(c)) {
+            (Some(angle), _) if self.radians.contains(&c) => format!("{:?}", angle.to_degrees()),
+            (Some(length), Some(unit)) => {
+                format!("{:?}", converted(length, unit, &self.units).unwrap_or(f64::NAN))
+            }
             _ => sheet.with_point(cell(c)),
         };
         let values: Vec<String> = columns.into_iter().map(value).collect();
@@ -294,6 +400,21 @@ fn is_time(name: &str) -> bool {
     name.starts_with("time") || ["t", "ts", "tms", "sec", "seconds", "zeit", "zeits"].contains(&name)
 }
 
+/// Whether a plain name is that of a travel, which is a length less the least one.
+fn is_travel(name: &str) -> bool {
+    ["stroke", "ext", "travel", "hub", "course"].iter().any(|word| name.starts_with(word))
+}
+
+/// A name whose number stands in brackets: `position[0]`.
+fn numbered_name(name: &str) -> String {
+    match name.trim().strip_suffix(']').and_then(|head| head.split_once('[')) {
+        Some((word, number)) if word.ends_with(char::is_alphanumeric) && number.parse::<u8>().is_ok() => {
+            format!("{word}{number}")
+        }
+        _ => name.to_owned(),
+    }
+}
+
 /// Column names of leg lengths.
 const LENGTH_WORDS: [&str; 3] = ["leg", "len", "l"];
 /// Column names of crank angles.
@@ -301,6 +422,9 @@ const ANGLE_WORDS: [&str; 7] = ["crank", "angle", "motor", "servo", "theta", "al
 
 /// The unit of angles at the end of a name, in brackets or not.
 fn angle_unit_of(name: &str) -> Option<AngleUnit> {
+    if let Some(CellUnit::Angle(unit)) = name.rsplit(['[', '(']).next().and_then(CellUnit::of) {
+        return Some(unit);
+    }
     let letters: String = name.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
     let ends = |words: [&str; 3]| words.iter().any(|word| letters.ends_with(word));
     if ends(["rad", "radian", "radians"]) {
@@ -317,19 +441,19 @@ fn without_angle_units(names: &[String]) -> Vec<String> {
     names.iter().map(less).collect()
 }
 
-/// The six columns with one word and the numbers 1 to 6, in the order of the numbers. A known word selects one of
-/// several such lists.
+/// The six columns with one word and the numbers 1 to 6, or 0 to 5, in the order of the numbers. A known word selects
+/// one of several such lists.
 fn numbered_columns(names: &[String], known: &[&str]) -> Option<Vec<usize>> {
     let parted: Vec<(&str, &str)> =
         names.iter().map(|n| n.split_at(n.trim_end_matches(|c: char| c.is_ascii_digit()).len())).collect();
     let of = |word: &str| -> Option<Vec<usize>> {
-        let column = |k: usize| {
+        let column = |k: u8| {
             let mut found =
                 (0..parted.len()).filter(|c| parted[*c].0 == word && parted[*c].1.parse() == Ok(k));
             let one = found.next()?;
             if found.next().is_none() { Some(one) } else { None }
         };
-        (1..=6).map(column).collect()
+        (1..=6).map(column).collect::<Option<_>>().or_else(|| (0..=5).map(column).collect())
     };
     // of several lists, such as lengths beside speeds, choose the one with a known word
     let words = parted.iter().map(|(word, _)| *word).filter(|word| !word.is_empty());
@@ -340,6 +464,13 @@ fn numbered_columns(names: &[String], known: &[&str]) -> Option<Vec<usize>> {
     words.sort_by_key(|word| !called(word));
     words.into_iter().find_map(of)
 }
+
+/// Names of the turn about x, in several languages.
+const ROLL_WORDS: [&str; 5] = ["roll", "rollen", "rollwinkel", "wanken", "roulis"];
+/// Names of the turn about y.
+const PITCH_WORDS: [&str; 6] = ["pitch", "nick", "nicken", "nickwinkel", "stampfen", "tangage"];
+/// Names of the turn about z.
+const YAW_WORDS: [&str; 5] = ["yaw", "gier", "gieren", "gierwinkel", "lacet"];
 
 /// The columns of poses that names tell.
 struct NamedPose {
@@ -367,10 +498,23 @@ fn named_pose(
         let [x, y, z] = list;
         Some([x?, y?, z?])
     };
-    let by_words = |words: [&str; 3]| all(words.map(|word| column(&[word])));
-    let usual = [["x", "px", "posx", "tx"], ["y", "py", "posy", "ty"], ["z", "pz", "posz", "tz"]];
-    let usual = all(usual.map(|words| column(&words)));
-    let motions = by_words(["surge", "sway", "heave"]);
+    let by_words = |words: [&[&str]; 3]| all(words.map(column));
+    let with_stem = |stem: &str| {
+        let [w, x, y, z] = ["w", "x", "y", "z"].map(|axis| {
+            names.iter().position(|name| name.strip_suffix(axis).is_some_and(|head| head == stem))
+        });
+        (w, all([x, y, z]))
+    };
+    let stems: Vec<&str> = names.iter().filter_map(|name| name.strip_suffix('x')).collect();
+    let is_position = |stem: &&&str| {
+        ["", "p", "pos", "t", "trans"].contains(*stem)
+            || ["position", "translation"].iter().any(|end| stem.ends_with(end))
+    };
+    // x, y, z beside w are a quaternion if there is another position
+    let alone = stems.iter().filter(is_position).find(|stem| with_stem(stem).0.is_none());
+    let chosen = alone.or_else(|| stems.iter().find(is_position));
+    let usual = chosen.and_then(|stem| with_stem(stem).1);
+    let motions = by_words([&["surge"], &["sway"], &["heave"]]);
     let Some(position) = usual.or(motions) else { return Ok(None) };
     let (mut frames, mut guesses, mut radians) = (*stated, Vec::new(), Vec::new());
     if usual.is_none() && stated.relative_to.is_none() {
@@ -380,11 +524,22 @@ fn named_pose(
         );
     }
     let mut columns = position.to_vec();
-    let quaternion = ["qw", "qx", "qy", "qz"].map(|word| column(&[word]));
-    let roll = by_words(["roll", "pitch", "yaw"]);
-    let uvw = by_words(["u", "v", "w"]);
-    let rotations = by_words(["rx", "ry", "rz"]);
-    if let (None, [Some(w), Some(x), Some(y), Some(z)]) = (roll, quaternion) {
+    let by_stem = stems.iter().filter(|stem| Some(*stem) != chosen).find_map(|stem| {
+        let (w, [x, y, z]) = (with_stem(stem).0?, with_stem(stem).1?);
+        Some([w, x, y, z])
+    });
+    let by_units = || Some([column(&["qr", "qw"])?, column(&["qi"])?, column(&["qj"])?, column(&["qk"])?]);
+    let by_number = || Some([column(&["q0"])?, column(&["q1"])?, column(&["q2"])?, column(&["q3"])?]);
+    let roll = by_words([&ROLL_WORDS, &PITCH_WORDS, &YAW_WORDS]);
+    let uvw = by_words([&["u"], &["v"], &["w"]]);
+    let is_rotation = |stem: &&&str| {
+        ["r", "rot", "rotation", "rvec", "theta", "phi", "angle", "ang", "euler", "tilt"].contains(*stem)
+    };
+    let rotations = stems.iter().filter(is_rotation).find_map(|stem| with_stem(stem).1);
+    if let (None, Some([w, x, y, z])) = (roll, by_stem.or_else(by_units).or_else(by_number)) {
+        if by_stem.is_none() && by_units().is_none() {
+            guesses.push("`q0` is the scalar part of the quaternion.".into());
+        }
         columns.extend(frames.quaternion_order().written([w, x, y, z]));
         return Ok(Some(NamedPose { columns, frames, radians, guesses }));
     }
@@ -430,7 +585,7 @@ mod tests {
     }
 
     fn read(kind: SeriesKind, text: &str) -> TimeSeries<Vec<f64>> {
-        kind.read(text.as_bytes(), numbers).unwrap_or_else(|why| panic!("{why}\n{text}"))
+        kind.read(text.as_bytes(), "mm", numbers).unwrap_or_else(|why| panic!("{why}\n{text}"))
     }
 
     #[test]
@@ -461,7 +616,7 @@ mod tests {
     }
 
     fn poses(text: &str, stated: &PoseConvention) -> TimeSeries<Pose> {
-        read_poses(text.as_bytes(), stated, &home()).unwrap_or_else(|why| panic!("{why}\n{text}"))
+        read_poses(text.as_bytes(), stated, &home(), "mm").unwrap_or_else(|why| panic!("{why}\n{text}"))
     }
 
     fn usual(text: &str) -> TimeSeries<Pose> {
@@ -484,7 +639,7 @@ mod tests {
         assert!(moved.guesses.iter().any(|g| g.contains("count from home")));
         assert_eq!((moved.rows[0].value, moved.frames.measured_from()), (home(), ListedFrom::Home));
         let text = "x,y,z,rx,ry,rz\n1,2,3,4,5,6\n";
-        let unclear = read_poses(text.as_bytes(), &PoseConvention::default(), &home());
+        let unclear = read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm");
         assert!(matches!(unclear, Err(InvalidSeries::Order(names)) if names == "rx, ry, rz"));
     }
 
@@ -504,10 +659,14 @@ mod tests {
             }
             assert_eq!(poses(&format!("1,2,3,{plain}\n"), &convention).rows[0].value, meant);
         }
-        let twice = read_poses(table("rx,ry,rz").as_bytes(), &stated("moving-zxz"), &home());
+        let twice = read_poses(table("rx,ry,rz").as_bytes(), &stated("moving-zxz"), &home(), "mm");
         assert!(matches!(twice, Err(InvalidSeries::Twice(..))), "{twice:?}");
         let unnamed = poses(&table("alpha,beta,gamma"), &stated("moving-zxz"));
-        assert!(unnamed.guesses.iter().any(|g| g.contains("taken in order")), "{:?}", unnamed.guesses);
+        assert!(
+            unnamed.guesses.iter().any(|g| g.contains("taken in the order x,y,z,three angles")),
+            "{:?}",
+            unnamed.guesses
+        );
     }
 
     #[test]
@@ -551,7 +710,7 @@ mod tests {
     fn poses_with_lengths_are_read_by_names_and_by_places() {
         let read = |text: &str| {
             let stated = PoseConvention::default();
-            let table = read_poses_with_lengths(text.as_bytes(), &stated, &home());
+            let table = read_poses_with_lengths(text.as_bytes(), &stated, &home(), "mm");
             table.unwrap_or_else(|why| panic!("{why}")).rows.remove(0).value
         };
         let pose = Pose::new([10.0, 20.0, 30.0], platform::geom::Angles::from_radians([1.0, 0.0, 0.0]));
@@ -567,11 +726,84 @@ mod tests {
     }
 
     #[test]
+    fn lengths_of_other_units_are_converted_and_said() {
+        let meant = usual("x,y,z,roll,pitch,yaw\n250,20,400.5,1,2,3\n").rows[0].value;
+        for text in [
+            "t,x [m],y [m],z [m],roll,pitch,yaw\n0,0.25,0.02,0.4005,1,2,3\n",
+            "t,x_cm,y_mm,z_m,roll,pitch,yaw\n0,25,20,0.4005,1,2,3\n",
+            "t,x,y,z,roll,pitch,yaw\ns,m,m,m,deg,deg,deg\n0,0.25,0.02,0.4005,1,2,3\n",
+            "Log, positions in m\nx,y,z,roll,pitch,yaw\n0.25,0.02,0.4005,1,2,3\n",
+            "a [m],b [m],c [m],d,e,f\n0.25,0.02,0.4005,1,2,3\n",
+        ] {
+            let found = usual(text);
+            assert_eq!(found.rows[0].value, meant, "{text}");
+            assert!(found.guesses.iter().any(|g| g.contains("converted to mm")), "{:?}", found.guesses);
+        }
+        let lengths = read(SeriesKind::Lengths, "l0_m,l1_m,l2_m,l3_m,l4_m,l5_m\n0.25,1,2,3,4,5\n");
+        assert_eq!(lengths.rows[0].value, [250.0, 1000.0, 2000.0, 3000.0, 4000.0, 5000.0]);
+        let unknown = SeriesKind::Lengths.read(b"l1_m,l2_m,l3_m,l4_m,l5_m,l6_m\n1,2,3,4,5,6\n", "1", numbers);
+        assert!(matches!(unknown, Err(InvalidSeries::Unit(name, "m", _)) if name == "l1_m"));
+        let both = "x [m],y [m],z [m],roll,pitch,yaw,l1,l2,l3,l4,l5,l6\n0.25,0.02,0.4005,1,2,3,1,2,3,4,5,6\n";
+        let both =
+            read_poses_with_lengths(both.as_bytes(), &PoseConvention::default(), &home(), "mm").unwrap();
+        assert_eq!(both.rows[0].value, (meant, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    }
+
+    #[test]
+    fn units_of_angles_hold_wherever_they_are_written() {
+        let meant = usual("x,y,z,roll_rad,pitch_rad,yaw_rad\n10,20,30,0.1,0.2,0.3\n").rows[0].value;
+        for text in [
+            "t,x,y,z,roll,pitch,yaw\ns,mm,mm,mm,rad,rad,rad\n0,10,20,30,0.1,0.2,0.3\n",
+            "angles in rad\nx,y,z,roll,pitch,yaw\n10,20,30,0.1,0.2,0.3\n",
+            "a,b,c,d [rad],e [rad],f [rad]\n10,20,30,0.1,0.2,0.3\n",
+            "x,y,z,gier [rad],nick [rad],roll [rad]\n10,20,30,0.3,0.2,0.1\n",
+        ] {
+            let (found, meant) = (usual(text).rows[0].value, meant);
+            let apart = (found.rotation.matrix() - meant.rotation.matrix()).amax();
+            assert!(apart < 1e-15, "{text} {apart}");
+        }
+        let degrees = usual("x,y,z,roll [\u{b0}],pitch [\u{b0}],yaw [\u{b0}]\n0,0,0,0,0,90\n").rows[0].value;
+        assert!((degrees.angles().degrees()[2] - 90.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn quaternions_are_read_by_their_letters_in_any_order() {
+        let meant = usual("x,y,z,qw,qx,qy,qz\n1,2,3,0.5,0.1,-0.7,0.5\n").rows[0].value;
+        for names in [
+            "pose.position.x,pose.position.y,pose.position.z,pose.orientation.x,pose.orientation.y,pose.orientation.z,pose.orientation.w",
+            "x,y,z,qi,qj,qk,qr",
+            "tx,ty,tz,quat_x,quat_y,quat_z,quat_w",
+        ] {
+            let text = format!("{names}\n1,2,3,0.1,-0.7,0.5,0.5\n");
+            assert_eq!(usual(&text).rows[0].value, meant, "{names}");
+        }
+        assert_eq!(usual("x,y,z,q0,q1,q2,q3\n1,2,3,0.5,0.1,-0.7,0.5\n").rows[0].value, meant);
+        let unnamed = usual("1,2,3,0.5,0.1,-0.7,0.5\n");
+        assert!(unnamed.guesses.iter().any(|g| g.contains("x,y,z,qw,qx,qy,qz")), "{:?}", unnamed.guesses);
+        let angles = "x,y,z,theta_x,theta_y,theta_z\n1,2,3,4,5,6\n";
+        let unclear = read_poses(angles.as_bytes(), &PoseConvention::default(), &home(), "mm");
+        assert!(matches!(unclear, Err(InvalidSeries::Order(_))), "{unclear:?}");
+    }
+
+    #[test]
+    fn legs_may_count_from_0_and_travels_are_refused() {
+        let reversed = "l5,l4,l3,l2,l1,l0\n6,5,4,3,2,1\n";
+        let meant = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        assert_eq!(read(SeriesKind::Lengths, reversed).rows[0].value, meant);
+        let states = "name,position[1],position[0],position[2],position[3],position[4],position[5]\nlegs,2,1,3,4,5,6\n";
+        assert_eq!(read(SeriesKind::Lengths, states).rows[0].value, meant);
+        let travel = SeriesKind::Lengths.read(b"ext1,ext2,ext3,ext4,ext5,ext6\n1,2,3,4,5,6\n", "mm", numbers);
+        assert!(matches!(travel, Err(InvalidSeries::Travel(name)) if name == "ext1"));
+    }
+
+    #[test]
     fn every_bad_row_is_named() {
         let text = "t,1,2,3,4,5,6\n0,1,2,3,4,5,6\n1,2,3\n?,1,2,3,4,5,6\n3,1,2,x,4,5,6\n";
-        let Err(why) =
-            SeriesKind::Lengths.read(text.replace("1,2,3,4,5,6\n0", "a,b,c,d,e,f\n0").as_bytes(), numbers)
-        else {
+        let Err(why) = SeriesKind::Lengths.read(
+            text.replace("1,2,3,4,5,6\n0", "a,b,c,d,e,f\n0").as_bytes(),
+            "mm",
+            numbers,
+        ) else {
             panic!()
         };
         let sentences = why.sentences();
@@ -580,8 +812,8 @@ mod tests {
             ["line 3: 2 values", "line 4: `?` is not a time", "line 5: `x` is not a number"]
         );
         let named = "l1,l2,l3,l4,l5,l6\n1,2,3,4,5\n1,2,3,4,5,6,7\n";
-        let why = SeriesKind::Lengths.read(named.as_bytes(), numbers).unwrap_err();
+        let why = SeriesKind::Lengths.read(named.as_bytes(), "mm", numbers).unwrap_err();
         assert_eq!(why.to_string(), "line 2: 5 values; line 3: 7 cells below 6 names of columns");
-        assert_eq!(SeriesKind::Lengths.read(b"a,b\n", numbers), Err(InvalidSeries::Empty));
+        assert_eq!(SeriesKind::Lengths.read(b"a,b\n", "mm", numbers), Err(InvalidSeries::Empty));
     }
 }

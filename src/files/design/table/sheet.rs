@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
+use super::header::{CellUnit, length_unit, units_in_title};
 use super::text::{decode, is_workbook};
+use platform::geom::AngleUnit;
 
 /// A row of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +22,10 @@ pub(super) struct CellTable {
     pub header: Option<Vec<String>>,
     /// All rows below the header, those without numbers included.
     pub rows: Vec<SheetRow>,
+    /// The unit of lengths, from the cells of a table without header or from a title or comment above the numbers.
+    pub length_unit: Option<&'static str>,
+    /// The unit of angles, from the same places.
+    pub angle_unit: Option<AngleUnit>,
     /// The guesses, one sentence each.
     pub guesses: Vec<String>,
     decimal: char,
@@ -40,6 +46,9 @@ pub enum InvalidSheet {
     /// No row has enough numbers.
     #[error("no line has {0} numbers or more")]
     NoNumbers(usize),
+    /// A column in several units.
+    #[error("{0}")]
+    Units(String),
 }
 
 /// Separators of cells, the surest first: a comma or a blank may also be part of a number or of a name.
@@ -64,7 +73,7 @@ impl CellTable {
             text = lines;
         }
         let present = |c: char| if c == ' ' { true } else { text.contains(c) };
-        let mut best: Option<(usize, char, char, Vec<SheetRow>)> = None;
+        let mut best: Option<([usize; 3], char, char, Vec<SheetRow>)> = None;
         let mut fault = None;
         for (separator, _) in SEPARATORS.into_iter().filter(|(c, _)| present(*c)) {
             let records = match records(&text, separator) {
@@ -76,12 +85,18 @@ impl CellTable {
             };
             for decimal in ['.', ','] {
                 let numbers =
-                    |row: &SheetRow| row.cells.iter().filter(|c| number(c, decimal).is_some()).count();
-                let rows = records.iter().filter(|row| !is_comment(row));
-                // count every number, so that `1,5 2,5` is two numbers with decimal commas and not two beside a cell
-                // `5 2`
-                let found: usize = rows.map(numbers).filter(|n| *n >= least).sum();
-                if found > best.as_ref().map_or(0, |(n, ..)| *n) {
+                    |row: &SheetRow| row.cells.iter().filter(|c| quantity(c, decimal).is_some()).count();
+                let counts: Vec<usize> = records
+                    .iter()
+                    .filter(|row| !is_comment(row))
+                    .map(numbers)
+                    .filter(|n| *n >= least)
+                    .collect();
+                // the names `Base 1` have blanks beside tabs; count every number, so that `1,5 2,5` is two numbers
+                // with decimal commas and not two beside a cell `5 2`
+                let sure = usize::from(!", ".contains(separator));
+                let found = [counts.len(), sure, counts.iter().sum()];
+                if !counts.is_empty() && best.as_ref().is_none_or(|(known, ..)| found > *known) {
                     best = Some((found, separator, decimal, records.clone()));
                 }
             }
@@ -100,15 +115,19 @@ impl CellTable {
                 format!("The comma marks the decimals: `{cell}` is {}.", cell.replacen(',', ".", 1))
             }));
         }
-        Ok(Self::with_header(records, decimal, least, guesses))
+        let mut sheet = Self::with_header(records, decimal, least, guesses);
+        sheet.take_units_row();
+        sheet.take_units_of_cells()?;
+        Ok(sheet)
     }
 
     /// Separates the names of the columns from the rows.
     fn with_header(records: Vec<SheetRow>, decimal: char, least: usize, guesses: Vec<String>) -> Self {
         let is_data = |row: &SheetRow| {
-            !is_comment(row) && row.cells.iter().filter(|c| number(c, decimal).is_some()).count() >= least
+            !is_comment(row) && row.cells.iter().filter(|c| quantity(c, decimal).is_some()).count() >= least
         };
-        let mut sheet = Self { header: None, rows: Vec::new(), guesses, decimal };
+        let mut sheet =
+            Self { header: None, rows: Vec::new(), length_unit: None, angle_unit: None, guesses, decimal };
         let first = records.iter().position(is_data).unwrap_or(records.len());
         let columns = records.get(first).map_or(0, |row| row.cells.len());
         for (i, row) in records.into_iter().enumerate() {
@@ -117,11 +136,119 @@ impl CellTable {
                 i < first && sheet.header.is_none().then(|| uncommented(&row).len() >= columns) == Some(true);
             if named && uncommented(&row).iter().all(|c| number(c, decimal).is_none()) && columns > 1 {
                 sheet.header = Some(uncommented(&row));
-            } else if !is_comment(&row) {
+                continue;
+            }
+            if i < first {
+                let (length, angle) = units_in_title(&row.cells.join(" "));
+                sheet.length_unit = sheet.length_unit.or(length);
+                sheet.angle_unit = sheet.angle_unit.or(angle);
+            }
+            if !is_comment(&row) {
                 sheet.rows.push(row);
             }
         }
         sheet
+    }
+
+    /// Adds a row of units below the names of the columns to these names.
+    fn take_units_row(&mut self) {
+        let Some(header) = &mut self.header else { return };
+        let times = ["s", "sec", "ms"];
+        let Some((at, units)) = self.rows.iter().enumerate().find_map(|(at, row)| {
+            let units: Vec<Option<CellUnit>> = row.cells.iter().map(|cell| CellUnit::of(cell)).collect();
+            let other = |cell: &String| {
+                let plain = cell.trim_matches(|c| "[]()".contains(c));
+                times.contains(&plain) || plain.chars().all(|c| "-\u{2013}/1".contains(c))
+            };
+            let all = row.cells.iter().zip(&units).all(|(cell, unit)| unit.is_some() || other(cell));
+            (all && units.iter().any(Option::is_some)).then_some((at, units))
+        }) else {
+            return;
+        };
+        if self.rows[..at].iter().any(|row| row.cells.iter().any(|c| number(c, self.decimal).is_some())) {
+            return;
+        }
+        let row = self.rows.remove(at);
+        for ((name, cell), unit) in header.iter_mut().zip(&row.cells).zip(units) {
+            let word = unit.map_or_else(|| cell.trim_matches(|c| "[]()".contains(c)), |unit| unit.word());
+            if unit.is_some() || times.contains(&word) {
+                *name = format!("{name} [{word}]");
+            }
+        }
+        self.guesses.push(format!(
+            "Line {}, `{}`, has the units of the columns.",
+            row.line,
+            row.cells.join(" ")
+        ));
+    }
+
+    /// Removes the units and the marks of thousands from the cells; the names of the columns get the units.
+    ///
+    /// # Errors
+    /// A column with several units, or with a number without one.
+    fn take_units_of_cells(&mut self) -> Result<(), InvalidSheet> {
+        let width = self.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
+        let mut of_columns: Vec<Option<CellUnit>> = vec![None; width];
+        let mut marked = None;
+        for (column, known) in of_columns.iter_mut().enumerate() {
+            let mut bare = None;
+            for row in &mut self.rows {
+                let Some(cell) = row.cells.get_mut(column) else { continue };
+                let Some((plain, unit)) = quantity(cell, self.decimal) else { continue };
+                let place = format!("line {}, column {}: `{cell}`", row.line, column + 1);
+                match (unit, *known) {
+                    (None, _) => {
+                        // zero is zero in every unit
+                        let is_zero = number(&plain, self.decimal) == Some(0.0);
+                        bare = bare.or(Some(place).filter(|_| !is_zero));
+                    }
+                    (Some(unit), Some(other)) if unit != other => {
+                        return Err(InvalidSheet::Units(format!(
+                            "{place} is in {}, and other cells of the column are in {}",
+                            unit.word(),
+                            other.word()
+                        )));
+                    }
+                    (Some(unit), _) => *known = Some(unit),
+                }
+                if unit.is_none() && *cell != plain && marked.is_none() {
+                    marked = Some(format!("Marks between thousands are left out: `{cell}` is {plain}."));
+                }
+                *cell = plain;
+            }
+            if let (Some(unit), Some(place)) = (*known, bare) {
+                let unit = unit.word();
+                return Err(InvalidSheet::Units(format!(
+                    "{place} has no unit, and other cells are in {unit}"
+                )));
+            }
+        }
+        self.guesses.extend(marked);
+        let Some(header) = &mut self.header else {
+            let mut units = of_columns.iter().flatten().filter_map(|unit| match unit {
+                CellUnit::Length(label) => Some(*label),
+                CellUnit::Angle(_) => None,
+            });
+            let first = units.next();
+            if let (Some(first), Some(other)) = (first, units.find(|unit| Some(*unit) != first)) {
+                return Err(InvalidSheet::Units(format!("some columns are in {first} and some in {other}")));
+            }
+            self.length_unit = first.or(self.length_unit);
+            return Ok(());
+        };
+        for (name, unit) in header.iter_mut().zip(of_columns) {
+            let Some(unit) = unit else { continue };
+            match length_unit(name) {
+                Some(said) if said == unit.word() => {}
+                Some(said) => {
+                    let unit = unit.word();
+                    let message = format!("the column `{name}` is in {said}, and its cells are in {unit}");
+                    return Err(InvalidSheet::Units(message));
+                }
+                None => *name = format!("{name} [{}]", unit.word()),
+            }
+        }
+        Ok(())
     }
 
     /// The number in a cell; `None` if it is invalid or not finite.
@@ -156,6 +283,42 @@ fn number(cell: &str, decimal: char) -> Option<f64> {
         _ => cell,
     };
     cell.parse().ok().filter(|x: &f64| x.is_finite())
+}
+
+/// A number without marks of thousands, and the unit behind it: `310.0 mm`, `3.100,5`, `12\u{b0}`.
+fn quantity(cell: &str, decimal: char) -> Option<(String, Option<CellUnit>)> {
+    if number(cell, decimal).is_some() {
+        return Some((cell.to_owned(), None));
+    }
+    let head = cell.trim().trim_end_matches(|c: char| c.is_alphabetic() || c == '\u{b0}');
+    let unit = &cell.trim()[head.len()..];
+    let unit = if unit.is_empty() { None } else { Some(CellUnit::of(unit)?) };
+    let head = head.trim();
+    let plain =
+        if number(head, decimal).is_some() { head.to_owned() } else { without_thousands(head, decimal)? };
+    Some((plain, unit))
+}
+
+/// The number without its marks of thousands. `3.100` alone may be a decimal: a mark between digits counts only beside
+/// a decimal mark, or twice, or if it is a blank or an apostrophe.
+fn without_thousands(cell: &str, decimal: char) -> Option<String> {
+    let (whole, rest) = match cell.split_once(decimal) {
+        Some((whole, rest)) => (whole, Some(rest)),
+        None => (cell, None),
+    };
+    let digits = whole.trim_start_matches(['+', '-', '\u{2212}']);
+    let mark = digits.chars().find(|c| !c.is_ascii_digit())?;
+    let sure = mark == '\'' || mark == '\u{2019}' || mark.is_whitespace();
+    if !(sure || mark == if decimal == '.' { ',' } else { '.' }) {
+        return None;
+    }
+    let groups: Vec<&str> = digits.split(mark).collect();
+    let grouped = (1..=3).contains(&groups[0].len()) && groups[1..].iter().all(|group| group.len() == 3);
+    if !(grouped && (sure || rest.is_some() || groups.len() > 2)) {
+        return None;
+    }
+    let plain = cell.replace(mark, "");
+    number(&plain, decimal).is_some().then_some(plain)
 }
 
 fn is_comment(row: &SheetRow) -> bool {
@@ -360,6 +523,42 @@ mod tests {
         assert_eq!(why("a,b\nc,d\n"), InvalidSheet::NoNumbers(2));
         assert_eq!(why(""), InvalidSheet::NoNumbers(2));
         assert_eq!(why("1,inf\n2,nan\n"), InvalidSheet::NoNumbers(2));
+    }
+
+    #[test]
+    fn units_and_thousands_are_read_with_the_numbers() {
+        let meant = vec![vec![3100.5, -20.0], vec![12345678.0, 0.0]];
+        for text in [
+            "x,y\n\"3,100.5\",-20\n\"12,345,678\",0\n",
+            "x;y\n3.100,5;-20\n12.345.678;0\n",
+            "x;y\n3'100.5;-20\n12'345'678;0\n",
+            "x;y\n3\u{202f}100,5;-20\n12\u{a0}345\u{a0}678;0\n",
+            "x\ty\n3100.5 mm\t-20mm\n12345678 mm\t0\n",
+            "x,y\nmm,-\n3100.5,-20\n12345678,0\n",
+        ] {
+            assert_eq!(numbers(text), meant, "{text}");
+        }
+        let names = |text: &str| CellTable::read(text.as_bytes(), 2).unwrap().header.unwrap().join("/");
+        assert_eq!(names("t,x,y\ns,mm,deg\n0,1,2\n"), "t [s]/x [mm]/y [deg]");
+        assert_eq!(names("x,y\n1 cm,2\n3 cm,4\n"), "x [cm]/y");
+        let sheet = |text: &str| CellTable::read(text.as_bytes(), 2).unwrap();
+        assert_eq!(sheet("1 cm,2 cm\n3 cm,4 cm\n").length_unit, Some("cm"));
+        let titled = sheet("lengths in inch, angles in rad\nx,y,z\n1,2,3\n");
+        assert_eq!((titled.length_unit, titled.angle_unit), (Some("in"), Some(AngleUnit::Radians)));
+        let why = |text: &str| CellTable::read(text.as_bytes(), 2).unwrap_err().to_string();
+        assert!(why("x,y\n1 cm,2\n3 mm,4\n").contains("line 3, column 1: `3 mm` is in mm"));
+        assert!(why("x,y\n1 cm,2\n3,4\n").contains("`3` has no unit"));
+        assert!(why("x_mm,y\n1 cm,2\n3 cm,4\n").contains("`x_mm` is in mm, and its cells are in cm"));
+        let marked = sheet("x;y\n3.100,5;-20\n4;1,5\n").guesses;
+        assert!(marked.iter().any(|g| g.ends_with("`3.100,5` is 3100,5.")), "{marked:?}");
+        // one group of three digits may be a decimal
+        assert_eq!(sheet("x;y;z\n3.100;1,5;2,5\n").number("3.100"), None);
+    }
+
+    #[test]
+    fn names_with_numbers_do_not_hide_the_tabs() {
+        let sheet = CellTable::read(b"Name\tX\tY\tZ\nBase 1\t1\t2\t3\nBase 2\t4\t5\t6\n", 2).unwrap();
+        assert_eq!(sheet.rows[1].cells, ["Base 2", "4", "5", "6"]);
     }
 
     #[test]

@@ -44,7 +44,9 @@ fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg
         return Ok(TimeSeries::of_rows(rows));
     }
     let form = "six angles in degrees a line: a1,a2,a3,a4,a5,a6";
-    rows::read(SeriesKind::Angles, TableName { path: Path::new(text), code: BAD_ANGLES, form }, context, six)
+    let table = TableName { path: Path::new(text), code: BAD_ANGLES, form };
+    // angles have no unit of length
+    rows::read(SeriesKind::Angles, table, "", context, six)
 }
 
 /// Poses for the angles of the options.

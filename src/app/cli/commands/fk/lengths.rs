@@ -43,12 +43,35 @@ pub(in crate::app::cli::commands) fn given(
         return Ok(GivenLengths::One(ShownLengths { shown, distances: own }));
     };
     if text.contains(',') || text.parse::<f64>().is_ok() {
-        return six(text, &offsets, &design.units).map(GivenLengths::One).map_err(|message| {
+        let one = six(text, &offsets, &design.units).map_err(|message| {
             Failure::refused("fk::bad_lengths", format!("--lengths: {message}"))
                 .with_help("give six lengths separated by commas, or a CSV file")
-        });
+        })?;
+        doubt_unit(&one, design, context);
+        return Ok(GivenLengths::One(one));
     }
-    rows(Path::new(text), (&offsets, &design.units), context).map(GivenLengths::Rows)
+    let rows = rows(Path::new(text), (&offsets, &design.units), context)?;
+    if let Some(row) = rows.rows.first() {
+        doubt_unit(&row.value, design, context);
+    }
+    Ok(GivenLengths::Rows(rows))
+}
+
+/// Ratio of lengths to those at home from which on they are probably in another unit.
+const DOUBTFUL_RATIO: f64 = 5.0;
+
+/// Notes lengths that are far from those at the home pose of the design.
+fn doubt_unit(given: &ShownLengths, design: &Design, context: &Context) {
+    let Some(home) = design.home.and_then(|home| home.lengths(design.manipulator())) else { return };
+    let mean = |lengths: [f64; 6]| lengths.iter().sum::<f64>() / 6.0;
+    let (own, at_home) = (mean(given.distances.get()), mean(home.get()));
+    let ratio = own / at_home;
+    if !(ratio > 1.0 / DOUBTFUL_RATIO && ratio < DOUBTFUL_RATIO) {
+        context.note(&format!(
+            "The lengths are {own:.3} {units} on average, and at home {at_home:.3} {units}: are they in another unit, or travels?",
+            units = design.units
+        ));
+    }
 }
 
 impl ShownLengths {
@@ -80,9 +103,8 @@ fn rows(
     context: &Context,
 ) -> Result<TimeSeries<ShownLengths>, Failure> {
     let form = "six lengths a line: l1,l2,l3,l4,l5,l6";
-    rows::read(SeriesKind::Lengths, TableName { path, code: "fk::bad_lengths", form }, context, |text| {
-        six(text, offsets, units)
-    })
+    let table = TableName { path, code: "fk::bad_lengths", form };
+    rows::read(SeriesKind::Lengths, table, units, context, |text| six(text, offsets, units))
 }
 
 #[cfg(test)]
@@ -94,18 +116,18 @@ mod tests {
     fn csv_takes_a_header_comments_and_names_all_bad_lines() {
         let good = "l1,l2,l3,l4,l5,l6\n\n# note\n1,2,3,4,5,6\n 6, 5,4,3,2,1.5 \r\n";
         let found =
-            SeriesKind::Lengths.read(good.as_bytes(), |text| six(text, &[0.0; 6], "mm")).unwrap().rows;
+            SeriesKind::Lengths.read(good.as_bytes(), "mm", |text| six(text, &[0.0; 6], "mm")).unwrap().rows;
         assert_eq!(found.iter().map(|r| r.line).collect::<Vec<_>>(), [4, 5]);
         assert!((found[1].value.shown[5] - 1.5).abs() < 1e-15);
         let bad = "1,2,3,4,5,6\n1,2,3\n1,2,x,4,5,6\n1,2,3,4,5,-6\n1,2,3,4,5,inf\n";
         let why = SeriesKind::Lengths
-            .read(bad.as_bytes(), |text| six(text, &[0.0; 6], "mm"))
+            .read(bad.as_bytes(), "mm", |text| six(text, &[0.0; 6], "mm"))
             .unwrap_err()
             .to_string();
         for line in ["line 2: 3 values", "line 3: value 3 is not a length: `x`", "line 4: ", "and 1 more"] {
             assert!(why.contains(line), "{why}");
         }
-        let header_alone = SeriesKind::Lengths.read(b"a,b\n", |text| six(text, &[0.0; 6], "mm"));
+        let header_alone = SeriesKind::Lengths.read(b"a,b\n", "mm", |text| six(text, &[0.0; 6], "mm"));
         assert_eq!(header_alone, Err(InvalidSeries::Empty), "a header alone is no data");
     }
 

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failur
     let design = context.load_with_cranks(&args.design)?;
     let frames = args.frames.of(&design);
     let (mut series, one) = match &args.poses {
-        Some(path) => (rows::poses(path, BAD_POSE, &frames, context)?, false),
+        Some(path) => (rows::poses(path, BAD_POSE, (&frames, &design.units), context)?, false),
         None => (named(&args.pose, &frames)?, args.pose.len() < 2),
     };
     if args.poses.is_none() {
@@ -146,7 +146,7 @@ fn details(record: &IkRecord, units: &str) -> Vec<(String, f64)> {
 /// The lengths, one pose on each line, in the order given.
 fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_details: bool) -> String {
     let unit = column_unit(&design.units);
-    let limited = design.hardware.leg_length.is_some();
+    let limited = records.first().is_some_and(|record| record.within_limits.is_some());
     let mut header: Vec<String> = time_name.map(str::to_string).into_iter().collect();
     // the controller's lengths come first; `fk --near` reads these columns
     if records.first().is_some_and(|r| r.drives.is_some()) {

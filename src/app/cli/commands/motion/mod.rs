@@ -110,7 +110,10 @@ impl<'a> ChosenMotions<'a> {
         let frames = self.frames.of(design);
         if let Some(path) = self.trajectory {
             let ends = if self.at_rest { PathEnds::AtRest } else { PathEnds::Free };
-            let motion = PlatformMotion::Path(trajectory(path, ends, &frames, context)?, self.steps as usize);
+            let motion = PlatformMotion::Path(
+                trajectory(path, ends, (&frames, &design.units), context)?,
+                self.steps as usize,
+            );
             out.push((files::shown(path), motion));
         }
         let about = about(self.about, &frames)?;
@@ -246,7 +249,7 @@ fn stiffness(
 fn trajectory(
     path: &Path,
     ends: PathEnds,
-    frames: &PoseFrames,
+    frames: (&PoseFrames, &str),
     context: &Context,
 ) -> Result<PosePath, Failure> {
     let series = rows::poses(path, BAD_TRAJECTORY, frames, context)?;

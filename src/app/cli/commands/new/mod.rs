@@ -218,6 +218,10 @@ fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
             "new::bad_model",
             "write the twelve joint centres as a table: a row for each leg, x, y, z of its base end and of its platform end, each in the frame of its body or both at home",
         ),
+        InvalidPointTable::Computed => (
+            "new::bad_table",
+            "print the joints in your program and read its output, or write the numbers out",
+        ),
         InvalidPointTable::Step => (
             "new::bad_step",
             "measure the twelve joint centres in the CAD program and write them as a table: a row for each leg, x, y, z of its base end and of its platform end",

@@ -16,6 +16,9 @@ use crate::design::table::placed::{extent, order_of, trailing_number};
 /// Points and axes of joints within this times the size of the end of a leg go through it.
 pub(super) const SAME_POINT: f64 = 1e-9;
 
+/// Greatest distance of joints at the end of a leg, over the size: models are often written with six digits.
+const ROUNDED_POINT: f64 = 1e-5;
+
 /// The legs of a model.
 #[derive(Debug)]
 pub(super) struct ModelLegs {
@@ -30,6 +33,8 @@ pub(super) struct ModelLegs {
 struct NamedLeg {
     name: String,
     ends: [Point3<f64>; 2],
+    /// Distance of the joints at an end, 0 if they meet.
+    apart: f64,
 }
 
 /// All joints between two groups.
@@ -190,7 +195,13 @@ impl ModelLegs {
         let by = if order.is_some() { "by the numbers in their names" } else { "as they stand in the file" };
         let order = order.unwrap_or_else(|| (0..6).collect());
         let names: Vec<&str> = order.iter().map(|k| legs[*k].name.as_str()).collect();
-        let guesses = vec![format!("The legs are the six {what} {}, in order {by}.", names.join(", "))];
+        let mut guesses = vec![format!("The legs are the six {what} {}, in order {by}.", names.join(", "))];
+        let apart = legs.iter().map(|leg| leg.apart).fold(0.0, f64::max);
+        if apart > 0.0 {
+            guesses.push(format!(
+                "Joints at the end of a leg pass up to {apart:.1e} from each other: the nearest point is the end."
+            ));
+        }
         let ends: Vec<[Point3<f64>; 2]> = order.iter().map(|k| legs[*k].ends).collect();
         let ends = ends.try_into().map_err(|_| counted(model))?;
         Ok(Self { ends, platform, guesses })
@@ -238,6 +249,7 @@ fn by_slides(model: &Mechanism, slides: &[&ModelJoint]) -> Result<(usize, Vec<Na
     for (slide, ways) in slides.iter().zip(&ways) {
         let rotations = [0, 1].map(|k| ways[k].iter().map(|link| link.rotations()).sum::<usize>());
         let mut ends = [Point3::origin(); 2];
+        let mut widest = 0.0_f64;
         for ((way, body), (end, free)) in
             ways.iter().zip(["base", "platform"]).zip(ends.iter_mut().zip(rotations))
         {
@@ -250,7 +262,7 @@ fn by_slides(model: &Mechanism, slides: &[&ModelJoint]) -> Result<(usize, Vec<Na
                     slide.name
                 ));
             };
-            if !(apart <= SAME_POINT * size) {
+            if !(apart <= ROUNDED_POINT * size) {
                 return Err(format!(
                     "the joints between slide `{}` and the {body} pass {apart} from each other: the end of a leg is one point",
                     slide.name
@@ -263,6 +275,9 @@ fn by_slides(model: &Mechanism, slides: &[&ModelJoint]) -> Result<(usize, Vec<Na
                 ));
             }
             *end = point;
+            if apart > SAME_POINT * size {
+                widest = widest.max(apart);
+            }
         }
         if rotations[0] + rotations[1] < 5 {
             return Err(format!(
@@ -270,7 +285,7 @@ fn by_slides(model: &Mechanism, slides: &[&ModelJoint]) -> Result<(usize, Vec<Na
                 slide.name
             ));
         }
-        legs.push(NamedLeg { name: slide.name.clone(), ends });
+        legs.push(NamedLeg { name: slide.name.clone(), ends, apart: widest });
     }
     Ok((platform, legs))
 }
@@ -314,7 +329,7 @@ fn by_tendons(model: &Mechanism) -> Result<(usize, Vec<NamedLeg>), String> {
         if *platform.get_or_insert(moved) != moved {
             return Err(format!("tendon `{}` leads to another body than those before it", tendon.name));
         }
-        legs.push(NamedLeg { name: tendon.name.clone(), ends });
+        legs.push(NamedLeg { name: tendon.name.clone(), ends, apart: 0.0 });
     }
     Ok((platform.unwrap_or(WORLD), legs))
 }

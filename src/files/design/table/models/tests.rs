@@ -108,6 +108,14 @@ fn hinges_with_a_common_point_are_a_joint_wherever_they_stand_on_their_axes() {
     };
     let said = refusal(&free_platform(offset));
     assert!(said.contains("`drive_2` and the base pass 0.00") && said.contains("from each other"), "{said}");
+    // six digits of a file leave micrometres
+    let rounded = |_| "<joint axis='1 0 0'/><joint axis='0 1 0' pos='0 0 0.000001'/>".to_string();
+    let table = read(&free_platform(rounded)).unwrap();
+    assert!(
+        table.guesses.iter().any(|g| g.contains("from each other: the nearest point")),
+        "{:?}",
+        table.guesses
+    );
     let parallel = |_| "<joint axis='1 0 0'/><joint axis='1 0 0' pos='0 0.1 0'/>".to_string();
     assert!(refusal(&free_platform(parallel)).contains("are parallel"));
     let said = refusal(&free_platform(|_| "<joint axis='1 0 0'/>".into()));

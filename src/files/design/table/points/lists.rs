@@ -6,8 +6,11 @@
 
 use nalgebra::Point3;
 
-use super::{InvalidPointTable, PointTable, bodies_of_words, body_of_word, told_apart};
-use crate::design::table::header::{UNITS, plain};
+use super::{
+    FIRST_WITH_FIRST, InvalidPointTable, LEG_WORDS, PointTable, ROW_WORDS, bodies_of_words, body_of_word,
+    only_number, told_apart,
+};
+use crate::design::table::header::{UNITS, plain, units_in_title};
 use platform::geom::{Angles, Pose};
 use platform::manipulator::{Body, Leg};
 
@@ -32,14 +35,18 @@ enum Token {
     Is,
     Comma,
     Semicolon,
+    /// A factor of a list.
+    Times,
     LineEnd,
     /// The dash before an item of a YAML list.
     Item,
 }
 
-/// The tokens of a text without its comments; `None` if it contains anything that lists of numbers cannot have.
-fn tokens(text: &str) -> Option<Vec<Token>> {
+/// The tokens of a text without its comments, and the column of each; `None` if it contains anything that lists of
+/// numbers cannot have.
+fn tokens(text: &str) -> Option<(Vec<Token>, Vec<usize>)> {
     let mut out = Vec::new();
+    let mut columns = Vec::new();
     let mut in_comment = false;
     for line in text.lines() {
         let mut rest = line;
@@ -51,6 +58,7 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
             let mut words = definition.split_whitespace();
             if let (Some(name), Some(number)) = (words.next(), words.next().and_then(|w| w.parse().ok())) {
                 out.extend([Token::Word(name.into()), Token::Is, Token::Number(number), Token::LineEnd]);
+                columns.resize(out.len(), 0);
             }
             continue;
         }
@@ -58,10 +66,21 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
             continue;
         }
         let mut at_start = true;
+        let mut continued = false;
         while let Some(c) = rest.chars().next() {
             let mut skip = c.len_utf8();
+            columns.resize(out.len(), line.len() - rest.len());
             match c {
                 _ if c.is_whitespace() => {}
+                '.' if rest.starts_with("...") => {
+                    // the statement goes on in the next line
+                    continued = true;
+                    break;
+                }
+                // a transposed matrix is known by its shape
+                '\'' if matches!(out.last(), Some(Token::Close(_))) => {}
+                '.' if rest.starts_with(".T") && matches!(out.last(), Some(Token::Close(_))) => skip = 2,
+                '*' => out.push(Token::Times),
                 '#' | '%' => break,
                 '/' if rest.starts_with("//") => break,
                 '/' if rest.starts_with("/*") => {
@@ -73,6 +92,7 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
                 }
                 '-' if at_start && rest[1..].starts_with(' ') => {
                     out.push(Token::Item);
+                    columns.resize(out.len(), line.len() - rest.len());
                     rest = &rest[skip..];
                     continue;
                 }
@@ -100,12 +120,36 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
                 // arithmetic, or no list at all
                 _ => return None,
             }
+            columns.resize(out.len(), line.len() - rest.len());
             at_start &= c.is_whitespace();
             rest = &rest[skip..];
         }
-        out.push(Token::LineEnd);
+        if !continued {
+            out.push(Token::LineEnd);
+        }
+        columns.resize(out.len(), line.len());
     }
-    Some(out)
+    Some((out, columns))
+}
+
+/// Functions that compute numbers, which are not evaluated.
+const FUNCTIONS: [&str; 11] =
+    ["sin", "cos", "tan", "sqrt", "radians", "degrees", "deg2rad", "rad2deg", "linspace", "arange", "range"];
+
+/// Whether a word calls one of [`FUNCTIONS`].
+fn computes(word: &str) -> bool {
+    word.rsplit('.').next().is_some_and(|name| FUNCTIONS.contains(&name.to_lowercase().as_str()))
+}
+
+/// Whether a text computes its numbers: it is a program, and is not run.
+pub(super) fn is_computed(text: &str) -> bool {
+    let statements = text.lines().map(|line| line.split(['#', '%']).next().unwrap_or_default());
+    statements.filter(|line| line.contains('=')).any(|line| {
+        let (_, value) = line.split_once('=').unwrap_or_default();
+        let called = |word: &str| value.contains(&format!("{word}("));
+        let in_list = value.contains(['[', '(', '{']) && (value.contains(" for ") || value.contains('*'));
+        FUNCTIONS.iter().any(|word| called(word)) || in_list
+    })
 }
 
 /// The number at the beginning of a text, and its length; the next character must end it.
@@ -131,7 +175,10 @@ fn number(text: &str) -> Option<(f64, usize)> {
 /// Reads values from tokens.
 struct Reader<'a> {
     tokens: &'a [Token],
+    columns: &'a [usize],
     at: usize,
+    /// The factor of the last list that had one.
+    factor: Option<f64>,
 }
 
 impl Reader<'_> {
@@ -150,8 +197,30 @@ impl Reader<'_> {
         }
     }
 
-    /// A value behind `=` or `:`.
+    /// A value behind `=` or `:`, perhaps a number times a list.
     fn value(&mut self) -> Option<ListValue> {
+        let value = match self.tokens.get(self.at..self.at + 2) {
+            Some([Token::Number(factor), Token::Times]) => {
+                let factor = *factor;
+                self.at += 2;
+                self.factor = Some(factor);
+                self.operand()?.times(factor)?
+            }
+            _ => self.operand()?,
+        };
+        match self.tokens.get(self.at..self.at + 2) {
+            Some([Token::Times, Token::Number(factor)]) => {
+                let factor = *factor;
+                self.at += 2;
+                self.factor = Some(factor);
+                value.times(factor)
+            }
+            _ if self.peek() == Some(&Token::Times) => None,
+            _ => Some(value),
+        }
+    }
+
+    fn operand(&mut self) -> Option<ListValue> {
         let mut lines = 0;
         while self.peek() == Some(&Token::LineEnd) {
             (self.at, lines) = (self.at + 1, lines + 1);
@@ -174,6 +243,7 @@ impl Reader<'_> {
             Token::Word(word) if lines == 0 => {
                 self.at += 1;
                 match self.peek() {
+                    Some(Token::Open(_)) if computes(&word) => None,
                     Some(Token::Open(open)) => {
                         let open = *open;
                         self.at += 1;
@@ -202,14 +272,28 @@ impl Reader<'_> {
         }
     }
 
-    /// `x: 1`, one per line, up to the next item or a value that is not a number.
+    /// `x: 1`, one per line, with the names in one column; deeper names are a mapping in it.
     fn mapping(&mut self) -> Option<ListValue> {
+        let column = *self.columns.get(self.at)?;
         let mut named = Vec::new();
-        while let Some([Token::Word(name), Token::Is, Token::Number(x), Token::LineEnd]) =
-            self.tokens.get(self.at..self.at + 4)
+        while let Some([Token::Word(name), Token::Is]) = self.tokens.get(self.at..self.at + 2)
+            && self.columns.get(self.at) == Some(&column)
         {
-            named.push((name.clone(), ListValue::Number(*x)));
-            self.at += 4;
+            let name = name.clone();
+            self.at += 2;
+            let begin = self.at;
+            self.skip_lines();
+            let deeper = self.at > begin
+                && matches!(self.peek(), Some(Token::Word(_)))
+                && self.columns.get(self.at).is_some_and(|inner| *inner > column);
+            let value = if deeper {
+                self.mapping()?
+            } else {
+                self.at = begin;
+                self.value()?
+            };
+            self.skip_lines();
+            named.push((name, value));
         }
         (!named.is_empty()).then_some(ListValue::Named(named))
     }
@@ -240,6 +324,7 @@ impl Reader<'_> {
                         self.at += 1;
                         named.push((name, self.value()?));
                     }
+                    Some(Token::Open(_)) if computes(&name) => return None,
                     Some(Token::Open(inner)) => {
                         let inner = *inner;
                         self.at += 1;
@@ -247,7 +332,7 @@ impl Reader<'_> {
                     }
                     _ => row.push(ListValue::Text(name)),
                 },
-                Token::Item | Token::Is | Token::Close(_) => return None,
+                Token::Item | Token::Is | Token::Times | Token::Close(_) => return None,
             }
         }
         if !named.is_empty() {
@@ -290,9 +375,11 @@ impl Reader<'_> {
 }
 
 /// The names with values, in the order of the text; names in an object have the object's name before them.
-fn named_values(text: &str) -> Option<Vec<(String, ListValue)>> {
-    let tokens = tokens(text)?;
-    let mut reader = Reader { tokens: &tokens, at: 0 };
+///
+/// Factors of lists are guesses.
+fn named_values(text: &str, guesses: &mut Vec<String>) -> Option<Vec<(String, ListValue)>> {
+    let (tokens, columns) = tokens(text)?;
+    let mut reader = Reader { tokens: &tokens, columns: &columns, at: 0, factor: None };
     let mut out = Vec::new();
     reader.skip_lines();
     if reader.peek() == Some(&Token::Open('{')) {
@@ -319,10 +406,17 @@ fn named_values(text: &str) -> Option<Vec<(String, ListValue)>> {
             reader.at = begin;
             continue;
         }
-        reader.at += 1;
+        // `:=` is one sign
+        while reader.peek() == Some(&Token::Is) {
+            reader.at += 1;
+        }
         let after = reader.at;
         match reader.value() {
-            Some(value) => out.push((name, value)),
+            Some(value) => {
+                let factor = reader.factor.take();
+                guesses.extend(factor.map(|factor| format!("`{name}` is multiplied by {factor}.")));
+                out.push((name, value));
+            }
             // a mapping of YAML: its keys are read separately
             None => reader.at = after,
         }
@@ -336,7 +430,10 @@ fn flat(values: Vec<(String, ListValue)>, before: &str) -> Vec<(String, ListValu
     values
         .into_iter()
         .flat_map(|(name, value)| match value {
-            ListValue::Named(inner) => flat(inner, &path(&name)),
+            // a point is one value
+            ListValue::Named(inner) if ListValue::Named(inner.clone()).numbers().is_none() => {
+                flat(inner, &path(&name))
+            }
             value => vec![(path(&name), value)],
         })
         .collect()
@@ -368,6 +465,29 @@ impl ListValue {
         }
     }
 
+    /// Every number times a factor.
+    fn times(self, factor: f64) -> Option<Self> {
+        match self {
+            Self::Number(x) => Some(Self::Number(x * factor)),
+            Self::List(list) => {
+                Some(Self::List(list.into_iter().map(|x| x.times(factor)).collect::<Option<_>>()?))
+            }
+            Self::Text(_) | Self::Named(_) => None,
+        }
+    }
+
+    /// The points of an end of a leg or of both, with their names.
+    fn points(&self) -> Vec<(&str, Vec<f64>)> {
+        let point = |value: &Self| value.numbers().filter(|list| (2..=3).contains(&list.len()));
+        match self {
+            Self::Named(named) => {
+                named.iter().filter_map(|(name, value)| Some((name.as_str(), point(value)?))).collect()
+            }
+            Self::List(list) => list.iter().filter_map(|value| Some(("", point(value)?))).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Rows of numbers of equal length.
     fn rows(&self) -> Option<Vec<Vec<f64>>> {
         let Self::List(list) = self else { return None };
@@ -386,6 +506,11 @@ struct SixPoints {
 
 impl SixPoints {
     fn of(value: &ListValue) -> Option<Self> {
+        // 18 numbers are six points one after another
+        if let Some(list) = value.numbers().filter(|list| list.len() == 18) {
+            let points = std::array::from_fn(|i| Point3::new(list[3 * i], list[3 * i + 1], list[3 * i + 2]));
+            return Some(Self { points, by_columns: false, flat: false });
+        }
         let rows = value.rows()?;
         let (height, width) = (rows.len(), rows[0].len());
         let by_columns = match (height, width) {
@@ -410,10 +535,169 @@ struct ListedBody {
 
 /// The twelve ends in lists; `None` if the text has no two named lists of six points or angles.
 pub(super) fn read(text: &str) -> Option<Result<PointTable, InvalidPointTable>> {
-    let values = named_values(text)?;
     let mut guesses = Vec::new();
-    let bodies = points(&values, &mut guesses).or_else(|| polar(&values, text, &mut guesses))?;
+    let values = named_values(text, &mut guesses)?;
+    let bodies = points(&values, &mut guesses)
+        .or_else(|| coordinate_lists(&values).map(Ok))
+        .or_else(|| named_legs(&values, &mut guesses))
+        .or_else(|| numbered_points(&values, &mut guesses).map(Ok))
+        .or_else(|| legs(&values, &mut guesses).map(Ok))
+        .or_else(|| polar(&values, text, &mut guesses))?;
     Some(bodies.map(|bodies| table(&bodies, &values, text, guesses)))
+}
+
+/// A point of two or three coordinates.
+fn point_of(list: &[f64]) -> Point3<f64> {
+    Point3::from([0, 1, 2].map(|axis| list.get(axis).copied().unwrap_or(0.0)))
+}
+
+/// Lists of x, of y and perhaps of z for both bodies: `base_x = [..]`.
+fn coordinate_lists(values: &[(String, ListValue)]) -> Option<[ListedBody; 2]> {
+    let mut bodies: Vec<(String, [Option<usize>; 3])> = Vec::new();
+    for (k, (name, value)) in values.iter().enumerate() {
+        if value.numbers().is_none_or(|list| list.len() != 6) {
+            continue;
+        }
+        let word = plain(name);
+        let Some(axis) = word.chars().last().and_then(|c| "xyz".find(c)) else { continue };
+        let stem = word[..word.len() - 1].to_owned();
+        if let Some((_, places)) = bodies.iter_mut().find(|(known, _)| *known == stem) {
+            places[axis] = Some(k);
+        } else {
+            let mut places = [None; 3];
+            places[axis] = Some(k);
+            bodies.push((stem, places));
+        }
+    }
+    let of = |(stem, places): (String, [Option<usize>; 3])| {
+        let [Some(_), Some(_), _] = places else { return None };
+        let list = |place: Option<usize>| place.and_then(|k| values[k].1.numbers());
+        let lists = places.map(list);
+        let at = |i: usize| lists.each_ref().map(|list| list.as_ref().map_or(0.0, |list| list[i]));
+        let points = std::array::from_fn(|i| Point3::from(at(i)));
+        Some(ListedBody { name: stem, points, used: places.into_iter().flatten().collect() })
+    };
+    let bodies: Vec<ListedBody> = bodies.into_iter().map(of).collect::<Option<_>>()?;
+    bodies.try_into().ok()
+}
+
+/// Points with names, and six legs as pairs of these names.
+fn named_legs(
+    values: &[(String, ListValue)],
+    guesses: &mut Vec<String>,
+) -> Option<Result<[ListedBody; 2], InvalidPointTable>> {
+    let pair = |value: &ListValue| match value {
+        ListValue::List(list) => match &list[..] {
+            [ListValue::Text(a), ListValue::Text(b)] => Some([a.clone(), b.clone()]),
+            _ => None,
+        },
+        _ => None,
+    };
+    let pairs = |value: &ListValue| match value {
+        ListValue::List(list) if list.len() == 6 => list.iter().map(pair).collect::<Option<Vec<_>>>(),
+        _ => None,
+    };
+    let (at, legs) = values.iter().enumerate().find_map(|(k, (_, value))| Some((k, pairs(value)?)))?;
+    let point = |joint: &String| {
+        let found = values.iter().enumerate().find_map(|(k, (name, value))| {
+            let own =
+                name.strip_suffix(joint.as_str()).is_some_and(|way| way.is_empty() || way.ends_with('_'));
+            let list = value.numbers().filter(|list| own && (2..=3).contains(&list.len()))?;
+            Some((name.clone(), k, point_of(&list)))
+        });
+        found.ok_or_else(|| {
+            let message =
+                format!("`{}` names the joint `{joint}`, which has no list of coordinates", values[at].0);
+            InvalidPointTable::Form(message)
+        })
+    };
+    let body = |end: usize| -> Result<ListedBody, InvalidPointTable> {
+        let joints = legs.iter().map(|leg| point(&leg[end])).collect::<Result<Vec<_>, _>>()?;
+        let name = joints[0].0.chars().filter(|c| !c.is_ascii_digit()).collect();
+        let used = joints.iter().map(|(_, k, _)| *k).chain([at]).collect();
+        Ok(ListedBody { name, points: std::array::from_fn(|leg| joints[leg].2), used })
+    };
+    guesses.push(format!("The legs join the joints that `{}` names.", values[at].0));
+    Some(body(0).and_then(|first| Ok([first, body(1)?])))
+}
+
+/// A point with the number in its name and its place among the values.
+type NumberedPoint = (u64, usize, Point3<f64>);
+
+/// Single points with a number in their names: `B1 = [..]`, or the members of an object for each body.
+fn numbered_points(values: &[(String, ListValue)], guesses: &mut Vec<String>) -> Option<[ListedBody; 2]> {
+    let mut bodies: Vec<(String, Vec<NumberedPoint>)> = Vec::new();
+    for (k, (name, value)) in values.iter().enumerate() {
+        let Some(list) = value.numbers().filter(|list| (2..=3).contains(&list.len())) else { continue };
+        let Some(number) = only_number(name) else { continue };
+        let stem: String = name.chars().filter(|c| !c.is_ascii_digit()).collect();
+        let joint = (number, k, point_of(&list));
+        match bodies.iter_mut().find(|(known, _)| *known == stem) {
+            Some((_, joints)) => joints.push(joint),
+            None => bodies.push((stem, vec![joint])),
+        }
+    }
+    bodies.retain(|(_, joints)| joints.len() == 6);
+    let numbers = |(_, joints): &mut (String, Vec<NumberedPoint>)| {
+        joints.sort_by_key(|(number, ..)| *number);
+        joints.iter().map(|(number, ..)| *number).collect::<Vec<_>>()
+    };
+    let [first, second] = &mut bodies[..] else { return None };
+    let (first, second) = (numbers(first), numbers(second));
+    if first != second || first.windows(2).any(|pair| pair[0] == pair[1]) {
+        return None;
+    }
+    guesses.push("Joints with the same number are the ends of one leg.".into());
+    let of = |(name, joints): (String, Vec<NumberedPoint>)| ListedBody {
+        name,
+        points: std::array::from_fn(|i| joints[i].2),
+        used: joints.iter().map(|(_, k, _)| *k).collect(),
+    };
+    let bodies: Vec<ListedBody> = bodies.into_iter().map(of).collect();
+    bodies.try_into().ok()
+}
+
+/// Six legs, each with its two ends.
+fn legs(values: &[(String, ListValue)], guesses: &mut Vec<String>) -> Option<[ListedBody; 2]> {
+    let (k, items) = values.iter().enumerate().find_map(|(k, (_, value))| match value {
+        ListValue::List(list) if list.len() == 6 && list.iter().all(|leg| leg.points().len() == 2) => {
+            Some((k, list))
+        }
+        _ => None,
+    })?;
+    let number = |leg: &ListValue| {
+        let ListValue::Named(named) = leg else { return None };
+        named.iter().find_map(|(name, value)| {
+            let name = plain(name);
+            let counts =
+                LEG_WORDS.contains(&name.as_str()) || ROW_WORDS.contains(&name.as_str()) || name == "name";
+            match value {
+                ListValue::Number(x) if counts && *x >= 0.0 && x.fract() == 0.0 => Some(*x),
+                ListValue::Text(text) if counts => only_number(text).map(|n| n as f64),
+                _ => None,
+            }
+        })
+    };
+    let mut order: Vec<&ListValue> = items.iter().collect();
+    let numbers: Option<Vec<f64>> = items.iter().map(number).collect();
+    if let Some(numbers) = numbers
+        && !numbers.is_sorted()
+    {
+        order.sort_by(|a, b| number(a).unwrap_or(0.0).total_cmp(&number(b).unwrap_or(0.0)));
+        guesses.push("The legs are put in the order of their numbers.".into());
+    }
+    let names = order[0].points().into_iter().map(|(name, _)| name.to_owned()).collect::<Vec<_>>();
+    let same =
+        order.iter().all(|leg| leg.points().iter().zip(&names).all(|((name, _), known)| name == known));
+    if !same {
+        return None;
+    }
+    let of = |end: usize| ListedBody {
+        name: names[end].clone(),
+        points: std::array::from_fn(|i| point_of(&order[i].points()[end].1)),
+        used: vec![k],
+    };
+    Some([of(0), of(1)])
 }
 
 fn points(
@@ -505,10 +789,20 @@ pub(super) fn on_circle(radius: f64, angle: f64, degrees: bool) -> Point3<f64> {
     Point3::new(radius * cos, radius * sin, 0.0)
 }
 
+/// Words for a radius.
+pub(super) const RADIUS_WORDS: [&str; 3] = ["radius", "halbmesser", "rayon"];
+/// Words for a diameter.
+pub(super) const DIAMETER_WORDS: [&str; 2] = ["diameter", "durchmesser"];
+
+/// Whether a name is that of a diameter.
+pub(super) fn is_diameter(name: &str) -> bool {
+    DIAMETER_WORDS.iter().any(|word| plain(name).contains(word))
+}
+
 /// Whether a name is that of a radius.
 pub(super) fn is_radius(name: &str) -> bool {
     let name = plain(name);
-    name.contains("radius")
+    RADIUS_WORDS.iter().any(|word| name.contains(word))
         || name.contains("radii")
         || ["r", "rb", "rp", "rt", "br", "pr", "tr"].contains(&name.as_str())
 }
@@ -516,7 +810,7 @@ pub(super) fn is_radius(name: &str) -> bool {
 /// Whether a name is that of an angle.
 pub(super) fn is_angle(name: &str) -> bool {
     let name = plain(name);
-    ["angle", "theta", "phi", "azimuth", "deg"].iter().any(|word| name.contains(word))
+    ["angle", "theta", "phi", "azimut", "deg", "winkel"].iter().any(|word| name.contains(word))
 }
 
 /// The unit of angles, from their names, a comment, or a value above 6.3. Otherwise it is the reason why the unit is
@@ -526,22 +820,27 @@ pub(super) fn angle_unit<'a>(
     text: &str,
     mut angles: impl Iterator<Item = &'a f64>,
 ) -> Result<bool, String> {
-    let named = |words: &[&str]| {
-        let in_names = names.iter().any(|name| {
-            name.to_lowercase().split(|c: char| !c.is_alphabetic()).any(|part| words.contains(&part))
-        });
-        in_names || text.to_lowercase().split(|c: char| !c.is_alphabetic()).any(|part| words.contains(&part))
+    let said = |text: &str| {
+        let text = text.to_lowercase();
+        let words = |words: &[&str]| {
+            text.split(|c: char| !(c.is_alphabetic() || c == '\u{b0}')).any(|part| words.contains(&part))
+        };
+        let degrees = words(&["deg", "degree", "degrees", "grad", "\u{b0}"]);
+        match (degrees, words(&["rad", "radian", "radians"])) {
+            (true, false) => Some(true),
+            (false, true) => Some(false),
+            _ => None,
+        }
     };
-    match (named(&["deg", "degree", "degrees"]), named(&["rad", "radian", "radians"])) {
-        (true, false) => Ok(true),
-        (false, true) => Ok(false),
-        _ if angles.any(|x| x.abs() > std::f64::consts::TAU) => Ok(true),
-        _ => Err("the angles may be degrees or radians: say which in a name or in a comment".into()),
+    match said(&names.join(" ")).or_else(|| said(text)) {
+        Some(degrees) => Ok(degrees),
+        None if angles.any(|x| x.abs() > std::f64::consts::TAU) => Ok(true),
+        None => Err("the angles may be degrees or radians: say which in a name or in a comment".into()),
     }
 }
 
 /// Names of the height of the platform above the base.
-const HEIGHTS: [&str; 7] = ["height", "h", "z0", "home", "homeheight", "h0", "zhome"];
+const HEIGHTS: [&str; 8] = ["height", "h", "z0", "home", "homeheight", "h0", "zhome", "homez"];
 
 fn table(
     bodies: &[ListedBody; 2],
@@ -551,9 +850,17 @@ fn table(
 ) -> PointTable {
     let [first, second] = bodies;
     let order = bodies_of_words(&plain(&first.name), &plain(&second.name), &mut Vec::new());
-    guesses.push(told_apart([&first.name, &second.name], order));
+    guesses.push(if first.name.is_empty() {
+        "The first point of a leg is the one of the base.".into()
+    } else {
+        told_apart([&first.name, &second.name], order)
+    });
     let (base, platform) = if order[0] == Body::Base { (first, second) } else { (second, first) };
-    guesses.push("Leg 1 joins the first joint of the base and the first of the platform, and so on.".into());
+    if !first.used.iter().any(|k| second.used.contains(k))
+        && !guesses.iter().any(|g| g.contains("same number"))
+    {
+        guesses.push(FIRST_WITH_FIRST.into());
+    }
     let mut used: Vec<usize> = bodies.iter().flat_map(|body| body.used.iter().copied()).collect();
     let mut home = None;
     let mut units = None;
@@ -561,7 +868,10 @@ fn table(
         let word = plain(name);
         let vector = value.numbers().filter(|list| list.len() == 3);
         let position = match (value.number(), vector) {
-            (Some(z), _) if HEIGHTS.contains(&word.as_str()) || word.ends_with("height") => {
+            (Some(z), _)
+                if HEIGHTS.contains(&word.as_str())
+                    || ["height", "homez"].iter().any(|end| word.ends_with(end)) =>
+            {
                 Some([0.0, 0.0, z])
             }
             (_, Some(p)) => Some([p[0], p[1], p[2]]),
@@ -575,7 +885,7 @@ fn table(
             used.push(k);
         }
         if let ListValue::Text(said) = value
-            && word.starts_with("unit")
+            && (word.starts_with("unit") || word.ends_with("units"))
             && let Some((_, label)) = UNITS.iter().find(|(spelling, _)| *spelling == said.to_lowercase())
         {
             units = Some((*label).to_owned());
@@ -615,14 +925,7 @@ fn table(
 fn unit_of_comment(text: &str) -> Option<&'static str> {
     let mut comments = text.lines().filter_map(|line| {
         let at = line.find(['#', '%']).or_else(|| line.find("//")).or_else(|| line.find("/*"))?;
-        Some(line[at..].to_lowercase())
+        Some(&line[at..])
     });
-    comments.find_map(|comment| {
-        let words: Vec<&str> =
-            comment.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty()).collect();
-        let unit = |word: &str| {
-            UNITS.iter().find(|(spelling, _)| *spelling == word && word != "in").map(|(_, label)| *label)
-        };
-        words.windows(2).find_map(|pair| if pair[0] == "in" { unit(pair[1]) } else { None })
-    })
+    comments.find_map(|comment| units_in_title(comment).0)
 }

@@ -1,8 +1,8 @@
 //! Tables with columns of radii and angles.
 
-use super::lists::{angle_unit, is_angle, is_radius, on_circle};
+use super::lists::{DIAMETER_WORDS, RADIUS_WORDS, angle_unit, is_angle, is_diameter, is_radius, on_circle};
 use super::{InvalidPointTable, body_of_word};
-use crate::design::table::header::plain;
+use crate::design::table::header::{length_unit, plain};
 use crate::design::table::sheet::CellTable;
 use platform::manipulator::Body;
 
@@ -19,7 +19,7 @@ pub(super) fn to_coordinates(
     let columns = |accepts: fn(&str) -> bool| -> Vec<usize> {
         (0..header.len()).filter(|c| accepts(&header[*c])).collect()
     };
-    let (radii, angles) = (columns(is_radius), columns(is_angle));
+    let (radii, angles) = (columns(|name| is_radius(name) || is_diameter(name)), columns(is_angle));
     if radii.is_empty() && angles.is_empty() {
         return Ok(());
     }
@@ -36,12 +36,13 @@ pub(super) fn to_coordinates(
         ));
     }
     let body = |c: usize| -> Option<Body> { body_of_word(&plain(&header[c])) };
+    let mut open = angles;
     for radius in radii {
-        let partner = angles.iter().find(|c| body(**c) == body(radius));
-        let Some(&angle) = partner else {
+        // angles of unnamed bodies stand in the order of their radii
+        let Some(at) = open.iter().position(|c| body(*c) == body(radius)) else {
             return refused(format!("the radius `{}` has no angle of the same body", header[radius]));
         };
-        pair(sheet, text, [radius, angle], guesses)?;
+        pair(sheet, text, [radius, open.remove(at)], guesses)?;
     }
     Ok(())
 }
@@ -62,24 +63,33 @@ fn pair(
     let Some(header) = &mut sheet.header else { return Ok(()) };
     let names = [header[radius].clone(), header[angle].clone()];
     let degrees = angle_unit([&names[1], &names[1]], text, turns.iter()).map_err(InvalidPointTable::Form)?;
+    let half = is_diameter(&names[0]);
     guesses.push(format!(
-        "`{}` is a radius and `{}` its angle in {}, counted from x towards y.",
+        "`{}` is a {} and `{}` its angle in {}, counted from x towards y.",
         names[0],
+        if half { "diameter" } else { "radius" },
         names[1],
         if degrees { "degrees" } else { "radians" }
     ));
     // the name of the radius gives body and unit of the coordinates
     let renamed = |axis: &str| {
         let lower = names[0].to_lowercase();
-        match lower.find("radius") {
-            Some(at) => format!("{}{axis}{}", &names[0][..at], &names[0][at + "radius".len()..]),
-            None => axis.to_owned(),
+        let word = RADIUS_WORDS.iter().chain(&DIAMETER_WORDS).find_map(|w| Some((lower.find(w)?, w.len())));
+        let plain = plain(&names[0]);
+        let letter = plain.trim_start_matches('r').trim_end_matches('r');
+        let unit = length_unit(&names[0]).map_or_else(String::new, |unit| format!(" [{unit}]"));
+        match word {
+            Some((at, length)) if lower.len() == names[0].len() => {
+                format!("{}{axis}{}", &names[0][..at], &names[0][at + length..])
+            }
+            Some(_) => format!("{axis}{unit}"),
+            None => format!("{letter}{axis}{unit}"),
         }
     };
     (header[radius], header[angle]) = (renamed("x"), renamed("y"));
     for (k, values) in read.into_iter().enumerate() {
         let Some((radius_of, turn)) = values else { continue };
-        let at = on_circle(radius_of, turn, degrees);
+        let at = on_circle(if half { radius_of / 2.0 } else { radius_of }, turn, degrees);
         let [x, y] = [at.x, at.y].map(|x| sheet.shown(x));
         (sheet.rows[k].cells[radius], sheet.rows[k].cells[angle]) = (x, y);
     }

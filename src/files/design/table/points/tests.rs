@@ -303,3 +303,281 @@ fn a_spreadsheet_is_read_as_its_table_would_be() {
     let why = PointTable::read(broken).unwrap_err().to_string();
     assert!(why.contains("packed file"), "{why}");
 }
+
+/// Twelve rows in an order of joints, with a word at their left.
+fn in_order(order: [usize; 12], word: impl Fn(Body, usize) -> String) -> String {
+    order
+        .map(|k| {
+            let (body, i) = (Body::BOTH[k / 6], k % 6);
+            let p = body.of((BASE[i], PLATFORM[i]));
+            format!("{},{},{},{}\n", word(body, i), p[0], p[1], p[2])
+        })
+        .concat()
+}
+
+#[test]
+fn joints_with_the_same_number_are_one_leg_wherever_they_stand() {
+    let mixed = [9, 2, 0, 7, 11, 1, 5, 6, 3, 10, 4, 8];
+    let letter = |body: Body| body.of(("B", "P"));
+    for text in [
+        "name,x,y,z\n".to_owned() + &in_order(mixed, |body, i| format!("{}{}", letter(body), i + 1)),
+        "name,x,y,z\n".to_owned() + &in_order(mixed, |body, i| format!("{body}_{i}")),
+        "leg,end,x,y,z\n".to_owned() + &in_order(mixed, |body, i| format!("{},{body}", i + 1)),
+        "Bein,Ende,x,y,z\n".to_owned()
+            + &in_order(mixed, |body, i| format!("{i}.0,{}", body.of(("unten", "oben")))),
+        "x,y,z,name\n".to_owned()
+            + &in_order(mixed, |body, i| format!("leg{}_{body}", i + 1))
+                .lines()
+                .map(|line| {
+                    let (name, rest) = line.split_once(',').unwrap();
+                    format!("{rest},{name}\n")
+                })
+                .collect::<Vec<_>>()
+                .concat(),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+        assert!(table.guesses.iter().any(|g| g.contains("same number")), "{:?}", table.guesses);
+    }
+    let twice = "leg,end,x,y,z\n".to_owned()
+        + &in_order([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], |body, i| format!("{},{body}", i.max(1)));
+    assert!(refusal(&twice).contains("line 3: leg 1 has two joints of the base"), "{}", refusal(&twice));
+    let comma = |x: f64| x.to_string();
+    let rows = six(",", "", comma);
+    let rows: String = rows
+        .lines()
+        .enumerate()
+        .map(|(i, line)| format!("{},{line}\n", i.max(1)))
+        .collect::<Vec<_>>()
+        .concat();
+    let why = refusal(&format!("leg,bx,by,bz,px,py,pz\n{rows}"));
+    assert!(why.contains("line 3: leg 1 is there twice"), "{why}");
+}
+
+#[test]
+fn rows_in_turn_are_told_by_their_heights() {
+    let turns: String = (0..12)
+        .map(|k| {
+            let p = if k % 2 == 0 { BASE[k / 2] } else { PLATFORM[k / 2] };
+            format!("{},{},{}\n", p[0], p[1], if k % 2 == 0 { 0 } else { 400 })
+        })
+        .collect::<Vec<_>>()
+        .concat();
+    let table = read(&turns);
+    assert!(is_meant(&table), "{:?}", table.guesses);
+    assert_eq!(table.home.unwrap().position.z.to_bits(), 400.0_f64.to_bits());
+    assert!(table.guesses.iter().any(|g| g.contains("in turn")));
+}
+
+#[test]
+fn legs_along_the_columns_are_turned() {
+    let row = |list: [[f64; 3]; 6], axis: usize| list.map(|p| p[axis].to_string()).join(",");
+    let rows = |word: &dyn Fn(Body, usize) -> String| -> String {
+        (0..6)
+            .map(|k| {
+                let body = Body::BOTH[k / 3];
+                let list = body.of((BASE, PLATFORM));
+                format!("{}{}\n", word(body, k % 3), row(list, k % 3))
+            })
+            .collect::<Vec<_>>()
+            .concat()
+    };
+    let axis = |k: usize| ["x", "y", "z"][k];
+    let both = |k: usize| format!("{},{},{}\n", axis(k), row(BASE, k), row(PLATFORM, k));
+    for text in [
+        "coord,leg1,leg2,leg3,leg4,leg5,leg6\n".to_owned()
+            + &rows(&|body, k| format!("{}{},", body.of(("B", "P")), axis(k))),
+        rows(&|body, k| format!("{body} {},", axis(k))),
+        rows(&|body, k| {
+            let title = if k == 0 { format!("{body} joints\n") } else { String::new() };
+            format!("{title}{},", axis(k))
+        }),
+        // only so both bodies are flat
+        rows(&|_, _| String::new()),
+        "joint,B1,B2,B3,B4,B5,B6,P1,P2,P3,P4,P5,P6\n".to_owned()
+            + &(0..3).map(both).collect::<Vec<_>>().concat(),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+    }
+}
+
+#[test]
+fn units_of_a_table_are_taken_from_every_place_or_refused() {
+    let plain = |x: f64| x.to_string();
+    let marked = |x: f64| format!("{x} cm");
+    for text in [
+        six(",", "bx [cm],by [cm],bz [cm],px [cm],py [cm],pz [cm]\n", plain),
+        six(",", "bx,by,bz,px,py,pz\ncm,cm,cm,cm,cm,cm\n", plain),
+        six(";", "Joint centres; all sizes in cm\nbx;by;bz;px;py;pz\n", plain),
+        six(",", "bx,by,bz,px,py,pz\n", marked),
+        six("\t", "", marked),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+        assert_eq!(table.units.as_deref(), Some("cm"), "{text}");
+    }
+    let mixed = six(",", "bx_mm,by_mm,bz_mm,px_cm,py_cm,pz_cm\n", plain);
+    assert!(refusal(&mixed).contains("`bx_mm` is in mm and `px_cm` in cm"), "{}", refusal(&mixed));
+    let other = six(",", "# all in mm\nbx_cm,by_cm,bz_cm,px_cm,py_cm,pz_cm\n", plain);
+    assert!(refusal(&other).contains("a line above them says mm"), "{}", refusal(&other));
+}
+
+#[test]
+fn columns_that_are_not_used_are_named_and_heights_are_z() {
+    let with = |header: &str, more: &str| {
+        let lines = six(",", "", |x| x.to_string());
+        let lines: String = lines.lines().map(|line| format!("{line},{more}\n")).collect::<Vec<_>>().concat();
+        read(&format!("{header}\n{lines}"))
+    };
+    let table = with("bx,by,bz,px,py,pz,length,n", "450,1");
+    assert!(
+        table.guesses.iter().any(|g| g == "These columns are not used: `length`."),
+        "{:?}",
+        table.guesses
+    );
+    let flat = |p: [f64; 3]| format!("{},{}", p[0], p[1]);
+    let lines: String = (0..6)
+        .map(|i| format!("{},25,{},-18\n", flat(BASE[i]), flat(PLATFORM[i])))
+        .collect::<Vec<_>>()
+        .concat();
+    let header = "base_x,base_y,base_pin_height,plat_x,plat_y,plat_pin_height";
+    let table = read(&format!("{header}\n{lines}"));
+    assert_eq!((table.legs[2].base.z, table.legs[2].platform.z), (25.0, -18.0));
+}
+
+#[test]
+fn what_programs_print_and_write_is_read() {
+    let name = |b: Body| b.of(("B", "P"));
+    let matrix = |factor: f64, head: &str| -> String {
+        [Body::Base, Body::Platform]
+            .map(|b| {
+                let list = b.of((BASE, PLATFORM));
+                let rows = list.map(|p| p.map(|x| format!("{:.6}", x / factor)).join("  "));
+                format!("{} =\n\n{head}  {}\n\n", name(b), rows.join("\n  "))
+            })
+            .concat()
+    };
+    let named = |b: Body, open: &str, is: &str| {
+        let list = b.of((BASE, PLATFORM));
+        (0..6)
+            .rev()
+            .map(|i| format!("{open}{}{}{open}{is} {:?}", name(b), i + 1, list[i]))
+            .collect::<Vec<_>>()
+    };
+    let points = |list: [[f64; 3]; 6]| list.map(|p| format!("{p:?}")).join(", ");
+    let flat = |list: [[f64; 3]; 6]| list.map(|p| p.map(|x| x.to_string()).join(", ")).join(",\n");
+    let leg = |i: usize| (BASE[i], PLATFORM[i]);
+    let texts = [
+        matrix(1.0, ""),
+        matrix(1000.0, "   1.0e+03 *\n\n"),
+        format!(
+            "{{\"base\": {{{}}}, \"platform\": {{{}}}}}",
+            named(Body::Base, "\"", ":").join(", "),
+            named(Body::Platform, "\"", ":").join(", ")
+        ),
+        format!(
+            "base:\n  {}\nplatform:\n  {}\n",
+            named(Body::Base, "", ":").join("\n  "),
+            named(Body::Platform, "", ":").join("\n  ")
+        ),
+        format!(
+            "{{\"machine\": {{\"legs\": [{}]}}}}",
+            [3, 1, 2, 5, 0, 4]
+                .map(|i| {
+                    let (a, b) = leg(i);
+                    format!("{{\"id\": {i}, \"platformAttachment\": {b:?}, \"baseAttachment\": {a:?}}}")
+                })
+                .join(", ")
+        ),
+        "legs:\n".to_owned()
+            + &[0, 1, 2, 3, 4, 5]
+                .map(|i| format!("  - base: {:?}\n    platform: {:?}\n", leg(i).0, leg(i).1))
+                .concat(),
+        format!(
+            "struct leg legs[6] = {{\n{}\n}};",
+            [0, 1, 2, 3, 4, 5]
+                .map(|i| format!("{{{:?}, {:?}}}", leg(i).0, leg(i).1).replace('[', "{").replace(']', "}"))
+                .join(",\n")
+        ),
+        format!("double base[18] = {{{}}};\ndouble platform[18] = {{{}}};", flat(BASE), flat(PLATFORM)),
+        format!("B := Matrix([{}]):\nP := Matrix([{}]):\n", points(BASE), points(PLATFORM)),
+        format!("B = np.array([{}]).T\nP = 1.0 * np.array([{}])\n", points(BASE), points(PLATFORM)),
+        format!(
+            "B = [ ...\n{} ]';\nP = [{}];\n",
+            points(BASE).replace("], ", "]; ...\n").replace(['[', ']'], ""),
+            points(PLATFORM)
+        ),
+    ];
+    for text in texts {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+    }
+    // the legs are stated, in another order than that of the numbers
+    let joints = [Body::Base, Body::Platform].map(|b| named(b, "\"", ":").join(", "));
+    let order = [(2, 5), (1, 4), (3, 3), (6, 2), (5, 1), (4, 6)];
+    let stated = order.map(|(a, b)| format!("[\"B{a}\", \"P{b}\"]")).join(", ");
+    let text =
+        format!("{{\"legs\": [{stated}], \"base\": {{{}}}, \"platform\": {{{}}}}}", joints[0], joints[1]);
+    let table = read(&text);
+    for (leg, (a, b)) in table.legs.iter().zip(order) {
+        let meant = [BASE[a - 1], PLATFORM[b - 1]].map(Point3::from);
+        assert_eq!([leg.base, leg.platform], meant, "{:?}", table.guesses);
+    }
+    let why = refusal(&text.replace("\"P6\"]", "\"P7\"]"));
+    assert!(why.contains("the joint `P7`, which has no list of coordinates"), "{why}");
+    let scaled = read(&format!("B = 0.5 * [{}];\nP = [{}] * 2;\n", points(BASE), points(PLATFORM)));
+    assert_eq!((scaled.legs[3].base.x, scaled.legs[3].platform.x), (-200.74 / 2.0, -195.63 * 2.0));
+    assert!(scaled.guesses.iter().any(|g| g.contains("multiplied by 0.5")), "{:?}", scaled.guesses);
+    let computed = "r = 300;\nB = r*[cos(a); sin(a)];\nP = [cos(b); sin(b)];\n";
+    assert!(refusal(computed).contains("programs are not run"), "{}", refusal(computed));
+}
+
+#[test]
+fn polar_columns_have_their_own_units_of_angles_and_may_be_diameters() {
+    let turns =
+        [(15.0_f64, 45.0_f64), (105.0, 75.0), (135.0, 165.0), (225.0, 195.0), (255.0, 285.0), (345.0, 315.0)];
+    let rows = |row: &dyn Fn(f64, f64) -> String| turns.map(|(a, b)| row(a, b) + "\n").concat();
+    for text in [
+        "Rb (mm),thetab (deg),Rp (mm),thetap (rad)\n".to_owned()
+            + &rows(&|a, b| format!("100,{a},80,{}", b.to_radians())),
+        "Rp (mm),thetap (rad),Rb (mm),thetab (deg)\n".to_owned()
+            + &rows(&|a, b| format!("80,{},100,{a}", b.to_radians())),
+        "base_diameter_mm,base_angle_deg,platform_diameter_mm,platform_angle_deg\n".to_owned()
+            + &rows(&|a, b| format!("200,{a},160,{b}")),
+        "unten Winkel [Grad];unten Radius [mm];oben Winkel [Grad];oben Radius [mm]\n".to_owned()
+            + &rows(&|a, b| format!("{a};100;{b};80")),
+    ] {
+        let table = read(&text);
+        let (a, b) = (table.legs[1].base, table.legs[3].platform);
+        assert!((a.coords.norm() - 100.0).abs() < 1e-9 && (b.coords.norm() - 80.0).abs() < 1e-9, "{text}");
+        assert!((a.y.atan2(a.x).to_degrees() - 105.0).abs() < 1e-9, "{text}");
+        assert!((b.y.atan2(b.x).to_degrees() + 165.0).abs() < 1e-9, "{text}");
+        assert_eq!(table.units.as_deref(), Some("mm"), "{text}");
+    }
+}
+
+#[test]
+fn faults_name_their_place() {
+    let footer = six(";", "bx;by;bz;px;py;pz\n", |x| x.to_string()) + "mean;1;2;3;4;5;6\n";
+    assert!(refusal(&footer).contains("the last is line 8, `mean 1 2 3"), "{}", refusal(&footer));
+    let far =
+        six(",", "", |x| if x.to_bits() == 62.374_f64.to_bits() { "1e61".into() } else { x.to_string() });
+    assert!(refusal(&far).contains("line 2, column 2: `1e61` is too far out"), "{}", refusal(&far));
+    // the names of the columns may stand above both bodies
+    let blocks = "Base\nleg,x,y,z\n".to_owned()
+        + &in_order([0, 1, 2, 3, 4, 5, 0, 0, 0, 0, 0, 0], |_, i| (i + 1).to_string())
+            .lines()
+            .take(6)
+            .map(|line| format!("{line}\n"))
+            .collect::<Vec<_>>()
+            .concat()
+        + "Platform\nleg,x,y,z\n"
+        + &in_order([11, 10, 9, 8, 7, 6, 0, 0, 0, 0, 0, 0], |_, i| (i + 1).to_string())
+            .lines()
+            .take(6)
+            .map(|line| format!("{line}\n"))
+            .collect::<Vec<_>>()
+            .concat();
+    assert!(is_meant(&read(&blocks)));
+}
