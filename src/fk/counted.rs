@@ -145,8 +145,7 @@ pub(super) fn compared_with_count(
         && let CountVerdict::PositiveDimensional { dimension } = compare(&mut found, &count)?
     {
         reject_others(&mut found);
-        found.solution_set =
-            SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
+        found.solution_set = SolutionSet::seen(dimension, Vec::new());
     }
     surroundings.conclude_last(&mut found, s);
     Ok(found)
