@@ -10,7 +10,7 @@ use super::{
 };
 use crate::solve::ScaledFrames;
 use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
-use crate::solve::pose_count::{CountedLengths, PoseSet};
+use crate::solve::pose_count::{CountedLengths, PoseCount, PoseSet};
 use num::Purpose;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};

@@ -67,6 +67,18 @@ fn exit_0_never_stands_beside_components_that_may_be_missing() {
     doubts(&[("borel-bricard.toml", "0,0,0,0,0,180"), ("similar-circle-doubles.toml", "home")]);
 }
 
+/// The Borel-Bricard motion from a crossing of its curve: its sections have as many points as its degree counted modulo
+/// random primes.
+#[test]
+fn components_are_accounted_for_by_the_counted_degree() {
+    let file = file("borel-bricard.toml");
+    let out = equipod(&["singular", "motion", &file, "--pose", "0,0,0,0,0,180", "--json"]);
+    let doc = document(&out);
+    assert_eq!((out.status.code(), &doc["components_accounted"]), (Some(0), &true.into()), "{doc}");
+    let degrees = doc["complex_components"].as_array().unwrap().iter();
+    assert_eq!(degrees.map(|c| c["degree"].as_u64().unwrap()).sum::<u64>(), 4);
+}
+
 fn doubts(cases: &[(&str, &str)]) {
     for (name, pose) in cases {
         let out = equipod(&["singular", "motion", &file(name), "--pose", pose]);

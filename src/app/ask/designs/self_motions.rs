@@ -154,7 +154,8 @@ impl Design {
             dimension = if start.is_none() { Some(cut.dimension) } else { dimension };
             if cut.dimension == 1 {
                 starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Section)));
-                let given = start.into_iter().map(ComplexPose::from);
+                // whole sections have a point on every curve, and the given pose may be at a crossing
+                let given = start.filter(|_| !cut.whole).into_iter().map(ComplexPose::from);
                 let on: Vec<ComplexPose> = given.chain(cut.points.iter().map(|r| r.pose)).collect();
                 let found = critical_poses(m, &squares, &on, seed);
                 starts.extend(found.poses.iter().map(|p| (*p, MotionOrigin::CriticalPoint)));
