@@ -8,9 +8,9 @@ use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, Reason, Rejected,
     RejectionReason, SolutionSet, Theorem,
 };
-use crate::solve::ScaledFrames;
 use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
 use crate::solve::pose_count::{CountedLengths, PoseCount, PoseSet};
+use crate::solve::{LegDependence, ScaledFrames};
 use num::Purpose;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -39,8 +39,22 @@ fn without_roots(completeness: Completeness, solution_set: SolutionSet, o: &FkOp
     }
 }
 
+/// The answer for leg vectors with a proved relation; `None` without one.
+pub(super) fn related(
+    legs: LegDependence,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+) -> Option<Result<FkSolutions, FkError>> {
+    match legs {
+        LegDependence::Incompatible => Some(Ok(incompatible(o))),
+        LegDependence::Compatible { relations } => Some(curves(m, s, o, &ScaledFrames::of(m, s), relations)),
+        LegDependence::Independent | LegDependence::Nearly => None,
+    }
+}
+
 /// Leg vectors with a relation that the lengths contradict.
-pub(super) fn incompatible(o: &FkOptions) -> FkSolutions {
+fn incompatible(o: &FkOptions) -> FkSolutions {
     let theorem = Theorem::ContradictoryLengths;
     without_roots(Completeness::Proved { theorem }, SolutionSet::Empty, o)
 }

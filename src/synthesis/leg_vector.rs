@@ -124,16 +124,16 @@ impl LegSpan {
         let d = svd(&basis.vectors)?;
         // the coefficients in the basis, by the pseudo-inverse, times those of the legs in the basis
         let along = |k: usize, c: usize| -> f64 { (0..rank).map(|j| d.u[k][j] * d.v[c][j] / d.s[j]).sum() };
-        let quotient = |i: usize, c: usize| -> f64 {
-            (0..rank).map(|k| basis.coefficients[k][i] * along(k, c)).sum()
-        };
+        let quotient =
+            |i: usize, c: usize| -> f64 { (0..rank).map(|k| basis.coefficients[k][i] * along(k, c)).sum() };
         let dual = std::array::from_fn(|i| std::array::from_fn(|c| quotient(i, c)));
         Ok(Self { rank, v: d.v, dual, ..self })
     }
 
     /// Whether doubles keep the span: its smallest singular value loses at most three digits.
     pub(super) fn is_well_conditioned(&self, rank: usize) -> bool {
-        self.rank >= rank && (rank == 0 || keeps_digits(self.singular_values[rank - 1], self.singular_values[0]))
+        self.rank >= rank
+            && (rank == 0 || keeps_digits(self.singular_values[rank - 1], self.singular_values[0]))
     }
 
     /// Dimension of the span, 6 for independent legs.

@@ -408,21 +408,27 @@ fn member(t: &[Rational; 6], order: [usize; 6]) -> Manipulator {
 fn exact_joints_have_the_families_of_their_class_next_to_singular_members() {
     let half = || Rational::new(1.into(), 2.into());
     let trace = |digits: u32| Rational::new(1.into(), num_bigint::BigInt::from(10).pow(digits));
-    for (digits, order) in [(6, [0, 1, 2, 3, 4, 5]), (10, [3, 5, 1, 0, 2, 4]), (13, [5, 4, 3, 2, 1, 0]), (30, [2, 0, 4, 1, 5, 3])]
-    {
+    for (digits, order) in [
+        (6, [0, 1, 2, 3, 4, 5]),
+        (10, [3, 5, 1, 0, 2, 4]),
+        (13, [5, 4, 3, 2, 1, 0]),
+        (30, [2, 0, 4, 1, 5, 3]),
+    ] {
         let offsets: [Rational; 6] =
             std::array::from_fn(|k| if k == 5 { half() + trace(digits) } else { half() });
         let c = components(&member(&offsets, order), ComponentOptions::default()).unwrap();
         assert!(c.doubts.is_empty(), "{digits}: {:?}", c.doubts);
         assert_eq!((c.leg_rank.value, c.planes.len()), (6, 1), "{digits}");
-        let six = |of: &str| c.components.iter().filter(|x| x.type_name() == of && x.exact == Some(true)).count();
+        let six =
+            |of: &str| c.components.iter().filter(|x| x.type_name() == of && x.exact == Some(true)).count();
         assert_eq!((six("point-line"), c.components.len()), (6, 6), "{digits}: {:?}", list(&c));
         assert!(c.components.iter().all(|x| x.support.len() == 6), "{digits}");
         check_samples(&c, 1e-12);
         // both curves are the sides of the triangles, in numbers as well as exactly
         for curve in [&c.planes[0].base, &c.planes[0].platform] {
             let lines = curve.parts.iter().filter(|p| p.kind == PartKind::Line).count();
-            let exact = curve.exact.as_ref().unwrap().parts.iter().filter(|p| p.kind == ExactKind::Line).count();
+            let exact =
+                curve.exact.as_ref().unwrap().parts.iter().filter(|p| p.kind == ExactKind::Line).count();
             assert_eq!((lines, exact), (3, 3), "{digits}: {:?}", curve.parts);
         }
     }

@@ -199,8 +199,9 @@ pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSing
         all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
     };
     let closed = least(changes(m));
-    let searched =
-        least(UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start, None)).collect());
+    let searched = least(
+        UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start, None)).collect(),
+    );
     let best = match (closed, searched) {
         // if both ways find the same design, take the exact one regardless of rounding
         (Some(x), Some(y)) => Some(if x.norm() <= y.norm() * (1.0 + SAME) { x } else { y }),
