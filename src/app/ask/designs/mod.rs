@@ -42,7 +42,7 @@ pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
 #[cfg(feature = "optimize")]
 pub use exploring::{
-    ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
+    DefaultSafetyMargin, ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
     ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
 };
 pub use frames::{PoseFrames, USUAL};
