@@ -1,5 +1,7 @@
 //! The figures by which designs are compared.
 
+use std::time::Instant;
+
 use nalgebra::{Point3, Vector3};
 
 use super::assessing::{AssessReport, deciding};
@@ -33,6 +35,8 @@ pub struct FigureOptions<'a> {
     pub accuracy: Option<ErrorBound>,
     /// Characteristic length of the conditioning, common to all designs compared.
     pub characteristic_length: f64,
+    /// Optional time at which the assessment ends with the result so far.
+    pub until: Option<Instant>,
 }
 
 /// Figures of a design over the poses of its workspace, or at home if it states none. A figure is `None` if the design
@@ -179,7 +183,7 @@ impl Design {
         let terms = Terms::new(m, &required, &home);
         // the cranks of a parsed design always make a platform
         let platform = self.rotary().ok().flatten();
-        let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length);
+        let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length, options.until);
         let stiffness = self.hardware.leg_stiffness;
         // a singular pose has no stiffness
         let softest = |pose: &Pose| {

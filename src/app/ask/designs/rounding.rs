@@ -307,7 +307,7 @@ fn fit(
     let assessed = design.assessed_until(options.seed, options.until);
     let beside = |kind: &VariableKind| matches!(kind, VariableKind::HomeHeight | VariableKind::JointAxes);
     let free: Vec<VariableKind> = design.search.variables.iter().copied().filter(beside).collect();
-    if free.is_empty() || rank(assessed.as_ref()) == [2, 2] {
+    if free.is_empty() || rank(assessed.as_ref()) == [2, 2] || options.is_late() {
         return Ok((design, assessed, Vec::new()));
     }
     let mut asked = design.clone();

@@ -1,5 +1,7 @@
 //! Octahedral designs.
 
+use std::time::Instant;
+
 use super::{ExploreOptions, ExploreProgress, ExploreVerdict, NoExploration, OwnPoses};
 use crate::optimizing::with_default_safety_margin;
 use crate::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
@@ -33,6 +35,8 @@ pub struct ExploredClass {
     /// Whether the time limit or the caller ended the search or an assessment before a platform was proved to meet its
     /// requirements.
     pub interrupted: bool,
+    /// The time at which the assessments end with the result so far, if there is a time limit.
+    pub until: Option<Instant>,
     /// The comparison of the design with the best platform; `None` if there is none, or it has other triangles.
     pub compared: Option<ComparedDesigns>,
     /// Poses of the design.
@@ -95,7 +99,18 @@ impl ExploredClass {
 
         options.stage(4, "forward kinematics");
         let poses = design.own_poses(&options.fk())?;
-        Ok(Self { octahedral, family, search, holes, default_safety_margin, interrupted, compared, poses })
+        let until = options.watch.ends.map(|[_, assessing]| assessing);
+        Ok(Self {
+            octahedral,
+            family,
+            search,
+            holes,
+            default_safety_margin,
+            interrupted,
+            until,
+            compared,
+            poses,
+        })
     }
 
     /// The platform to build: on the holes, if the design states them.

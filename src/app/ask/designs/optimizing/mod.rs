@@ -356,9 +356,8 @@ impl OptimizeReport {
             OptimizeEvidence::Front(found) => found.report.failure.as_deref(),
             _ => None,
         };
-        let Some(report) = report.filter(|_| self.status != OptimizeStatus::Interrupted) else {
-            return Ok(());
-        };
+        let ended = self.status == OptimizeStatus::Interrupted || options.watch.is_over();
+        let Some(report) = report.filter(|_| !ended) else { return Ok(()) };
         let search = FreedomSearch {
             design: &self.asked,
             extension: options.extension,

@@ -348,7 +348,7 @@ fn written(
     let mut record = record(&results);
     folder.keep(folder::REPORT, report::markdown(&results, &headline(&record)));
     let files = folder.results();
-    folder.keep(folder::PAGE, page(files, None));
+    folder.keep(folder::PAGE, page(files, None, results.found.until));
     folder.finish()?;
     record.paths = folder.paths().collect();
     let lead = results.found.built().zip(record.assessment.as_ref());
