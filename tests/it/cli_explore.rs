@@ -435,8 +435,11 @@ fn the_platform_is_searched_with_the_drives_of_a_table() {
 fn assessments_on_holes_end_with_the_time_limit_and_are_undecided() {
     let temp = tempfile::tempdir().unwrap();
     let design = temp.path().join("design.toml");
-    let holes = "[holes]\nbase = { pitch = 0.25 }\nplatform = { pitch = 0.25 }\n";
-    let wide = limited().replace("translation = [0.5, 0.5, 0.5]", "translation = [1, 1, 1]\nrotation_deg = [10, 10, 10]");
+    let holes = "[holes]\nbase = { pitch = 1 }\nplatform = { pitch = 1 }\n";
+    // one cell decides no row over such a region
+    let wide = limited()
+        .replace("translation = [0.5, 0.5, 0.5]", "translation = [1, 1, 1]\nrotation_deg = [20, 20, 20]")
+        .replace("[9.0, 18.0]", "[8.0, 18.0]");
     std::fs::write(&design, wide + holes).unwrap();
     let folder = temp.path().join("out");
     let out = explore(design.to_str().unwrap(), &folder, &["--json", "--time-limit", "0.001"]);

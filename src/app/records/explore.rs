@@ -134,8 +134,7 @@ pub struct ExploreOctahedralAnswer {
     pub verdict: ExploreVerdict,
     /// Verdict in words, with the numbers that decided.
     pub explanation: String,
-    /// Whether the time limit or the caller ended the search or an assessment before a platform was proved to meet its
-    /// requirements.
+    /// Whether the time limit or the caller ended the search, or an assessment before its verdict.
     pub interrupted: bool,
     /// The name of the design.
     pub name: String,

@@ -56,13 +56,13 @@ pub(super) struct CompareQuestion {
     points: usize,
     seed: u64,
     /// The time at which assessments end with the result so far.
-    pub(super) until: Option<Instant>,
+    until: Option<Instant>,
 }
 
 impl CompareQuestion {
     /// Only the figures, for the report.
-    pub(super) fn plain(points: usize) -> Self {
-        Self { motions: Vec::new(), accuracy: None, points, seed: 1, until: None }
+    pub(super) fn plain(points: usize, until: Option<Instant>) -> Self {
+        Self { motions: Vec::new(), accuracy: None, points, seed: 1, until }
     }
 }
 

@@ -79,8 +79,7 @@ fn side_by_side(files: &[ReportFile], until: Option<Instant>) -> Option<Comparis
     let designs: Vec<(String, Design)> =
         files.iter().filter_map(|f| design_of(f).map(|design| (f.name.clone(), design))).collect();
     let several = designs.len() > 1;
-    let asked = CompareQuestion { until, ..CompareQuestion::plain(COMPARED_POSES) };
-    several.then(|| compare(&designs, &asked).ok()).flatten()
+    several.then(|| compare(&designs, &CompareQuestion::plain(COMPARED_POSES, until)).ok()).flatten()
 }
 
 /// The live page of a design; it begins with the offsets of a result among the files.

@@ -176,7 +176,7 @@ impl ServoSizes {
         );
         refused(format!(
             "at home the cranks are at {} degrees, outside their angles from {least} to {most}: at the height {} {rods}",
-            rounded(angle, 3),
+            rounded((angle / ROUNDED_DEG).round() * ROUNDED_DEG, 3),
             rounded(height, 4)
         ))
     }

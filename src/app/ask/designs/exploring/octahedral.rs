@@ -32,8 +32,7 @@ pub struct ExploredClass {
     pub holes: Option<Result<DesignOnHoles, NoRounding>>,
     /// The result for the default safety margin; `None` if the design states its own.
     pub default_safety_margin: Option<DefaultSafetyMargin>,
-    /// Whether the time limit or the caller ended the search or an assessment before a platform was proved to meet its
-    /// requirements.
+    /// Whether the time limit or the caller ended the search, or an assessment before its verdict.
     pub interrupted: bool,
     /// The time at which the assessments end with the result so far, if there is a time limit.
     pub until: Option<Instant>,
