@@ -68,7 +68,8 @@ fn formats_for(program: &str) -> Option<String> {
         purpose.split(|c: char| !c.is_alphanumeric()).any(|word| word == program)
     };
     let all = ExportFormat::ALL.into_iter().filter(names);
-    let all: Vec<String> = all.map(|format| format!("`--to {format}` ({})", format.writer().purpose)).collect();
+    let all: Vec<String> =
+        all.map(|format| format!("`--to {format}` ({})", format.writer().purpose)).collect();
     (!all.is_empty()).then(|| format!("for {program}: {}", all.join(" or ")))
 }
 

@@ -9,7 +9,9 @@ use super::{
     OptimalityWord, OptimizeAnswer, SearchesBesideRecord, SolvedRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
-use ask::{DefaultSafetyMargin, ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation};
+use ask::{
+    DefaultSafetyMargin, ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation,
+};
 use machine::manufacture::{NoRounding, RoundedJoint};
 use optimize::dimensional::ChosenVariable;
 use verify::Verification;

@@ -289,7 +289,11 @@ impl RotaryPlatform {
     pub fn reach(&self, leg: usize, pose: &Pose) -> CrankReach {
         let RotaryLeg { crank, platform, .. } = &self.legs[leg];
         let d = pose.transform(platform) - crank.centre;
-        CrankReach::new(crank.length, d.norm_squared(), self.directions[leg].map(|direction| d.dot(&direction)))
+        CrankReach::new(
+            crank.length,
+            d.norm_squared(),
+            self.directions[leg].map(|direction| d.dot(&direction)),
+        )
     }
 
     /// Both angles of each crank for a pose of the platform, regardless of their limits. A joint on the axis of the

@@ -63,7 +63,8 @@ fn sizes_make_a_rotary_hexapod_that_commands_take() {
     assert_eq!((code, &limits["allowed"]), (Some(0), &true.into()), "{limits}");
     let (code, assessed) = asked(&["assess", file]);
     assert_eq!((code, &assessed["workspace"]), (Some(3), &"none".into()), "{assessed}");
-    std::fs::write(file, text + "\n[workspace]\ntranslation = [5, 5, 5]\nrotation_deg = [3, 3, 3]\n").unwrap();
+    std::fs::write(file, text + "\n[workspace]\ntranslation = [5, 5, 5]\nrotation_deg = [3, 3, 3]\n")
+        .unwrap();
     let (code, assessed) = asked(&["assess", file]);
     assert_eq!((code, &assessed["met"]), (Some(0), &true.into()), "{assessed}");
     let (code, exported) = asked(&["export", file, "--to", "c", "-o", &path(folder.path(), "c")]);
@@ -136,7 +137,8 @@ fn numbers_and_options_that_make_no_rotary_hexapod_are_refused() {
     assert_eq!(refusal(&["--servo"]).0, "new::missing");
     let (code, said) = without("--servo");
     assert!(code == "usage" && said.contains("--servo"), "{said}");
-    let one: Vec<&str> = level.iter().map(|a| if a.starts_with("--base-s") { "--base-spread=0" } else { a }).collect();
+    let one: Vec<&str> =
+        level.iter().map(|a| if a.starts_with("--base-s") { "--base-spread=0" } else { a }).collect();
     let (code, said) = refusal(&one);
     assert!(code == "new::bad_sizes" && said.contains("cannot have one centre"), "{said}");
 }

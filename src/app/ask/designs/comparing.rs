@@ -183,7 +183,8 @@ impl Design {
         let terms = Terms::new(m, &required, &home);
         // the cranks of a parsed design always make a platform
         let platform = self.rotary().ok().flatten();
-        let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length, options.until);
+        let (assessment, conditioning) =
+            self.assessed_beside(options.seed, options.characteristic_length, options.until);
         let stiffness = self.hardware.leg_stiffness;
         // a singular pose has no stiffness
         let softest = |pose: &Pose| {

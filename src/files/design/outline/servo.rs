@@ -86,7 +86,9 @@ impl ServoSizes {
         self.sizes(height.unwrap_or(self.radius[0])).check_rotary()?;
         for (what, x) in [("crank", Some(self.crank)), ("rod", rod)] {
             if let Some(x) = x.filter(|x| !(*x > 0.0 && x.is_finite())) {
-                return Err(InvalidOutline(format!("the length of a {what} is {x}, not a positive length")).into());
+                return Err(
+                    InvalidOutline(format!("the length of a {what} is {x}, not a positive length")).into()
+                );
             }
         }
         if let Some([least, most]) = self.angle_deg.filter(|[a, b]| !(a < b && b - a <= 360.0)) {
@@ -216,7 +218,10 @@ impl ServoHexapod {
         );
         let chosen = match self.asked.home {
             ServoHome::LevelAt { .. } => {
-                format!("The rods are {} {units} long, so that the cranks are level at home.", rounded(self.rod, 4))
+                format!(
+                    "The rods are {} {units} long, so that the cranks are level at home.",
+                    rounded(self.rod, 4)
+                )
             }
             ServoHome::LevelWith { .. } => format!(
                 "Home is {} {units} above the crank centres, so that the cranks are level there.",
@@ -338,7 +343,9 @@ mod tests {
             for (x, beyond) in [(least, 1.02 * least - 0.02 * most), (most, 1.02 * most - 0.02 * least)] {
                 assert!(stated(110.0, x).is_ok() && stated(110.0, beyond).is_err(), "{why}");
             }
-            for (h, factor) in heights.iter().zip(if heights.len() == 2 { [0.99, 1.01] } else { [1.01, 1.01] }) {
+            for (h, factor) in
+                heights.iter().zip(if heights.len() == 2 { [0.99, 1.01] } else { [1.01, 1.01] })
+            {
                 assert!(stated(*h, rod).is_ok() && stated(factor * h, rod).is_err(), "{why}");
             }
             assert_eq!(heights.len(), if rod == 60.0 { 1 } else { 2 }, "{why}");

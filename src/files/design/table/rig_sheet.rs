@@ -367,7 +367,8 @@ impl RigSheet {
         match self.legs {
             SheetLegs::Linear { middle, range } => {
                 sizes.check().map_err(not_symmetric)?;
-                let lengths = format!("\n[hardware]\nleg_length = [{:?}, {:?}]\n", middle - range, middle + range);
+                let lengths =
+                    format!("\n[hardware]\nleg_length = [{:?}, {:?}]\n", middle - range, middle + range);
                 Ok(sizes.to_toml(name, units) + &lengths)
             }
             SheetLegs::Cranks { crank, rod, middle_deg, axes_deg } => {

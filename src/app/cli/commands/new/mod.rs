@@ -172,7 +172,8 @@ fn servo_sizes(args: &NewArgs) -> Result<ServoSizes, Failure> {
     let [radius, spread_deg] = circles(args)?;
     let angles = args.crank_angles.as_deref().map(|text| {
         let fault = || Failure::refused("new::bad_sizes", numbers::fault("--crank-angles", text, 2));
-        numbers::parse(text).ok_or_else(|| fault().with_help("write the least and the greatest angle: -60,60"))
+        numbers::parse(text)
+            .ok_or_else(|| fault().with_help("write the least and the greatest angle: -60,60"))
     });
     Ok(ServoSizes {
         radius,
