@@ -179,8 +179,11 @@ impl CrankReach {
         [1.0, -1.0].map(|cosine| self.rod_at(cosine))
     }
 
-    /// Both angles for a rod: `x cos q + y sin q = k` with `k = (|d|^2 + r^2 - l^2) / (2 r)`, hence `q = middle +-
-    /// acos(k / across)`.
+    /// Both angles for a rod.
+    ///
+    /// ```text
+    /// x cos q + y sin q = k = (|d|^2 + r^2 - l^2) / (2 r),      q = middle +- acos(k / across)
+    /// ```
     ///
     /// # Errors
     /// The missing length of a rod that does not reach; negative if the rod is too long.

@@ -49,8 +49,8 @@ impl HexapodSizes {
         Ok(())
     }
 
-    /// The same for the crank centres of a rotary hexapod. Its rods end at crank tips, so similar hexagons are no fault;
-    /// each crank needs a centre of its own.
+    /// The same for the crank centres of a rotary hexapod. Its rods end at crank tips, so similar hexagons are allowed.
+    /// Each crank needs its own centre.
     pub(in crate::design) fn check_rotary(&self) -> Result<(), InvalidOutline> {
         self.check_each()?;
         if self.spread_deg[0] == 0.0 {
