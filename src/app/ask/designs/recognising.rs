@@ -5,6 +5,7 @@ use crate::design::parse_with_cranks;
 use files::design::{Format, HexapodSizes, ServoHexapod, SnappedDesign};
 use fk::solve::pose_count::{CountOptions, count_generic_poses};
 use fk::{FkOptions, solver};
+use num::shown::rounded;
 use platform::manipulator::{Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use synthesis::singularity::SingularityVerdict;
 
@@ -67,7 +68,8 @@ impl Design {
         };
         let would = text().and_then(read).map_or_else(String::new, |there| {
             format!(
-                ", and {there:.3} with the platform spread counted from the legs of a base pair ({spread} degrees)"
+                ", and {there:.3} with the platform spread counted from the legs of a base pair ({} degrees)",
+                rounded(spread, 12)
             )
         });
         told.push(format!("Home is nearly singular: the inverse condition number is {here:.3}{would}."));

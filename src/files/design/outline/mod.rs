@@ -7,6 +7,8 @@ use std::fmt::Write as _;
 
 use thiserror::Error;
 
+use num::shown::rounded;
+
 pub use servo::{InvalidServoSizes, ServoHexapod, ServoHome, ServoSizes};
 
 /// The usual dimensions of a hexapod: the joints of each body stand in three pairs on a circle, and legs join
@@ -94,7 +96,7 @@ impl HexapodSizes {
         };
         let body = |k: usize, first: f64| {
             let angles = [0.0, 1.0, 2.0].into_iter().flat_map(|n| pair(k, first + n * PAIRS_DEG));
-            let angles: Vec<String> = angles.map(|x| format!("{x}")).collect();
+            let angles: Vec<String> = angles.map(degrees).collect();
             format!("on a circle of radius {} {units}, at {} degrees", self.radius[k], angles.join(", "))
         };
         [
@@ -102,7 +104,7 @@ impl HexapodSizes {
             format!("The platform joints are {}.", body(1, PLATFORM_TURN_DEG)),
             format!(
                 "The spread is the angle between the two joints of a pair on one body. Makers who measure the platform spread between the legs of a base pair write {} instead of {} degrees.",
-                self.other_reading().spread_deg[1],
+                degrees(self.other_reading().spread_deg[1]),
                 self.spread_deg[1]
             ),
         ]
@@ -116,7 +118,7 @@ impl HexapodSizes {
         }
         format!(
             ". If the platform spread is meant between the legs of a base pair, give {} degrees",
-            spread[1]
+            degrees(spread[1])
         )
     }
 
@@ -208,6 +210,11 @@ impl HexapodSizes {
         let ends = if turn > 0.0 { [1, 2, 2, 3, 3, 1] } else { [1, 1, 2, 2, 3, 3] };
         (out, ends.map(joint))
     }
+}
+
+/// A computed angle without the digits of its rounding.
+fn degrees(x: f64) -> String {
+    rounded(x, 12)
 }
 
 /// The design file of an octahedral platform in TOML, without leg lengths: each corner of the base is joined to two
