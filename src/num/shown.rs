@@ -63,9 +63,25 @@ pub fn rounded_down(x: f64) -> String {
     format!("{:.decimals$}", (x * scale).floor() / scale)
 }
 
+/// The ends of an interval, rounded inward by at most a thousandth of its width, so that quoted values lie within it.
+pub fn rounded_inward([least, most]: [f64; 2]) -> [String; 2] {
+    // the power of ten of the last digit
+    let last = (most - least).abs().log10().floor() - 3.0;
+    let decimals = if last.is_finite() { (-last).clamp(0.0, 17.0) as usize } else { 17 };
+    let step = 10f64.powi(decimals as i32);
+    [(least * step).ceil() / step, (most * step).floor() / step].map(|x| format!("{:.decimals$}", x + 0.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_ends_of_an_interval_are_rounded_inward() {
+        assert_eq!(rounded_inward([94.2311, 139.8877]), ["94.24", "139.88"]);
+        assert_eq!(rounded_inward([0.123_450_04, 0.123_670_06]), ["0.1234501", "0.1236700"]);
+        assert_eq!(rounded_inward([-0.4, 98765.4]), ["0", "98765"]);
+    }
 
     #[test]
     fn what_rounds_to_zero_has_no_sign() {

@@ -69,6 +69,7 @@ CALLS = """
 0 ik {flexures} --pose 3,5,350,0,2,9
 0 ik {rbt-octahedral} --pose home --pose 3,5,9,0,0,90
 0 ik {rbt-octahedral} {places}
+0 new --servo --crank 24 --base-radius 80 --platform-radius 60 --base-spread 20 --platform-spread 20 --rod 120
 0 new --base-radius 500 --platform-radius 300 --base-spread 20 --platform-spread 20 --height 400
 0 new --points designs/tables/hexapod.csv -o {imported.toml}
 0 help fk --help

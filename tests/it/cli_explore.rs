@@ -430,6 +430,30 @@ fn the_platform_is_searched_with_the_drives_of_a_table() {
     assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &"usage::no_effect".into()));
 }
 
+/// A limit that is over before the first assessment: the platform on the holes is not assessed beyond it.
+#[test]
+fn assessments_on_holes_end_with_the_time_limit_and_are_undecided() {
+    let temp = tempfile::tempdir().unwrap();
+    let design = temp.path().join("design.toml");
+    let holes = "[holes]\nbase = { pitch = 1 }\nplatform = { pitch = 1 }\n";
+    // one cell decides no row over such a region
+    let wide = limited()
+        .replace("translation = [0.5, 0.5, 0.5]", "translation = [1, 1, 1]\nrotation_deg = [20, 20, 20]")
+        .replace("[9.0, 18.0]", "[8.0, 18.0]");
+    std::fs::write(&design, wide + holes).unwrap();
+    let folder = temp.path().join("out");
+    let out = explore(design.to_str().unwrap(), &folder, &["--json", "--time-limit", "0.001"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(3), &"inconclusive".into()), "{d}");
+    assert_eq!((&d["interrupted"], &d["optimize"]["status"]), (&true.into(), &"interrupted".into()), "{d}");
+    assert!(d["explanation"].as_str().unwrap().ends_with("; search or assessment was interrupted"), "{d}");
+    // the platform is on holes, with an open verdict
+    let rounded: Value = serde_json::from_str(&read(&folder, "rounded-assess.json")).unwrap();
+    assert!(d["holes"]["variant"].is_string() && rounded["met"].is_null(), "{rounded}");
+    assert_eq!(d["assessment"]["met"], rounded["met"]);
+    assert!(d["safety_margin"].is_null() || d["safety_margin"]["kept"].is_null(), "{d}");
+}
+
 /// A shipped design with tables added.
 fn with_tables(folder: &Path, design: &str, tables: &str) -> String {
     let text = std::fs::read_to_string(shipped(design)).unwrap();

@@ -101,6 +101,13 @@ fn a_wrong_word_is_told_what_was_meant() {
         ("fk x.toml --length 1,2", "unexpected argument '--length'", "did you mean `--lengths`?"),
         ("fk x.toml --gap 1", "unexpected argument '--gap'", "--gap is an option of `equipod optimize`"),
         ("optimize x.toml --out y", "unexpected argument '--out'", "did you mean `--output`?"),
+        ("limits x.toml --pose home", "unexpected argument '--pose'", "did you mean `--at`?"),
+        ("ik x.toml --at home", "unexpected argument '--at'", "did you mean `--pose`?"),
+        ("export x.toml -o y --to linuxcnc", "invalid value 'linuxcnc'", "for linuxcnc: `--to c` ("),
+        ("export x.toml -o y --to LinuxCNC", "invalid value 'LinuxCNC'", ") or `--to hal` ("),
+        ("export x.toml -o y --to gazebo", "invalid value 'gazebo'", "for gazebo: `--to sdf` ("),
+        ("export x.toml -o y --to stp", "invalid value 'stp'", "a similar value exists: 'step'"),
+        ("export x.toml -o y --to word", "invalid value 'word'", "see `equipod export --help`"),
         ("fk", "required arguments were not provided", "see `equipod fk --help`"),
     ] {
         let words: Vec<&str> = line.split(' ').collect();

@@ -6,12 +6,13 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use super::failure::Failure;
 use super::guide::{self, GuideEntry};
 use files::design::{likeness, nearest_word};
+use files::export::ExportFormat;
 
 /// Words more similar than this to a name are taken for it (similarity of Jaro and Winkler).
 const NEAR: f64 = 0.9;
 
-/// Options of other programs, with their names in this one.
-const OPTIONS: [(&str, &str); 8] = [
+/// Options of other programs and commands, with their names in a command that has only the second one.
+const OPTIONS: [(&str, &str); 10] = [
     ("--out", "--output"),
     ("--file", "--output"),
     ("--jobs", "--threads"),
@@ -20,6 +21,8 @@ const OPTIONS: [(&str, &str); 8] = [
     ("--silent", "--quiet"),
     ("--format", "--to"),
     ("--length", "--lengths"),
+    ("--pose", "--at"),
+    ("--at", "--pose"),
 ];
 
 /// The refusal of arguments, with suggestions.
@@ -48,9 +51,26 @@ pub(crate) fn refusal(error: &clap::Error, args: &[String]) -> Failure {
             (message.to_string(), place.meant_option(&word).or_else(tip).unwrap_or(see))
         }
         ErrorKind::ValueValidation => (in_words(message), tip().unwrap_or(see)),
+        ErrorKind::InvalidValue if place.path == ["export"] => {
+            let word = said(error, ContextKind::InvalidValue).unwrap_or_default();
+            (message.to_string(), formats_for(&word).or_else(tip).unwrap_or(see))
+        }
         _ => (message.to_string(), tip().unwrap_or(see)),
     };
     Failure::refused("usage", message).with_help(help)
+}
+
+/// The formats for a program: those whose purpose names it.
+fn formats_for(program: &str) -> Option<String> {
+    let program = program.to_lowercase();
+    let names = |format: &ExportFormat| {
+        let purpose = format.writer().purpose.to_lowercase();
+        purpose.split(|c: char| !c.is_alphanumeric()).any(|word| word == program)
+    };
+    let all = ExportFormat::ALL.into_iter().filter(names);
+    let all: Vec<String> =
+        all.map(|format| format!("`--to {format}` ({})", format.writer().purpose)).collect();
+    (!all.is_empty()).then(|| format!("for {program}: {}", all.join(" or ")))
 }
 
 /// A message about a value, without the words of Rust for numbers and ranges.

@@ -9,7 +9,9 @@ use super::{
     OptimalityWord, OptimizeAnswer, SearchesBesideRecord, SolvedRecord,
 };
 use ask::rounding::{DesignOnHoles, RoundingWay};
-use ask::{ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation};
+use ask::{
+    DefaultSafetyMargin, ExploreVerdict, LengthsOrigin, OptimizeStatus, OwnPoses, SearchWord, Separation,
+};
 use machine::manufacture::{NoRounding, RoundedJoint};
 use optimize::dimensional::ChosenVariable;
 use verify::Verification;
@@ -136,6 +138,8 @@ pub struct ExploreOctahedralAnswer {
     pub verdict: ExploreVerdict,
     /// Verdict in words, with the numbers that decided.
     pub explanation: String,
+    /// Whether the time limit or the caller ended the search, or an assessment before its verdict.
+    pub interrupted: bool,
     /// The name of the design.
     pub name: String,
     /// Files written.
@@ -206,23 +210,35 @@ pub struct DefaultSafetyMarginRecord {
     /// Safety margin of every limit, percent.
     pub percent: f64,
     /// Whether the platform found keeps it. False: no platform with it was found, and the search continued without it.
-    pub kept: bool,
+    /// Null: the search with it was interrupted.
+    pub kept: Option<bool>,
     /// Result in words.
     pub message: String,
 }
 
 impl DefaultSafetyMarginRecord {
-    /// The record of a safety margin that is kept or not.
+    /// The record of the result for this safety margin.
     #[must_use]
-    pub fn new(percent: f64, kept: bool) -> Self {
-        let message = if kept {
-            format!(
-                "by default every limit keeps a safety margin of {percent} %; `safety_margin` in [limits] sets another value"
-            )
-        } else {
-            format!(
-                "no platform was found that keeps a safety margin of {percent} % on every limit; the search was repeated without it"
-            )
+    pub fn new(percent: f64, result: DefaultSafetyMargin) -> Self {
+        let (kept, message) = match result {
+            DefaultSafetyMargin::Kept => (
+                Some(true),
+                format!(
+                    "by default every limit keeps a safety margin of {percent} %; `safety_margin` in [limits] sets another value"
+                ),
+            ),
+            DefaultSafetyMargin::GivenUp => (
+                Some(false),
+                format!(
+                    "no platform was found that keeps a safety margin of {percent} % on every limit; the search was repeated without it"
+                ),
+            ),
+            DefaultSafetyMargin::Undecided => (
+                None,
+                format!(
+                    "by default every limit requires a safety margin of {percent} %; the search was interrupted before a platform was proved to keep it"
+                ),
+            ),
         };
         Self { percent, kept, message }
     }

@@ -18,8 +18,10 @@ pub struct NewAnswer {
     pub file: PresetFile,
     /// The home pose of the platform.
     pub home: PoseRecord,
-    /// The leg lengths at home, design units.
+    /// The leg lengths at home, or the rod lengths of a design with cranks, design units.
     pub lengths: [f64; 6],
+    /// The crank angles at home, degrees; null: legs of variable length.
+    pub crank_angles_deg: Option<[f64; 6]>,
     /// Whether every pose is singular, decided exactly for the joints as written.
     pub architecturally_singular: bool,
     /// Evidence that home is singular; null: it is regular.

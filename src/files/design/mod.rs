@@ -40,7 +40,10 @@ pub use model::{
     CalibratedNumber, CalibrationTable, Combination, Correlations, DesignModel, NameCount, OptimizeTable,
     SearchTable,
 };
-pub use outline::{HexapodSizes, InvalidOutline, octahedral_toml, with_lengths};
+pub use outline::{
+    HexapodSizes, InvalidOutline, InvalidServoSizes, ServoHexapod, ServoHome, ServoSizes, octahedral_toml,
+    with_lengths,
+};
 pub use scale::{NotScaled, micrometres, unit_of_millimetres};
 pub use snap::{FoundRelation, JointRelation, SnappedDesign};
 pub use table::{

@@ -133,6 +133,72 @@ fn wrapped(angle: f64) -> f64 {
     angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
+/// The same angle within half a turn of another one.
+#[must_use]
+pub fn angle_near(middle: f64, angle: f64) -> f64 {
+    if middle == 0.0 { wrapped(angle) } else { middle + wrapped(angle - middle) }
+}
+
+/// The place of a platform joint relative to a crank, which decides the rods that reach it.
+///
+/// In the plane of the crank the joint is at the distance `across` from the axis, in the direction of the angle
+/// `middle`. The rod at the angle `q` has the length `l` with `l^2 = |d|^2 + r^2 - 2 r across cos(q - middle)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrankReach {
+    crank: f64,
+    square: f64,
+    across: f64,
+    /// The angle of the tip nearest to the platform joint, from `-pi` to `pi`.
+    pub middle: f64,
+}
+
+impl CrankReach {
+    /// A crank of this length. `square` is `|d|^2` for the way `d` from its centre to the platform joint; `x` and `y`
+    /// are its components at the angle 0 and at a quarter turn.
+    #[must_use]
+    pub fn new(crank: f64, square: f64, [x, y]: [f64; 2]) -> Self {
+        Self { crank, square, across: x.hypot(y), middle: y.atan2(x) }
+    }
+
+    /// The length of the rod at an angle.
+    #[must_use]
+    pub fn rod(&self, angle: f64) -> f64 {
+        self.rod_at((angle - self.middle).cos())
+    }
+
+    fn rod_at(&self, cosine: f64) -> f64 {
+        let along = (self.square - self.across * self.across).max(0.0);
+        // (across - r)^2 has no cancellation when crank and rod are in line
+        let turned = 2.0 * self.crank * self.across * (1.0 - cosine);
+        (along + (self.across - self.crank).powi(2) + turned).sqrt()
+    }
+
+    /// The shortest and the longest rod that reaches; crank and rod are then in one plane with the axis.
+    #[must_use]
+    pub fn rods(&self) -> [f64; 2] {
+        [1.0, -1.0].map(|cosine| self.rod_at(cosine))
+    }
+
+    /// Both angles for a rod.
+    ///
+    /// ```text
+    /// x cos q + y sin q = k = (|d|^2 + r^2 - l^2) / (2 r),      q = middle +- acos(k / across)
+    /// ```
+    ///
+    /// # Errors
+    /// The missing length of a rod that does not reach; negative if the rod is too long.
+    pub fn angles(&self, rod: f64) -> Result<CrankAngles, f64> {
+        let k = (self.square + self.crank * self.crank - rod * rod) / (2.0 * self.crank);
+        let cosine = k / self.across;
+        // a few units in the last place are rounding
+        if !(cosine.abs() <= 1.0 + 1e-14) {
+            let [shortest, longest] = self.rods();
+            return Err(if k > 0.0 { shortest - rod } else { longest - rod });
+        }
+        Ok(CrankAngles { middle: self.middle, half: cosine.clamp(-1.0, 1.0).acos() })
+    }
+}
+
 /// A pose that cranks and rods cannot hold.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("leg {}: the rod does not reach from the circle of the crank to the platform joint; it is {by} too short, or too long where this is negative", .leg + 1)]
@@ -221,33 +287,28 @@ impl RotaryPlatform {
         &self.rods
     }
 
-    /// Both angles of each crank for a pose of the platform, regardless of their limits.
-    ///
-    /// With `d = R b + p - c`, `|d - r (e cos q + f sin q)| = l` is `x cos q + y sin q = k` for `x = d.e`, `y = d.f`,
-    /// `k = (|d|^2 + r^2 - l^2) / (2 r)`: hence `q = atan2(y, x) +- acos(k / sqrt(x^2 + y^2))`. A joint on the axis of
-    /// the crank determines no angle.
+    /// The place of the platform joint of a leg relative to its crank, at a pose.
+    #[must_use]
+    pub fn reach(&self, leg: usize, pose: &Pose) -> CrankReach {
+        let RotaryLeg { crank, platform, .. } = &self.legs[leg];
+        let d = pose.transform(platform) - crank.centre;
+        CrankReach::new(
+            crank.length,
+            d.norm_squared(),
+            self.directions[leg].map(|direction| d.dot(&direction)),
+        )
+    }
+
+    /// Both angles of each crank for a pose of the platform, regardless of their limits. A joint on the axis of the
+    /// crank determines no angle.
     ///
     /// # Errors
     /// The first leg whose rod does not reach.
     pub fn both_angles(&self, pose: &Pose) -> Result<[CrankAngles; 6], OutOfReach> {
         let mut out = [CrankAngles { middle: 0.0, half: 0.0 }; 6];
-        for (i, leg) in self.legs.iter().enumerate() {
-            let (r, l) = (leg.crank.length, leg.rod);
-            let d = pose.transform(&leg.platform) - leg.crank.centre;
-            let [e, f] = self.directions[i];
-            let (x, y) = (d.dot(&e), d.dot(&f));
-            let across = x.hypot(y);
-            let k = (d.norm_squared() + r * r - l * l) / (2.0 * r);
-            let cosine = k / across;
-            // a few units in the last place are rounding
-            if !(cosine.abs() <= 1.0 + 1e-14) {
-                // distances of the joint from the nearest and the farthest point of the circle
-                let along = d.norm_squared() - across * across;
-                let to = |side: f64| (along.max(0.0) + (across - side * r).powi(2)).sqrt();
-                let by = if k > 0.0 { to(1.0) - l } else { to(-1.0) - l };
-                return Err(OutOfReach { leg: i, by });
-            }
-            out[i] = CrankAngles { middle: y.atan2(x), half: cosine.clamp(-1.0, 1.0).acos() };
+        for (leg, angles) in out.iter_mut().enumerate() {
+            let found = self.reach(leg, pose).angles(self.legs[leg].rod);
+            *angles = found.map_err(|by| OutOfReach { leg, by })?;
         }
         Ok(out)
     }
@@ -265,8 +326,7 @@ impl RotaryPlatform {
     /// The same angle, within half a turn of the middle of the crank's limits.
     #[must_use]
     pub fn counted(&self, leg: usize, angle: f64) -> f64 {
-        let middle = self.legs[leg].limits.map_or(0.0, |(least, most)| 0.5 * (least + most));
-        if middle == 0.0 { wrapped(angle) } else { middle + wrapped(angle - middle) }
+        angle_near(self.legs[leg].limits.map_or(0.0, |(least, most)| 0.5 * (least + most)), angle)
     }
 
     /// Margins of each crank to its limits, radians: negative beyond them, infinite without limits.

@@ -37,6 +37,14 @@ pub struct ShapeSearchOptions {
     pub until: Option<Instant>,
 }
 
+impl ShapeSearchOptions {
+    /// Whether the time of everything is over.
+    #[must_use]
+    pub fn is_late(&self) -> bool {
+        self.until.is_some_and(|end| Instant::now() >= end)
+    }
+}
+
 impl Default for ShapeSearchOptions {
     fn default() -> Self {
         Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 6, polished: 8, until: None }

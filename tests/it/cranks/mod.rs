@@ -6,6 +6,7 @@ mod file;
 mod margins;
 mod motion;
 mod poses;
+mod sizes;
 
 use equipod::methods::design::{Design, Format, parse_with_cranks};
 use equipod::methods::geom::Pose;

@@ -505,8 +505,13 @@ impl Design {
 
     /// The same with a conditioning by a given length, common to all designs of a comparison. The conditioning exists
     /// even without requirements.
-    pub fn assessed_beside(&self, seed: u64, length: f64) -> (Option<AssessReport>, LeastConditioning) {
-        let options = deciding(seed);
+    pub fn assessed_beside(
+        &self,
+        seed: u64,
+        length: f64,
+        until: Option<Instant>,
+    ) -> (Option<AssessReport>, LeastConditioning) {
+        let options = deciding(seed).until(until);
         let found = self.decided_by(&options, length);
         let conditioning = found.as_ref().map(|f| f.conditioning);
         (found, conditioning.unwrap_or_else(|| self.least_conditioning(&options, length)))

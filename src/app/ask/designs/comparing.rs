@@ -1,5 +1,7 @@
 //! The figures by which designs are compared.
 
+use std::time::Instant;
+
 use nalgebra::{Point3, Vector3};
 
 use super::assessing::{AssessReport, deciding};
@@ -34,6 +36,8 @@ pub struct FigureOptions<'a> {
     pub accuracy: Option<ErrorBound>,
     /// Characteristic length of the conditioning, common to all designs compared.
     pub characteristic_length: f64,
+    /// Optional time at which the assessment ends with the result so far.
+    pub until: Option<Instant>,
 }
 
 impl<'a> FigureOptions<'a> {
@@ -41,7 +45,15 @@ impl<'a> FigureOptions<'a> {
     #[must_use]
     pub fn new(characteristic_length: f64) -> Self {
         let points = AssessOptions::default().points;
-        Self { points, seed: 1, motions: &[], masses: None, accuracy: None, characteristic_length }
+        Self {
+            points,
+            seed: 1,
+            motions: &[],
+            masses: None,
+            accuracy: None,
+            characteristic_length,
+            until: None,
+        }
     }
 
     num::setters! {
@@ -55,6 +67,8 @@ impl<'a> FigureOptions<'a> {
         fn masses(masses: impl Into<Option<&'a MotionMasses>>) = masses.into();
         /// The accuracy for the joint tolerances.
         fn accuracy(accuracy: impl Into<Option<ErrorBound>>) = accuracy.into();
+        /// Optional time at which the assessment ends with the result so far.
+        fn until(until: impl Into<Option<Instant>>) = until.into();
     }
 }
 
@@ -203,7 +217,8 @@ impl Design {
         let terms = Terms::new(m, &required, &home);
         // the cranks of a parsed design always make a platform
         let platform = self.rotary().ok().flatten();
-        let (assessment, conditioning) = self.assessed_beside(options.seed, options.characteristic_length);
+        let (assessment, conditioning) =
+            self.assessed_beside(options.seed, options.characteristic_length, options.until);
         let stiffness = self.hardware.leg_stiffness;
         // a singular pose has no stiffness
         let softest = |pose: &Pose| {

@@ -42,8 +42,8 @@ pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
 #[cfg(feature = "optimize")]
 pub use exploring::{
-    ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict, ExploredClass,
-    ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
+    DefaultSafetyMargin, ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict,
+    ExploredClass, ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
 };
 pub use frames::{PoseFrames, USUAL};
 pub use holding::SingularHome;

@@ -2,9 +2,10 @@
 
 use crate::Design;
 use crate::design::parse_with_cranks;
-use files::design::{Format, HexapodSizes, SnappedDesign};
+use files::design::{Format, HexapodSizes, ServoHexapod, SnappedDesign};
 use fk::solve::pose_count::{CountOptions, count_generic_poses};
 use fk::{FkOptions, solver};
+use num::shown::rounded;
 use platform::manipulator::{Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use synthesis::singularity::SingularityVerdict;
 
@@ -41,28 +42,45 @@ impl Design {
     /// one sentence each. The other reading of the spreads is named if its home is not.
     #[must_use]
     pub fn told_of_sizes(&self, sizes: &HexapodSizes) -> Vec<String> {
-        let mut told = sizes.understood(&self.units).to_vec();
-        let condition = |design: &Self| {
-            let (m, home) = (design.manipulator(), design.home_or_default());
-            inverse_condition(&jacobian(m, &home, design.characteristic_length()))
-        };
-        let here = condition(self);
+        let other = sizes.other_reading();
+        let text = || other.check().ok().map(|()| other.to_toml(&self.name, &self.units));
+        self.told(sizes.understood(&self.units).to_vec(), other.spread_deg[1], text)
+    }
+
+    /// The same for a rotary hexapod.
+    #[must_use]
+    pub fn told_of_servos(&self, hexapod: &ServoHexapod) -> Vec<String> {
+        let (spread, other) = hexapod.other_reading();
+        let text = || other.ok().map(|other| other.to_toml(&self.name, &self.units));
+        self.told(hexapod.understood(&self.units), spread, text)
+    }
+
+    /// The sentences, with the conditioning of a nearly singular home. `text` is the design of the other reading, with
+    /// this platform spread.
+    fn told(&self, mut told: Vec<String>, spread: f64, text: impl FnOnce() -> Option<String>) -> Vec<String> {
+        let here = self.conditioning_at_home();
         if here >= NEARLY_SINGULAR {
             return told;
         }
-        let other = sizes.other_reading();
-        let read = |other: HexapodSizes| {
-            let text = other.check().ok().map(|()| other.to_toml(&self.name, &self.units))?;
+        let read = |text: String| {
             let (design, _) = parse_with_cranks(&text, Format::Toml).ok()?;
-            Some(condition(&design)).filter(|there| *there >= NEARLY_SINGULAR)
+            Some(design.conditioning_at_home()).filter(|there| *there >= NEARLY_SINGULAR)
         };
-        let would = read(other).map_or_else(String::new, |there| {
+        let would = text().and_then(read).map_or_else(String::new, |there| {
             format!(
                 ", and {there:.3} with the platform spread counted from the legs of a base pair ({} degrees)",
-                other.spread_deg[1]
+                rounded(spread, 12)
             )
         });
         told.push(format!("Home is nearly singular: the inverse condition number is {here:.3}{would}."));
         told
+    }
+
+    /// The inverse condition number of the legs or rods at home.
+    fn conditioning_at_home(&self) -> f64 {
+        let home = self.home_or_default();
+        let rods = self.rotary().ok().flatten().and_then(|cranks| cranks.at(&cranks.ik(&home).ok()?).ok());
+        let legs = rods.as_ref().unwrap_or_else(|| self.manipulator());
+        inverse_condition(&jacobian(legs, &home, self.characteristic_length()))
     }
 }

@@ -318,10 +318,10 @@ fn fit(
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Fitted, Error> {
-    let assessed = design.assessed(options.seed);
+    let assessed = design.assessed_until(options.seed, options.until);
     let beside = |kind: &VariableKind| matches!(kind, VariableKind::HomeHeight | VariableKind::JointAxes);
     let free: Vec<VariableKind> = design.search.variables.iter().copied().filter(beside).collect();
-    if free.is_empty() || rank(assessed.as_ref()) == [2, 2] {
+    if free.is_empty() || rank(assessed.as_ref()) == [2, 2] || options.is_late() {
         return Ok((design, assessed, Vec::new()));
     }
     let mut asked = design.clone();
@@ -335,7 +335,7 @@ fn fit(
     let found = checked(&asked, &problem, s, options.into())?.design;
     let mut again = design.clone();
     (again.home, again.hardware) = (found.home, found.hardware);
-    let reassessed = again.assessed(options.seed);
+    let reassessed = again.assessed_until(options.seed, options.until);
     if rank(reassessed.as_ref()) > rank(assessed.as_ref()) {
         return Ok((again, reassessed, free));
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use super::build::drives;
 use super::build::tolerances::numbers;
@@ -54,12 +55,14 @@ pub(super) struct CompareQuestion {
     accuracy: Option<ErrorBound>,
     points: usize,
     seed: u64,
+    /// The time at which assessments end with the result so far.
+    until: Option<Instant>,
 }
 
 impl CompareQuestion {
     /// Only the figures, for the report.
-    pub(super) fn plain(points: usize) -> Self {
-        Self { motions: Vec::new(), accuracy: None, points, seed: 1 }
+    pub(super) fn plain(points: usize, until: Option<Instant>) -> Self {
+        Self { motions: Vec::new(), accuracy: None, points, seed: 1, until }
     }
 }
 
@@ -102,6 +105,7 @@ fn asked(args: &CompareArgs, context: &Context) -> Result<CompareQuestion, Failu
         accuracy: accuracy.transpose()?,
         points: args.points as usize,
         seed: context.seed(),
+        until: None,
     })
 }
 
@@ -149,7 +153,8 @@ pub(super) fn compare(designs: &[(String, Design)], asked: &CompareQuestion) -> 
             .seed(asked.seed)
             .motions(&motions)
             .masses(masses.as_ref())
-            .accuracy(asked.accuracy);
+            .accuracy(asked.accuracy)
+            .until(asked.until);
         let found = design.figures(&options);
         out.answer.designs.push(FiguresRecord::new(design, path.clone(), &found, length));
         out.thumbnails.push(thumbnail(&drawn(design, &home), &home, &design.name));

@@ -1,6 +1,7 @@
 //! `equipod report`: a folder of results as one HTML page.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use serde_json::Value;
 
@@ -50,19 +51,23 @@ pub(crate) fn run(args: &ReportArgs, context: &mut Context) -> Result<Answer, Fa
     // the path on standard output, for programs; before it the requirements, for people
     let shown = first.as_ref().filter(|_| output_is_terminal());
     let lead = shown.map(|d| sheet::answers::verdict(&d.name, assessment.as_ref(), "in the report"));
-    files::write_text(&output, &page(found, args.title.clone()))?;
+    files::write_text(&output, &page(found, args.title.clone(), None))?;
     let record = ReportAnswer { output: output.display().to_string(), files, assessment };
     let mut text = lead.unwrap_or_default();
     text.line(&record.output);
     Ok(Answer::new(Exit::Yes, record, text))
 }
 
-/// The page of these files.
-pub(in crate::app::cli::commands) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
+/// The page of these files; assessments of several designs end at the time `until` with the result so far.
+pub(in crate::app::cli::commands) fn page(
+    files: Vec<ReportFile>,
+    title: Option<String>,
+    until: Option<Instant>,
+) -> String {
     let first = files.iter().find_map(design_of);
     let title = title.or_else(|| first.as_ref().map(|d| d.name.clone())).unwrap_or_else(|| "Results".into());
     let view = first.map(|design| live(design, &files));
-    let comparison = side_by_side(&files);
+    let comparison = side_by_side(&files, until);
     html(&Report { title, files, comparison, view })
 }
 
@@ -70,11 +75,11 @@ pub(in crate::app::cli::commands) fn page(files: Vec<ReportFile>, title: Option<
 const COMPARED_POSES: usize = 200;
 
 /// The comparison of the designs among the files, if there are several in the same units.
-fn side_by_side(files: &[ReportFile]) -> Option<Comparison> {
+fn side_by_side(files: &[ReportFile], until: Option<Instant>) -> Option<Comparison> {
     let designs: Vec<(String, Design)> =
         files.iter().filter_map(|f| design_of(f).map(|design| (f.name.clone(), design))).collect();
     let several = designs.len() > 1;
-    several.then(|| compare(&designs, &CompareQuestion::plain(COMPARED_POSES)).ok()).flatten()
+    several.then(|| compare(&designs, &CompareQuestion::plain(COMPARED_POSES, until)).ok()).flatten()
 }
 
 /// The live page of a design; it begins with the offsets of a result among the files.

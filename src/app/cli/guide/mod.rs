@@ -43,6 +43,7 @@ const JOBS: [CommandGroup; 10] = [
             "new",
             &[
                 "new --base-radius 500 --platform-radius 300 --base-spread 20 --platform-spread 20 --height 400 -o hexapod.toml",
+                "new --servo --crank 24 --base-radius 80 --platform-radius 60 --base-spread 20 --platform-spread 20 --height 110 -o servos.toml",
                 "new --corners 0,0/12,0/6,10.4 0,0/6,0/3,5.2 --height 9 -o octahedral.toml",
                 "new --points designs/tables/hexapod.csv -o mine.toml",
             ],

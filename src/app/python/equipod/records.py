@@ -1121,8 +1121,8 @@ class DefaultSafetyMarginRecord(Record):
     #: Safety margin of every limit, percent.
     percent: float
     #: Whether the platform found keeps it. False: no platform with it was found, and the search continued
-    #: without it.
-    kept: bool
+    #: without it. Null: the search with it was interrupted.
+    kept: Union[bool, None]
     #: Result in words.
     message: str
 
@@ -1722,6 +1722,8 @@ class ExploreAnswer(Record):
     verdict: Union[ExploreVerdict, None]
     #: Verdict in words, with the numbers that decided.
     explanation: Union[str, None]
+    #: Whether the time limit or the caller ended the search, or an assessment before its verdict.
+    interrupted: Union[bool, None]
     #: The name of the design.
     name: Union[str, None]
     #: Files written.
@@ -1805,6 +1807,8 @@ class ExploreOctahedralAnswer(Record):
     verdict: ExploreVerdict
     #: Verdict in words, with the numbers that decided.
     explanation: str
+    #: Whether the time limit or the caller ended the search, or an assessment before its verdict.
+    interrupted: bool
     #: The name of the design.
     name: str
     #: Files written.

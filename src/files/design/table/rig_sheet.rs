@@ -18,7 +18,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::text::decode;
-use crate::design::{DesignModel, HexapodSizes};
+use crate::design::{DesignModel, HexapodSizes, InvalidOutline};
 use machine::rotary::{Elbow, RotaryPlatform};
 
 num::words! {
@@ -363,15 +363,17 @@ impl RigSheet {
         let height = self.height()?;
         let [(rb, sb), (rp, sp)] = [circle(self.base), circle(self.platform)];
         let sizes = HexapodSizes { radius: [rb, rp], spread_deg: [sb.to_degrees(), sp.to_degrees()], height };
-        sizes.check().map_err(|why| InvalidRigSheet::NotSymmetric(why.to_string()))?;
-        let mut out = sizes.to_toml(name, units);
+        let not_symmetric = |why: InvalidOutline| InvalidRigSheet::NotSymmetric(why.to_string());
         match self.legs {
             SheetLegs::Linear { middle, range } => {
-                let _ =
-                    write!(out, "\n[hardware]\nleg_length = [{:?}, {:?}]\n", middle - range, middle + range);
+                sizes.check().map_err(not_symmetric)?;
+                let lengths =
+                    format!("\n[hardware]\nleg_length = [{:?}, {:?}]\n", middle - range, middle + range);
+                Ok(sizes.to_toml(name, units) + &lengths)
             }
             SheetLegs::Cranks { crank, rod, middle_deg, axes_deg } => {
-                out = out.replacen("\nlegs = ", "\ndrive = \"rotary\"\nlegs = ", 1);
+                sizes.check_rotary().map_err(not_symmetric)?;
+                let mut out = sizes.to_toml_of_rotary(name, units);
                 let _ = write!(out, "\n[cranks]\nlength = {crank:?}\nrod_length = {rod:?}\n");
                 let [base, platform] = [joints((rb, sb), false), joints((rp, sp), true)];
                 for (i, degrees) in axes_deg.into_iter().enumerate() {
@@ -390,9 +392,9 @@ impl RigSheet {
                         elbow.name()
                     );
                 }
+                Ok(out)
             }
         }
-        Ok(out)
     }
 
     /// The parameters of a design.

@@ -9,7 +9,7 @@ use std::time::Duration;
 use thiserror::Error as ThisError;
 
 pub use self::general::{ExploredDesign, NEAREST_EXTENSION, nearest_options};
-pub use self::octahedral::{ExploreFinding, ExploredClass};
+pub use self::octahedral::{DefaultSafetyMargin, ExploreFinding, ExploredClass};
 use crate::optimizing::{EXTENSION, Watch, ends_of};
 use crate::{Design, Error, NoReplaceableLegs, OptimizeOptions, OptimizeProgress, SAMPLES};
 use files::design::DriveTable;
@@ -64,7 +64,7 @@ impl<'a> ExploreOptions<'a> {
         fn extension(extension: Option<f64>) = extension;
         /// Sets the drives to choose from, for octahedral designs ([`OptimizeOptions::drives`]).
         fn drives(table: Option<&'a DriveTable>) = table;
-        /// Sets the time limit from now on ([`OptimizeOptions::time_limit`]).
+        /// Sets the time limit of search and assessments from now on ([`OptimizeOptions::time_limit`]).
         fn time_limit(limit: Option<Duration>) watch.ends = limit.and_then(ends_of);
         /// Sets the cancellation of the search for the best platform; the answer has the best platform until then.
         fn cancel(cancel: &Cancel) watch.cancel = cancel.clone();
@@ -72,9 +72,9 @@ impl<'a> ExploreOptions<'a> {
         fn on_progress(observe: impl FnMut(ExploreProgress) -> ControlFlow<()> + 'a) watch.on_progress = Some(Box::new(observe));
     }
 
-    /// Every stage is run: only searches can be ended.
+    /// Announces a stage. Every stage is run: only searches and assessments can be ended.
     fn stage(&mut self, number: usize, name: &'static str) {
-        let _ = self.watch.flow(ExploreProgress::Stage(number, name));
+        let _ = self.watch.tell(ExploreProgress::Stage(number, name));
     }
 
     /// Options of forward kinematics.

@@ -1,5 +1,7 @@
 //! Octahedral designs.
 
+use std::time::Instant;
+
 use super::{ExploreOptions, ExploreProgress, ExploreVerdict, NoExploration, OwnPoses};
 use crate::optimizing::with_default_safety_margin;
 use crate::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
@@ -29,12 +31,27 @@ pub struct ExploredClass {
     pub search: OptimizeReport,
     /// The platform on the holes that the design states; `None` if it states none, or no platform was found.
     pub holes: Option<Result<DesignOnHoles, NoRounding>>,
-    /// Whether the best platform keeps the default safety margin; `None` if the design states its own.
-    pub keeps_safety_margin: Option<bool>,
+    /// The result for the default safety margin; `None` if the design states its own.
+    pub default_safety_margin: Option<DefaultSafetyMargin>,
+    /// Whether the time limit or the caller ended the search, or an assessment before its verdict.
+    pub interrupted: bool,
+    /// The time at which the assessments end with the result so far, if there is a time limit.
+    pub until: Option<Instant>,
     /// The comparison of the design with the best platform; `None` if there is none, or it has other triangles.
     pub compared: Option<ComparedDesigns>,
     /// Poses of the design.
     pub poses: OwnPoses,
+}
+
+/// The result for the default safety margin of a design that states none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DefaultSafetyMargin {
+    /// The platform found keeps it.
+    Kept,
+    /// No platform was found that keeps it, and the search was repeated without it.
+    GivenUp,
+    /// The search with it was ended before a platform was proved to keep it.
+    Undecided,
 }
 
 /// The decisive fact about the platform found: its requirements first, then the comparison.
@@ -68,7 +85,10 @@ impl ExploredClass {
         let family = Family::octahedral();
 
         options.stage(2, "the best platform");
-        let (mut search, holes, keeps_safety_margin) = searched_carefully(design, &mut options)?;
+        let (mut search, holes, default_safety_margin) = searched_carefully(design, &mut options)?;
+        let met = if holes.is_some() { is_met(&holes) } else { search.met_by_a_platform() };
+        let is_over = options.watch.flow(ExploreProgress::Searched).is_break();
+        let interrupted = search.status == OptimizeStatus::Interrupted || (is_over && !met);
         search.take_lengths_of(design);
         search.open_freedoms(&mut options.optimize(true)).map_err(NoExploration::Search)?;
 
@@ -79,7 +99,18 @@ impl ExploredClass {
 
         options.stage(4, "forward kinematics");
         let poses = design.own_poses(&options.fk())?;
-        Ok(Self { octahedral, family, search, holes, keeps_safety_margin, compared, poses })
+        let until = options.watch.ends.map(|[_, assessing]| assessing);
+        Ok(Self {
+            octahedral,
+            family,
+            search,
+            holes,
+            default_safety_margin,
+            interrupted,
+            until,
+            compared,
+            poses,
+        })
     }
 
     /// The platform to build: on the holes, if the design states them.
@@ -143,25 +174,28 @@ fn why_none(on: &DesignOnHoles) -> String {
 }
 
 /// Searches first with the default safety margin, if the design states none, and without it if no platform is found.
-/// Also returns whether the platform keeps this margin.
+/// Also returns the result for this margin.
 fn searched_carefully(
     design: &Design,
     options: &mut ExploreOptions<'_>,
-) -> Result<(OptimizeReport, OnHoles, Option<bool>), NoExploration> {
+) -> Result<(OptimizeReport, OnHoles, Option<DefaultSafetyMargin>), NoExploration> {
     let Some(careful) = with_default_safety_margin(design) else {
         let (found, holes) = searched(design, true, options)?;
         return Ok((found, holes, None));
     };
     let (found, holes) = searched(&careful, false, options)?;
     let keeps = match &holes {
-        None => found.design().is_some() && found.met() == Some(true),
+        None => found.met_by_a_platform(),
         Some(_) => is_met(&holes),
     };
-    if keeps || options.watch.flow(ExploreProgress::Searched).is_break() {
-        return Ok((found, holes, Some(true)));
+    if keeps {
+        return Ok((found, holes, Some(DefaultSafetyMargin::Kept)));
+    }
+    if options.watch.flow(ExploreProgress::Searched).is_break() {
+        return Ok((found, holes, Some(DefaultSafetyMargin::Undecided)));
     }
     let (found, holes) = searched(design, true, options)?;
-    Ok((found, holes, Some(false)))
+    Ok((found, holes, Some(DefaultSafetyMargin::GivenUp)))
 }
 
 /// Searches for the best platform, and for the same on the holes that the design states. A symmetry kept unasked may
@@ -241,6 +275,11 @@ impl OptimizeReport {
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.checked().map_or(Some(true), Checked::met)
+    }
+
+    /// Whether there is a platform that is proved to meet its requirements.
+    fn met_by_a_platform(&self) -> bool {
+        self.design().is_some() && self.met() == Some(true)
     }
 
     /// Whether the platform has the kinematics of the design by construction; with other triangles it has not.

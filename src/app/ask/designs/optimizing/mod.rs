@@ -97,12 +97,19 @@ impl<P> Default for Watch<'_, P> {
 }
 
 impl<P> Watch<'_, P> {
-    /// Tells the caller, and returns whether the search continues. The time limit is for the search to obey.
-    pub(crate) fn flow(&mut self, progress: P) -> ControlFlow<()> {
-        if self.cancel.is_cancelled() {
-            return ControlFlow::Break(());
-        }
+    /// Whether the search has to end, by its time or by the caller.
+    pub(crate) fn is_over(&self) -> bool {
+        self.cancel.is_cancelled() || self.ends.is_some_and(|[search, _]| Instant::now() >= search)
+    }
+
+    /// Tells the caller, who may end the search.
+    pub(crate) fn tell(&mut self, progress: P) -> ControlFlow<()> {
         self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |observe| observe(progress))
+    }
+
+    /// Tells the caller, unless the search has to end, and returns whether it continues.
+    pub(crate) fn flow(&mut self, progress: P) -> ControlFlow<()> {
+        if self.is_over() { ControlFlow::Break(()) } else { self.tell(progress) }
     }
 
     /// The same caller for a part of the search.
@@ -189,11 +196,6 @@ impl<'a> OptimizeOptions<'a> {
         fn cancel(cancel: &Cancel) watch.cancel = cancel.clone();
         /// Sets a function that sees the progress, and may end the search.
         fn on_progress(observe: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) watch.on_progress = Some(Box::new(observe));
-    }
-
-    fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
-        let late = self.watch.ends.is_some_and(|[search, _]| Instant::now() >= search);
-        if late { ControlFlow::Break(()) } else { self.watch.flow(progress) }
     }
 
     /// The options of a search under requirements.
@@ -354,15 +356,14 @@ impl OptimizeReport {
             OptimizeEvidence::Front(found) => found.report.failure.as_deref(),
             _ => None,
         };
-        let Some(report) = report.filter(|_| self.status != OptimizeStatus::Interrupted) else {
-            return Ok(());
-        };
+        let ended = self.status == OptimizeStatus::Interrupted || options.watch.is_over();
+        let Some(report) = report.filter(|_| !ended) else { return Ok(()) };
         let search = FreedomSearch {
             design: &self.asked,
             extension: options.extension,
             report,
             options: options.search(),
-            progress: &mut |freedom, p| options.flow(OptimizeProgress::Freedom(freedom, p)),
+            progress: &mut |freedom, p| options.watch.flow(OptimizeProgress::Freedom(freedom, p)),
         };
         self.freedoms = Some(search.run()?);
         Ok(())
@@ -372,7 +373,7 @@ impl OptimizeReport {
     fn assess_candidates(&mut self, options: &mut OptimizeOptions<'_>) -> Result<(), VerifyError> {
         let OptimizeEvidence::Dimensions(found) = &self.evidence else { return Ok(()) };
         // an interruption now concerns the assessment, which ends by itself
-        let _ = options.flow(OptimizeProgress::Assessing);
+        let _ = options.watch.flow(OptimizeProgress::Assessing);
         let assessing = Assessing::from(&options.search());
         let of = |(k, s): (usize, &DimensionalSolution)| {
             let mut other = checked(&self.asked, &found.problem, s, assessing)?;
@@ -440,7 +441,7 @@ impl Design {
         let poses = self.workspace_or_default().sample(&self.home_or_default());
         let problem = offset_problem(&self, octahedral, poses, options.extension);
         let report =
-            offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
+            offsets::optimize(&problem, &search, &mut |p| options.watch.flow(OptimizeProgress::Offsets(p)))?;
         let assessing = Assessing::from(&options.search());
         let of = |s: &OffsetSolution| checked_offsets(&self, &problem, s, assessing);
         let checked = report.solution().map(of).transpose()?;
@@ -453,13 +454,13 @@ impl Design {
         let (search, extension, explains) = (options.search(), options.extension, options.explains);
         let Some(table) = options.drives else {
             let found = find_platform(&self, extension, &search, explains, &mut |p| {
-                options.flow(OptimizeProgress::Dimensions(p))
+                options.watch.flow(OptimizeProgress::Dimensions(p))
             })?;
             let status = found.status();
             return Ok(OptimizeReport::new(self, status, OptimizeEvidence::Dimensions(Box::new(found))));
         };
         let drives = search_drives(&self, table, extension, &search, &mut |drive, p| {
-            options.flow(OptimizeProgress::Drive(drive.name.clone(), p))
+            options.watch.flow(OptimizeProgress::Drive(drive.name.clone(), p))
         })?;
         let DrivenPlatform { design, found } = drives.answer().cloned().ok_or(Error::NoDrive)?;
         let status = if drives.interrupted { OptimizeStatus::Interrupted } else { found.status() };
@@ -470,7 +471,7 @@ impl Design {
     fn front(self, points: usize, options: &mut OptimizeOptions<'_>) -> Result<OptimizeReport, Error> {
         let search = options.search();
         let found = find_front(&self, points, options.extension, &search, &mut |p| {
-            options.flow(OptimizeProgress::Dimensions(p))
+            options.watch.flow(OptimizeProgress::Dimensions(p))
         })?;
         let status = found.status();
         Ok(OptimizeReport::new(self, status, OptimizeEvidence::Front(Box::new(found))))

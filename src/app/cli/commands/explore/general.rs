@@ -90,7 +90,7 @@ pub(super) fn written(
     );
     folder.keep(folder::REPORT, markdown(&answer, design, &repeat));
     let files = folder.results();
-    folder.keep(folder::PAGE, page(files, None));
+    folder.keep(folder::PAGE, page(files, None, None));
     folder.finish()?;
     answer.paths = folder.paths().collect();
     let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, Sheet::new());

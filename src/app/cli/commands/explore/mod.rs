@@ -60,7 +60,7 @@ pub(crate) struct ExploreArgs {
     /// Table of drives (.csv) as in `optimize`, for octahedral designs
     #[arg(long, value_name = "TABLE")]
     drives: Option<PathBuf>,
-    /// Time limit of search and assessment, seconds, for octahedral designs
+    /// Time limit of search and assessment, seconds, for octahedral designs; open requirements are then undecided
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
     time_limit: Option<TimeLimit>,
 }
@@ -107,6 +107,11 @@ impl Results {
 
     /// The explanation: one sentence with the deciding facts.
     fn explanation(&self) -> String {
+        let end = if self.found.interrupted { "; search or assessment was interrupted" } else { "" };
+        self.facts() + end
+    }
+
+    fn facts(&self) -> String {
         let assessed = |design: &Design| {
             self.assessment.as_ref().map_or_else(
                 || format!("{} has too little space for separate joints", design.name),
@@ -344,7 +349,7 @@ fn written(
     let mut record = record(&results);
     folder.keep(folder::REPORT, report::markdown(&results, &headline(&record)));
     let files = folder.results();
-    folder.keep(folder::PAGE, page(files, None));
+    folder.keep(folder::PAGE, page(files, None, results.found.until));
     folder.finish()?;
     record.paths = folder.paths().collect();
     let lead = results.found.built().zip(record.assessment.as_ref());
@@ -445,6 +450,7 @@ fn record(r: &Results) -> ExploreOctahedralAnswer {
     ExploreOctahedralAnswer {
         verdict: found.verdict(),
         explanation: r.explanation(),
+        interrupted: found.interrupted,
         assessment: r.assessment.clone(),
         name: r.design.name.clone(),
         paths: Vec::new(),
@@ -453,8 +459,8 @@ fn record(r: &Results) -> ExploreOctahedralAnswer {
         conic_programs: r.answer.search.conic_programs,
         price: r.price(),
         safety_margin: found
-            .keeps_safety_margin
-            .map(|kept| DefaultSafetyMarginRecord::new(SAFETY_MARGIN_PERCENT, kept)),
+            .default_safety_margin
+            .map(|result| DefaultSafetyMarginRecord::new(SAFETY_MARGIN_PERCENT, result)),
         verify: found.compared.as_ref().map(|c| ComparedRecord::from(&c.found)),
         holes: found.holes.as_ref().map(OnHolesRecord::from),
         beside: r.answer.beside.clone(),

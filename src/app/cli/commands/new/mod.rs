@@ -1,17 +1,17 @@
-//! `equipod new`: a design from a few sizes, from corners, from a table of points, from a sheet of parameters or from a
-//! model.
+//! `equipod new`: a design from a few sizes with legs or servos, from corners, from a table of points, from a sheet of
+//! parameters or from a model.
 
 mod prompts;
 
 use std::io::{stderr, stdin};
 use std::path::PathBuf;
 
-use crate::app::cli::numbers::number;
+use crate::app::cli::numbers::{self, number};
 use crate::app::cli::streams;
 use crate::app::cli::{Answer, Context, Exit, Failure, OutputPath, files};
 use ::files::design::{
-    Format, HexapodSizes, InvalidPointTable, PointTable, RigSheet, SheetDialect, octahedral_toml,
-    with_lengths,
+    Format, HexapodSizes, InvalidPointTable, InvalidServoSizes, PointTable, RigSheet, ServoHome, ServoSizes,
+    SheetDialect, octahedral_toml, with_lengths,
 };
 use ask::Design;
 use ask::design::parse_with_cranks;
@@ -19,7 +19,7 @@ use platform::geom::{Angles, Pose};
 use records::{NewAnswer, PresetFile};
 use synthesis::singularity::Architecture;
 
-use self::prompts::PromptedHexapod;
+use self::prompts::{PromptedHexapod, PromptedSizes};
 
 /// Arguments of `new`.
 #[derive(Debug, clap::Args)]
@@ -39,6 +39,18 @@ pub(crate) struct NewArgs {
     /// Height of the platform frame above the base frame at home, design units
     #[arg(long, value_name = "LENGTH", value_parser = number, allow_negative_numbers = true)]
     height: Option<f64>,
+    /// Servos with cranks and rods in place of legs of variable length; the base joints are the crank centres
+    #[arg(long, conflicts_with_all = ["corners", "points", "sheet"])]
+    servo: bool,
+    /// Length of the servo cranks, from axis to rod, design units
+    #[arg(long, value_name = "LENGTH", requires = "servo", value_parser = number, allow_negative_numbers = true)]
+    crank: Option<f64>,
+    /// Length of the servo rods, design units. Without it the cranks are level at home; without --height too
+    #[arg(long, value_name = "LENGTH", requires = "servo", value_parser = number, allow_negative_numbers = true)]
+    rod: Option<f64>,
+    /// Least and greatest angle of the servo cranks, degrees: 0 is level, outward from the pair, and positive is up
+    #[arg(long, value_name = "MIN,MAX", requires = "servo", allow_hyphen_values = true)]
+    crank_angles: Option<String>,
     /// Three corners of the base and three of the platform of an octahedral design, each as x,y/x,y/x,y or with z
     #[arg(
         long,
@@ -99,7 +111,14 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Result<Answer, Failure> 
         (None, Some(corners)) => (from_corners(args, corners)?, None),
         (None, None) if nothing_given(args) => {
             let PromptedHexapod { sizes, units, output } = asked()?;
-            (from_sizes(&sizes, &args.name, &units, context)?, Some(output))
+            let made = match sizes {
+                PromptedSizes::Legs(sizes) => from_sizes(&sizes, &args.name, &units, context)?,
+                PromptedSizes::Servos(sizes) => from_servos(&sizes, &args.name, &units, context)?,
+            };
+            (made, Some(output))
+        }
+        (None, None) if args.servo => {
+            (from_servos(&servo_sizes(args)?, &args.name, units.unwrap_or(UNIT), context)?, None)
         }
         (None, None) => (from_sizes(&sizes(args)?, &args.name, units.unwrap_or(UNIT), context)?, None),
     };
@@ -109,11 +128,11 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Result<Answer, Failure> 
 
 fn nothing_given(args: &NewArgs) -> bool {
     let sizes = [args.base_radius, args.platform_radius, args.base_spread, args.platform_spread, args.height];
-    sizes.iter().all(Option::is_none)
+    sizes.iter().all(Option::is_none) && !args.servo
 }
 
 /// The ways to describe a design, for a command without enough arguments.
-const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height; or --corners BASE PLATFORM and --height; or --points FILE; or --sheet FILE and --dialect";
+const WAYS: &str = "give --base-radius, --platform-radius, --base-spread, --platform-spread and --height, for servos also --servo and --crank; or --corners BASE PLATFORM and --height; or --points FILE; or --sheet FILE and --dialect";
 
 /// Questions on a terminal.
 fn asked() -> Result<PromptedHexapod, Failure> {
@@ -126,21 +145,51 @@ fn asked() -> Result<PromptedHexapod, Failure> {
     })
 }
 
-fn sizes(args: &NewArgs) -> Result<HexapodSizes, Failure> {
-    let missing =
-        |option: &str| Failure::refused("new::missing", format!("{option} is missing")).with_help(WAYS);
-    let sizes = HexapodSizes {
-        radius: [
+fn missing(option: &str) -> Failure {
+    Failure::refused("new::missing", format!("{option} is missing")).with_help(WAYS)
+}
+
+/// Radii and spreads.
+fn circles(args: &NewArgs) -> Result<[[f64; 2]; 2], Failure> {
+    Ok([
+        [
             args.base_radius.ok_or_else(|| missing("--base-radius"))?,
             args.platform_radius.ok_or_else(|| missing("--platform-radius"))?,
         ],
-        spread_deg: [
+        [
             args.base_spread.ok_or_else(|| missing("--base-spread"))?,
             args.platform_spread.ok_or_else(|| missing("--platform-spread"))?,
         ],
-        height: args.height.ok_or_else(|| missing("--height"))?,
-    };
-    Ok(sizes)
+    ])
+}
+
+fn sizes(args: &NewArgs) -> Result<HexapodSizes, Failure> {
+    let [radius, spread_deg] = circles(args)?;
+    Ok(HexapodSizes { radius, spread_deg, height: args.height.ok_or_else(|| missing("--height"))? })
+}
+
+fn servo_sizes(args: &NewArgs) -> Result<ServoSizes, Failure> {
+    let [radius, spread_deg] = circles(args)?;
+    let angles = args.crank_angles.as_deref().map(|text| {
+        let fault = || Failure::refused("new::bad_sizes", numbers::fault("--crank-angles", text, 2));
+        numbers::parse(text)
+            .ok_or_else(|| fault().with_help("write the least and the greatest angle: -60,60"))
+    });
+    Ok(ServoSizes {
+        radius,
+        spread_deg,
+        crank: args.crank.ok_or_else(|| missing("--crank"))?,
+        angle_deg: angles.transpose()?,
+        home: match (args.height, args.rod) {
+            (Some(height), None) => ServoHome::LevelAt { height },
+            (None, Some(rod)) => ServoHome::LevelWith { rod },
+            (Some(height), Some(rod)) => ServoHome::Stated { height, rod },
+            (None, None) => {
+                let message = "--height and --rod are missing: one of them is enough, and the cranks are then level at home";
+                return Err(Failure::refused("new::missing", message).with_help(WAYS));
+            }
+        },
+    })
 }
 
 fn bad(why: impl Into<String>) -> Failure {
@@ -152,6 +201,20 @@ fn from_sizes(sizes: &HexapodSizes, name: &str, units: &str, context: &Context) 
     sizes.check().map_err(|why| bad(why.to_string()))?;
     let mut made = read_back(sizes.to_toml(name, units))?;
     made.guesses = made.design.told_of_sizes(sizes);
+    made.guesses.iter().for_each(|sentence| context.note(sentence));
+    Ok(made)
+}
+
+fn from_servos(sizes: &ServoSizes, name: &str, units: &str, context: &Context) -> Result<Made, Failure> {
+    let hexapod = sizes.solved().map_err(|why| match why {
+        InvalidServoSizes::Size(why) => Failure::refused("new::bad_sizes", why.to_string()).with_help(
+            "give positive lengths, a base spread above 0 and below 120 degrees, and --crank-angles from less to more",
+        ),
+        InvalidServoSizes::Home(why) => Failure::refused("new::out_of_reach", why)
+            .with_help("without --rod, or without --height, the cranks are level at home"),
+    })?;
+    let mut made = read_back(hexapod.to_toml(name, units))?;
+    made.guesses = made.design.told_of_servos(&hexapod);
     made.guesses.iter().for_each(|sentence| context.note(sentence));
     Ok(made)
 }
@@ -279,10 +342,13 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
     let mut lengths =
         home.lengths(design.manipulator()).ok_or_else(|| bad("the lengths at home overflow"))?.get();
     let mut toml = toml;
-    let mut singular = false;
+    let (mut singular, mut crank_angles) = (false, None);
     if let Some(platform) = Context::cranks_of(&design)? {
         // rods have the same length everywhere, and their lines begin at the crank tips
         lengths = platform.legs().map(|leg| leg.rod);
+        let angles = platform.ik(&home);
+        let angles = angles.map_err(|why| Failure::refused("new::out_of_reach", why.to_string()))?;
+        crank_angles = Some(angles.map(f64::to_degrees));
     } else {
         design.lengths = home.lengths(design.manipulator());
         toml = with_lengths(&toml, lengths);
@@ -308,6 +374,7 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
         file,
         home: (&home).into(),
         lengths,
+        crank_angles_deg: crank_angles,
         architecturally_singular: singular,
         singular_home: singular_home.map(|home| home.evidence),
         guesses,
@@ -316,7 +383,7 @@ fn finish(made: Made, output: Option<&OutputPath>, context: &Context) -> Result<
     Ok(if let Some(text) = text {
         Answer::new(exit, answer, text)
     } else {
-        let sheet = sheet::answers::new_design(&answer, design.has_cranks());
+        let sheet = sheet::answers::new_design(&answer);
         Answer::new(exit, answer, sheet)
     })
 }

@@ -3,14 +3,20 @@
 use std::io::{BufRead, Write};
 
 use crate::app::cli::files::OutputPath;
-use ::files::design::HexapodSizes;
+use ::files::design::{HexapodSizes, ServoHome, ServoSizes};
 
 /// The answers of the user.
 #[derive(Debug, PartialEq)]
 pub(super) struct PromptedHexapod {
-    pub(super) sizes: HexapodSizes,
+    pub(super) sizes: PromptedSizes,
     pub(super) units: String,
     pub(super) output: OutputPath,
+}
+
+#[derive(Debug, PartialEq)]
+pub(super) enum PromptedSizes {
+    Legs(HexapodSizes),
+    Servos(ServoSizes),
 }
 
 /// Asks for sizes until they make a hexapod; `None`: the input ended.
@@ -19,19 +25,29 @@ pub(super) fn ask(input: &mut impl BufRead, output: &mut impl Write) -> Option<P
     session.say("A hexapod with threefold symmetry; an empty answer takes the value in brackets.")?;
     let units = session.text("Unit of length", "mm")?;
     let sizes = loop {
+        let crank = session.number("Length of the servo cranks, or 0 for legs of variable length", "0")?;
+        let centres = if crank == 0.0 { "base joints" } else { "crank centres" };
         let sizes = HexapodSizes {
             radius: [
-                session.number("Radius of the circle of the base joints", "500")?,
+                session.number(&format!("Radius of the circle of the {centres}"), "500")?,
                 session.number("Radius of the circle of the platform joints", "300")?,
             ],
             spread_deg: [
-                session.number("Angle between the two joints of a pair on the base, in degrees", "20")?,
+                session.number(&format!("Angle between the two {centres} of a pair, in degrees"), "20")?,
                 session.number("Angle between the two joints of a pair on the platform, in degrees", "20")?,
             ],
             height: session.number("Height of the platform above the base at home", "400")?,
         };
-        match sizes.check() {
-            Ok(()) => break sizes,
+        let checked = if crank == 0.0 {
+            sizes.check().map(|()| PromptedSizes::Legs(sizes)).map_err(|why| why.to_string())
+        } else {
+            let HexapodSizes { radius, spread_deg, height } = sizes;
+            let home = ServoHome::LevelAt { height };
+            let sizes = ServoSizes { radius, spread_deg, crank, angle_deg: None, home };
+            sizes.solved().map(|_| PromptedSizes::Servos(sizes)).map_err(|why| why.to_string())
+        };
+        match checked {
+            Ok(sizes) => break sizes,
             Err(why) => session.say(&format!("That is no hexapod: {why}."))?,
         }
     };
@@ -86,22 +102,36 @@ mod tests {
 
     #[test]
     fn empty_answers_take_the_defaults_and_slips_are_asked_again() {
-        let (asked, _) = answered("\n\n\n\n\n\n\n");
+        let (asked, _) = answered("\n\n\n\n\n\n\n\n");
         let meant = HexapodSizes { radius: [500.0, 300.0], spread_deg: [20.0, 20.0], height: 400.0 };
         assert_eq!(
             asked.unwrap(),
             PromptedHexapod {
-                sizes: meant,
+                sizes: PromptedSizes::Legs(meant),
                 units: "mm".into(),
                 output: std::ffi::OsString::from("hexapod.toml").into()
             }
         );
-        let (asked, said) = answered("in\nten\n10\n6,5\n130\n20\n8\n10\n6.5\n30\n20\n8\nmine.toml\n");
+        let (asked, said) = answered("in\n\nten\n10\n6,5\n130\n20\n8\n\n10\n6.5\n30\n20\n8\nmine.toml\n");
         assert_eq!(
             asked.unwrap().sizes,
-            HexapodSizes { radius: [10.0, 6.5], spread_deg: [30.0, 20.0], height: 8.0 }
+            PromptedSizes::Legs(HexapodSizes { radius: [10.0, 6.5], spread_deg: [30.0, 20.0], height: 8.0 })
         );
         assert!(said.contains("`ten` is not a number.") && said.contains("That is no hexapod"), "{said}");
-        assert_eq!(answered("mm\n500\n").0, None);
+        assert_eq!(answered("mm\n0\n500\n").0, None);
+    }
+
+    #[test]
+    fn the_length_of_a_crank_gives_a_rotary_hexapod() {
+        let (asked, said) = answered("\n24\n80\n60\n0\n20\n110\n24\n80\n60\n20\n20\n110\n\n");
+        let meant = ServoSizes {
+            radius: [80.0, 60.0],
+            spread_deg: [20.0, 20.0],
+            crank: 24.0,
+            angle_deg: None,
+            home: ServoHome::LevelAt { height: 110.0 },
+        };
+        assert_eq!(asked.unwrap().sizes, PromptedSizes::Servos(meant));
+        assert!(said.contains("two cranks cannot have one centre"), "{said}");
     }
 }

@@ -103,7 +103,7 @@ pub(crate) fn run(args: &SweepBestArgs, context: &Context) -> Result<Answer, Fai
         return Ok(Answer::new(Exit::No, answer, "No row passes the filters and has a value.\n"));
     }
     let page = args.output.join(PAGE);
-    files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name)))?;
+    files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name), None))?;
     let page = page.display().to_string();
     lines.push(format!("{page}\n"));
     let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: Some(page) };

@@ -1,8 +1,15 @@
-//! The text of a design from a few main dimensions: sizes of a symmetric hexapod, or the corners of two triangles.
+//! The text of a design from a few main dimensions: sizes of a symmetric hexapod with legs or servos, or the corners of
+//! two triangles.
+
+mod servo;
 
 use std::fmt::Write as _;
 
 use thiserror::Error;
+
+use num::shown::rounded;
+
+pub use servo::{InvalidServoSizes, ServoHexapod, ServoHome, ServoSizes};
 
 /// The usual dimensions of a hexapod: the joints of each body stand in three pairs on a circle, and legs join
 /// neighbouring pairs.
@@ -33,6 +40,30 @@ impl HexapodSizes {
     /// The first invalid size. Spreads that make the hexagons similar also fail: the legs of such a hexapod cannot hold
     /// it.
     pub fn check(&self) -> Result<(), InvalidOutline> {
+        self.check_each()?;
+        if self.spread_deg[0] + self.spread_deg[1] == PAIRS_DEG {
+            let message = format!(
+                "the sum of the spreads is {PAIRS_DEG} degrees: base and platform are similar hexagons, so the design is architecturally singular{}",
+                self.regular_reading()
+            );
+            return Err(InvalidOutline(message));
+        }
+        Ok(())
+    }
+
+    /// The same for the crank centres of a rotary hexapod. Its rods end at crank tips, so similar hexagons are allowed.
+    /// Each crank needs its own centre.
+    pub(in crate::design) fn check_rotary(&self) -> Result<(), InvalidOutline> {
+        self.check_each()?;
+        if self.spread_deg[0] == 0.0 {
+            let message = "the spread of the base is 0 degrees, and two cranks cannot have one centre";
+            return Err(InvalidOutline(message.into()));
+        }
+        Ok(())
+    }
+
+    /// Whether each size alone is possible.
+    fn check_each(&self) -> Result<(), InvalidOutline> {
         let [base, platform] = self.radius;
         for (what, x) in
             [("radius of the base", base), ("radius of the platform", platform), ("height", self.height)]
@@ -49,33 +80,31 @@ impl HexapodSizes {
                 return Err(InvalidOutline(message));
             }
         }
-        if self.spread_deg[0] + self.spread_deg[1] == PAIRS_DEG {
-            let message = format!(
-                "the sum of the spreads is {PAIRS_DEG} degrees: base and platform are similar hexagons, so the design is architecturally singular{}",
-                self.regular_reading()
-            );
-            return Err(InvalidOutline(message));
-        }
         Ok(())
     }
 
     /// The places of the joints and the meaning of the spreads, one sentence each.
     pub fn understood(&self, units: &str) -> [String; 3] {
+        self.understood_as("base joints", units)
+    }
+
+    /// The same, with another name for the joints of the base.
+    fn understood_as(&self, base_joints: &str, units: &str) -> [String; 3] {
         let pair = |k: usize, middle: f64| {
             let half = self.spread_deg[k] / 2.0;
             if half > 0.0 { vec![middle - half, middle + half] } else { vec![middle] }
         };
         let body = |k: usize, first: f64| {
             let angles = [0.0, 1.0, 2.0].into_iter().flat_map(|n| pair(k, first + n * PAIRS_DEG));
-            let angles: Vec<String> = angles.map(|x| format!("{x}")).collect();
+            let angles: Vec<String> = angles.map(degrees).collect();
             format!("on a circle of radius {} {units}, at {} degrees", self.radius[k], angles.join(", "))
         };
         [
-            format!("The base joints are {}.", body(0, 0.0)),
+            format!("The {base_joints} are {}.", body(0, 0.0)),
             format!("The platform joints are {}.", body(1, PLATFORM_TURN_DEG)),
             format!(
                 "The spread is the angle between the two joints of a pair on one body. Makers who measure the platform spread between the legs of a base pair write {} instead of {} degrees.",
-                self.other_reading().spread_deg[1],
+                degrees(self.other_reading().spread_deg[1]),
                 self.spread_deg[1]
             ),
         ]
@@ -89,7 +118,7 @@ impl HexapodSizes {
         }
         format!(
             ". If the platform spread is meant between the legs of a base pair, give {} degrees",
-            spread[1]
+            degrees(spread[1])
         )
     }
 
@@ -101,19 +130,33 @@ impl HexapodSizes {
 
     /// The design file in TOML, without leg lengths.
     pub fn to_toml(self, name: &str, units: &str) -> String {
+        self.written(name, units, false)
+    }
+
+    /// The design file of a rotary hexapod in TOML, without its cranks; the base joints are their centres.
+    pub(in crate::design) fn to_toml_of_rotary(self, name: &str, units: &str) -> String {
+        self.written(name, units, true)
+    }
+
+    fn written(self, name: &str, units: &str, is_rotary: bool) -> String {
         let [(base, base_ends), (platform, platform_ends)] =
             [self.body(0, "A", 0.0), self.body(1, "B", PLATFORM_TURN_DEG)];
         let legs: Vec<String> =
             base_ends.iter().zip(&platform_ends).map(|(a, b)| format!("[\"{a}\", \"{b}\"]")).collect();
-        let mut out = String::from(
-            "# A hexapod with threefold symmetry. The joints of each body stand in three pairs on a circle; the spread is the angle\n# between the two joints of a pair, seen from the centre.\n",
+        let (kind, drive) = if is_rotary {
+            ("rotary hexapod", "drive = \"rotary\" # the base joints are the centres of the cranks\n")
+        } else {
+            ("hexapod", "")
+        };
+        let mut out = format!(
+            "# A {kind} with threefold symmetry. The joints of each body stand in three pairs on a circle; the spread is the angle\n# between the two joints of a pair, seen from the centre.\n",
         );
         let _ = writeln!(
             out,
             "# The spread is {} degrees on the base and {} degrees on the platform.",
             self.spread_deg[0], self.spread_deg[1]
         );
-        let _ = writeln!(out, "name = {}\nunits = {}", quoted(name), quoted(units));
+        let _ = write!(out, "name = {}\nunits = {}\n{drive}", quoted(name), quoted(units));
         let _ = writeln!(out, "legs = [{}]\n\n[parameters]", legs.join(", "));
         for (body, k) in [("base", 0), ("platform", 1)] {
             let _ = writeln!(out, "{body}_radius = {}", self.radius[k]);
@@ -167,6 +210,11 @@ impl HexapodSizes {
         let ends = if turn > 0.0 { [1, 2, 2, 3, 3, 1] } else { [1, 1, 2, 2, 3, 3] };
         (out, ends.map(joint))
     }
+}
+
+/// A computed angle without the digits of its rounding.
+fn degrees(x: f64) -> String {
+    rounded(x, 12)
 }
 
 /// The design file of an octahedral platform in TOML, without leg lengths: each corner of the base is joined to two
