@@ -125,8 +125,8 @@ impl Assessment {
     }
 }
 
-/// The least margin of each kind of requirement among all that were seen, with its requirement and its place: a pose, an
-/// instant, or nothing. A margin that is no number counts as the least.
+/// The least margin of each kind of requirement among all that were seen, with its requirement and its place: a pose,
+/// an instant, or nothing. A margin that is no number counts as the least.
 #[derive(Debug, Clone)]
 pub struct LeastMargins<At>(BTreeMap<TermKind, (Term, f64, At)>);
 

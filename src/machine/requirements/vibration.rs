@@ -172,8 +172,8 @@ impl VibratingMasses {
 /// `F = J^-T (f, t)` a unit force moves the platform by `|F|^2 / leg` along it. The least stiffness is `leg` over the
 /// square of the greatest singular value of the columns of `J^-T` for forces, or for torques.
 ///
-/// `J` is given by the rates of the drives in rows, with their moments over `size`. Zero at a singular pose, and without
-/// rates.
+/// `J` is given by the rates of the drives in rows, with their moments over `size`. The result is zero at a singular
+/// pose, and without rates.
 pub(crate) fn softest_of(rows: Option<&Matrix6<f64>>, size: f64, leg: f64) -> LeastStiffness {
     let none = LeastStiffness { linear: 0.0, angular: 0.0 };
     let Some(inverse) = rows.and_then(|rows| rows.transpose().try_inverse()) else { return none };
