@@ -1427,11 +1427,11 @@ class LegOnCell:
     def __init__(self, region: Region, cell: Cell, leg: int, body: LegBody, ks: range, in_parts: bool) -> None:
         self.base, self.line = constants(region.base[leg], ks), region.line(cell, leg, ks)
         end, square = [a + n for a, n in zip(self.base, self.line)], jet_square_of(self.line)
-        self.parts = [(self.base, end, max(body.radius, body.rod))]
+        self.parts = [([self.base, end], max(body.radius, body.rod))]
         if in_parts and body.has_rod and square.value.low > Real.of(body.cylinder**2).high:
             share = square.root().inverse().times(Real.of(body.cylinder))
             top = [a + n * share for a, n in zip(self.base, self.line)]
-            self.parts = [(self.base, top, body.radius), (top, end, body.rod)]
+            self.parts = [([self.base, top], body.radius), ([top, end], body.rod)]
 
     def across(self, point: JetVector) -> JetVector:
         """A multiple of the vector from the line to a point, normal to the line."""
@@ -1440,7 +1440,7 @@ class LegOnCell:
         return [x * square - n * along for x, n in zip(arm, self.line)]
 
 
-def direction(code: str, one: LegOnCell, p: Any, two: LegOnCell, q: Any) -> JetVector:
+def direction(code: str, one: LegOnCell, p: list[JetVector], two: LegOnCell, q: list[JetVector]) -> JetVector:
     """A vector that depends on the pose: normal to both legs, normal to one of them from an end on the other, or between two ends. Any vector proves what is proved with it."""
     need(len(code) == 1 and code in "012345678", "a direction is missing")
     k = int(code)
@@ -1471,13 +1471,13 @@ def leg_clearance(proof: Proof, claim: Any) -> str:
             need(all(len(a.parts) == len(o.parts) for a, o in zip(at, over)), "the parts of a leg are undecided")
             for s, t in itertools.product(range(len(over[0].parts)), range(len(over[1].parts))):
                 code = next(codes, "")
-                pairs = [(legs[0].parts[s], legs[1].parts[t]) for legs in (at, over)]
+                pairs = [(legs[0].parts[s][0], legs[1].parts[t][0]) for legs in (at, over)]
                 vectors = [direction(code, legs[0], p, legs[1], q) for legs, (p, q) in zip((at, over), pairs)]
                 between = jet_dot(vectors[0], jet_less(at[1].base, at[0].base)).value
                 if code == "0" and between.low + between.high < 0:
                     vectors = [[-x for x in u] for u in vectors]
                 need(jet_square_of(vectors[1]).value.low > 0, "a direction may vanish")
-                gap = Real.of(least + clearance + pairs[1][0][2] + pairs[1][1][2])
+                gap = Real.of(least + clearance + over[0].parts[s][1] + over[1].parts[t][1])
                 sizes = [jet_square_of(u).root().times(gap) for u in vectors]
                 # a direction normal to a leg has the same product with all points of its line: the base joint stands for them
                 ours, theirs = [-1] if code in "034" else [0, 1], [-1] if code in "012" else [0, 1]
