@@ -185,6 +185,59 @@ fn eliminated(rows: &[Vec<Algebraic>]) -> Vec<Vec<Algebraic>> {
     work.split_off(rank).into_iter().map(|row| row[width..].to_vec()).collect()
 }
 
+/// A basis of the span of exact rows in doubles, as accurate for nearly dependent rows as for any others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoundedBasis {
+    /// The vectors. Each has the entry 1 at a place where the others have 0, which keeps them apart.
+    pub vectors: Vec<Vec<f64>>,
+    /// The coefficients of the rows in every vector; they are large for nearly dependent rows.
+    pub coefficients: Vec<Vec<f64>>,
+}
+
+impl RoundedBasis {
+    /// The basis by exact elimination. The pivot of a row is its largest entry after the earlier rows are subtracted.
+    pub fn of(rows: &[Vec<Algebraic>]) -> Self {
+        let (count, width) = (rows.len(), rows.first().map_or(0, Vec::len));
+        let mut kept: Vec<(usize, Vec<Algebraic>)> = Vec::new();
+        for (i, row) in rows.iter().enumerate() {
+            let own = (0..count).map(|j| Algebraic::integer(i64::from(i == j)));
+            let mut row: Vec<Algebraic> = row.iter().cloned().chain(own).collect();
+            for (pivot, known) in &kept {
+                subtract(&mut row, known, *pivot);
+            }
+            let Some(pivot) = largest(&row[..width]) else { continue };
+            let head = row[pivot].clone();
+            row.iter_mut().filter(|x| !x.is_zero()).for_each(|x| *x = &*x / &head);
+            for (_, known) in &mut kept {
+                subtract(known, &row, pivot);
+            }
+            kept.push((pivot, row));
+        }
+        let rounded = |part: &[Algebraic]| part.iter().map(Algebraic::approximate).collect();
+        let (vectors, coefficients) =
+            kept.iter().map(|(_, row)| (rounded(&row[..width]), rounded(&row[width..]))).unzip();
+        Self { vectors, coefficients }
+    }
+}
+
+/// Subtracts the multiple of `known`, whose entry at `pivot` is 1, that clears this entry of `row`.
+fn subtract(row: &mut [Algebraic], known: &[Algebraic], pivot: usize) {
+    let factor = row[pivot].clone();
+    if !factor.is_zero() {
+        for (x, k) in row.iter_mut().zip(known).filter(|(_, k)| !k.is_zero()) {
+            *x = &*x - &(&factor * k);
+        }
+    }
+}
+
+/// The place of the largest entry, or of the first nonzero one if doubles cannot tell them from zero.
+fn largest(row: &[Algebraic]) -> Option<usize> {
+    let nonzero = (0..row.len()).filter(|k| !row[*k].is_zero());
+    let size = |k: &usize| row[*k].approximate().abs();
+    // the last of equal maxima wins, so the order is reversed for the first
+    nonzero.rev().max_by(|i, j| size(i).total_cmp(&size(j)))
+}
+
 /// As an expression.
 impl std::fmt::Display for Algebraic {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -238,6 +291,32 @@ mod tests {
         assert_eq!(&x[0] / &x[0], Algebraic::integer(1));
         assert!((&x[0] - &x[0]).is_zero());
         assert_eq!((&x[0] / &x[1]).to_string(), "5 + 2*sqrt(6)");
+    }
+
+    #[test]
+    fn nearly_dependent_rows_have_a_basis_to_the_last_place() {
+        let numbers = all(&[&[(1, 2)], &[(3, 1)], &[(1, 6)], &[(2, 3)], &[(1, 2)], &[(7, 1)]]);
+        let (first, second) = (numbers[..3].to_vec(), numbers[3..].to_vec());
+        // the third row leaves the plane of the first two by 1e-40, far below the accuracy of doubles
+        let mut third: Vec<Algebraic> = first.iter().zip(&second).map(|(x, y)| x + y).collect();
+        let trace = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(40));
+        third[1] = &third[1] + &trace.into();
+        let space = RoundedBasis::of(&[first.clone(), second.clone(), third]);
+        let unit = |k: usize| (0..3).map(|i| f64::from(u8::from(i == k))).collect::<Vec<f64>>();
+        assert!((0..3).all(|k| space.vectors.contains(&unit(k))), "{:?}", space.vectors);
+        let largest = space.coefficients.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
+        assert!((1e39..1e41).contains(&largest), "{largest:e}");
+        // without the trace there are two vectors, with the coefficients of the rows they come from
+        let sum: Vec<Algebraic> = first.iter().zip(&second).map(|(x, y)| x + y).collect();
+        let rows = [first, second, sum];
+        let plane = RoundedBasis::of(&rows);
+        assert_eq!(plane.vectors.len(), 2);
+        for (v, c) in plane.vectors.iter().zip(&plane.coefficients) {
+            for k in 0..3 {
+                let combined: f64 = (0..3).map(|i| c[i] * rows[i][k].approximate()).sum();
+                assert!((combined - v[k]).abs() < 1e-13, "{v:?} {c:?}");
+            }
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use num::algebraic::RoundedBasis;
 use num::linalg::{LinalgError, svd};
 use platform::manipulator::{Leg, Manipulator};
 
@@ -74,6 +75,14 @@ fn centre_and_reach(points: &[Point3<f64>; 6]) -> (Point3<f64>, f64) {
     (centre, points.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max))
 }
 
+/// Ratio of singular values below which vectors in doubles lose more than three digits of their span.
+const FEW_DIGITS: f64 = 1e-3;
+
+/// Whether vectors with these least and largest singular values keep the digits of their span in doubles.
+pub(super) fn keeps_digits(least: f64, largest: f64) -> bool {
+    least > FEW_DIGITS * largest
+}
+
 /// The span of the six leg vectors of a manipulator, by a singular value decomposition.
 #[derive(Debug, Clone)]
 pub struct LegSpan {
@@ -82,6 +91,8 @@ pub struct LegSpan {
     singular_values: [f64; 6],
     u: Vec<Vec<f64>>,
     v: Vec<Vec<f64>>,
+    /// `dual[i] . w` is the coefficient of leg `i` in the projection of `w` on the span.
+    dual: [[f64; 16]; 6],
 }
 
 impl LegSpan {
@@ -97,7 +108,32 @@ impl LegSpan {
         let d = svd(&rows)?;
         let singular_values: [f64; 6] = std::array::from_fn(|k| d.s[k]);
         let rank = singular_values.iter().filter(|s| **s > rank_tolerance * singular_values[0]).count();
-        Ok(Self { normalisation, rank, singular_values, u: d.u, v: d.v })
+        let quotient = |i: usize, c: usize| -> f64 {
+            (0..rank).map(|k| d.u[i][k] * d.v[c][k] / singular_values[k]).sum()
+        };
+        let dual = std::array::from_fn(|i| std::array::from_fn(|c| quotient(i, c)));
+        Ok(Self { normalisation, rank, singular_values, u: d.u, v: d.v, dual })
+    }
+
+    /// The same legs with the span of their exact vectors, whose basis is given in normalised coordinates.
+    ///
+    /// Rounded vectors that are nearly dependent span another space. The singular values remain those of the rounded
+    /// vectors.
+    pub(super) fn with_basis(self, basis: &RoundedBasis) -> Result<Self, LinalgError> {
+        let rank = basis.vectors.len();
+        let d = svd(&basis.vectors)?;
+        // the coefficients in the basis, by the pseudo-inverse, times those of the legs in the basis
+        let along = |k: usize, c: usize| -> f64 { (0..rank).map(|j| d.u[k][j] * d.v[c][j] / d.s[j]).sum() };
+        let quotient =
+            |i: usize, c: usize| -> f64 { (0..rank).map(|k| basis.coefficients[k][i] * along(k, c)).sum() };
+        let dual = std::array::from_fn(|i| std::array::from_fn(|c| quotient(i, c)));
+        Ok(Self { rank, v: d.v, dual, ..self })
+    }
+
+    /// Whether doubles keep the span: its smallest singular value loses at most three digits.
+    pub(super) fn is_well_conditioned(&self, rank: usize) -> bool {
+        self.rank >= rank
+            && (rank == 0 || keeps_digits(self.singular_values[rank - 1], self.singular_values[0]))
     }
 
     /// Dimension of the span, 6 for independent legs.
@@ -136,13 +172,12 @@ impl LegSpan {
         across.sqrt() / norm
     }
 
-    /// Coefficients of the projection of the vector of `leg` on the span; the shortest ones when the rank
-    /// is below six.
+    /// Coefficients of the projection of the vector of `leg` on the span. When the rank is below six they are the
+    /// shortest ones, or those of a basis among the legs.
     #[must_use]
     pub fn coefficients(&self, leg: &Leg) -> [f64; 6] {
         let w = leg_vector(&self.normalisation.apply(leg));
-        let scaled: Vec<f64> = (0..self.rank).map(|k| self.along(k, &w) / self.singular_values[k]).collect();
-        std::array::from_fn(|i| scaled.iter().enumerate().map(|(k, x)| self.u[i][k] * x).sum())
+        self.dual.map(|row| row.iter().zip(&w).map(|(d, x)| d * x).sum())
     }
 
     /// A unit vector `n` with `sum n_i v_i = 0` for each missing dimension of the span. The vectors are in normalised

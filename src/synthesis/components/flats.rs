@@ -6,13 +6,15 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use super::form::Form;
-use super::spectrum::{Decision, Question, Spectrum, unit};
-use crate::leg_vector::Normalisation;
+use super::spectrum::{Decision, Question, Spectrum, dot, unit};
+use crate::leg_vector::{Normalisation, keeps_digits};
+use num::algebraic::{Algebraic, RoundedBasis};
+use num::exact::{product as tensor, rational};
 use num::linalg::LinalgError;
-use platform::manipulator::{Body, ExactLegs, Leg};
+use platform::manipulator::{AlgebraicVector, Body, ExactLegs, Leg};
 
 /// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.
 const NARROW: f64 = 1e-2;
@@ -84,6 +86,15 @@ impl Flat {
         std::iter::once(1.0).chain(self.axes.iter().map(|e| e.dot(&d) / e.norm_squared())).collect()
     }
 
+    /// The rows of the map from homogeneous coordinates `(w, w x)` in the body to local ones.
+    fn rows(&self) -> Vec<[f64; 4]> {
+        let along = |e: &Vector3<f64>| {
+            let n = e / e.norm_squared();
+            [-n.dot(&self.origin), n.x, n.y, n.z]
+        };
+        std::iter::once([1.0, 0.0, 0.0, 0.0]).chain(self.axes.iter().map(along)).collect()
+    }
+
     /// Distance of a point from the flat.
     pub(super) fn distance(&self, p: &Vector3<f64>) -> f64 {
         let mut d = p - self.origin;
@@ -128,6 +139,8 @@ pub(super) struct FlatProduct {
     /// `equations[r][p (j + 1) + q]`.
     pub(super) equations: Vec<Vec<f64>>,
     pub(super) decision: Decision,
+    /// Whether the rounded ends keep the digits of the span.
+    well_conditioned: bool,
 }
 
 impl FlatProduct {
@@ -156,7 +169,22 @@ impl FlatProduct {
             decision = decision.taken(rank);
         }
         let rank = decision.value;
-        Ok(Self { base, platform, rank, equations: s.kernel(rank).to_vec(), decision })
+        let well_conditioned = rank == 0 || keeps_digits(s.values[rank - 1], top);
+        Ok(Self { base, platform, rank, equations: s.kernel(rank).to_vec(), decision, well_conditioned })
+    }
+
+    /// The same with the equations of the span of these vectors, in normalised coordinates of both bodies.
+    fn of_span(self, vectors: &[Vec<f64>]) -> Result<Self, LinalgError> {
+        let (left, right) = (self.base.rows(), self.platform.rows());
+        let local = |v: &Vec<f64>| -> Vec<f64> {
+            let entry = |l: &[f64; 4], r: &[f64; 4]| {
+                l.iter().zip(v.chunks(4)).map(|(x, part)| x * dot(r, part)).sum::<f64>()
+            };
+            left.iter().flat_map(|l| right.iter().map(move |r| entry(l, r))).collect()
+        };
+        let rows: Vec<Vec<f64>> = vectors.iter().map(|v| unit(&local(v))).collect();
+        let s = Spectrum::of(&rows, left.len() * right.len())?;
+        Ok(Self { equations: s.kernel(self.rank).to_vec(), ..self })
     }
 
     /// The same with the two bodies exchanged.
@@ -169,6 +197,7 @@ impl FlatProduct {
             rank: self.rank,
             equations: self.equations.iter().map(turn).collect(),
             decision: self.decision,
+            well_conditioned: self.well_conditioned,
         }
     }
 
@@ -227,8 +256,11 @@ pub(super) struct BothReadings {
     pub(super) base: [Vector3<f64>; 6],
     pub(super) platform: [Vector3<f64>; 6],
     pub(super) exact: ExactLegs,
+    /// Whether these are the joints as meant, not doubles that may be rounded: then only they decide.
+    pub(super) constructed: bool,
     /// The legs in design units.
     pub(super) design: [Leg; 6],
+    pub(super) normalisation: Normalisation,
     pub(super) tolerance: f64,
 }
 
@@ -251,6 +283,27 @@ impl BothReadings {
 
     pub(super) fn side(&self, body: Body) -> &[Vector3<f64>; 6] {
         body.of((&self.base, &self.platform))
+    }
+
+    /// A basis of the span of the exact vectors of some legs, in normalised coordinates. `None` if these are not
+    /// finite.
+    pub(super) fn basis(&self, legs: &[usize]) -> Option<RoundedBasis> {
+        let n = &self.normalisation;
+        let number = |x: f64| rational(x).map(Algebraic::from);
+        let frame = |centre: &Point3<f64>, size: f64| -> Option<(Vec<Algebraic>, Algebraic)> {
+            let size = number(size).filter(|size| !size.is_zero())?;
+            Some((centre.iter().map(|x| number(*x)).collect::<Option<_>>()?, size))
+        };
+        let base = frame(&n.base_centre, n.base_unit)?;
+        let platform = frame(&n.platform_centre, n.platform_unit)?;
+        let normalised = |point: &AlgebraicVector, (centre, size): &(Vec<Algebraic>, Algebraic)| {
+            let rest = point[1..].iter().zip(centre).map(|(x, c)| &(x - c) / size);
+            std::iter::once(Algebraic::integer(1)).chain(rest).collect::<AlgebraicVector>()
+        };
+        let vector = |i: &usize| {
+            tensor(&normalised(&self.exact.base[*i], &base), &normalised(&self.exact.platform[*i], &platform))
+        };
+        Some(RoundedBasis::of(&legs.iter().map(vector).collect::<Vec<_>>()))
     }
 }
 
@@ -306,8 +359,11 @@ pub(super) fn closed_pairs(ends: &BothReadings) -> Result<Vec<ClosedPair>, Linal
     }
     for mask in numerical.closed() {
         let (i, j) = (numerical.base[mask], numerical.platform[mask]);
-        let rank = product(ends, &members(mask), i, j, None)?.rank;
-        found.entry((mask, i, j, rank)).or_default().1 = true;
+        let key = (mask, i, j, product(ends, &members(mask), i, j, None)?.rank);
+        // a tolerance is for joints that may be rounded
+        if !ends.constructed || found.contains_key(&key) {
+            found.entry(key).or_default().1 = true;
+        }
     }
     let mut out = Vec::new();
     for ((mask, i, j, rank), (is_exact, is_numerical)) in found {
@@ -320,7 +376,10 @@ pub(super) fn closed_pairs(ends: &BothReadings) -> Result<Vec<ClosedPair>, Linal
             _ => Reading::ToleranceOnly,
         };
         let legs = members(mask);
-        let product = product(ends, &legs, i, j, Some(rank))?;
+        let mut product = product(ends, &legs, i, j, Some(rank))?;
+        if is_exact && !product.well_conditioned {
+            product = exactly(ends, &legs, product)?;
+        }
         let mut decisions = Vec::new();
         for (body, question, used, by_exact) in [
             (Body::Base, Question::BaseDimension, i, exact.base[mask]),
@@ -349,18 +408,44 @@ fn product(
     FlatProduct::new(base, platform, &pairs, rank, ends.tolerance)
 }
 
-/// All six legs between the flats they span within the tolerance.
-pub(super) fn whole(ends: &BothReadings) -> Result<ClosedPair, LinalgError> {
+/// The product with the equations of the exact joints.
+fn exactly(ends: &BothReadings, legs: &[usize], product: FlatProduct) -> Result<FlatProduct, LinalgError> {
+    match ends.basis(legs) {
+        Some(basis) => product.of_span(&basis.vectors),
+        None => Ok(product),
+    }
+}
+
+/// All six legs between the flats that they span: in both readings if these agree or the joints are exact, otherwise
+/// once in each.
+pub(super) fn whole(ends: &BothReadings) -> Result<Vec<ClosedPair>, LinalgError> {
     let legs: Vec<usize> = (0..6).collect();
-    let dimension = |body: Body| -> Result<usize, LinalgError> {
+    let numerical = |body: Body| -> Result<usize, LinalgError> {
         Ok(spread(ends.side(body))?.iter().filter(|s| **s > ends.tolerance).count())
     };
-    let (i, j) = (dimension(Body::Base)?, dimension(Body::Platform)?);
-    let product = product(ends, &legs, i, j, None)?;
-    let same = ends.exact.dimension(Body::Base, &legs) == i
-        && ends.exact.dimension(Body::Platform, &legs) == j
-        && ends.exact.rank(&legs) == product.rank;
-    let reading = if same { Reading::Both } else { Reading::ToleranceOnly };
-    let decisions = vec![product.decision.beside(Some(ends.exact.rank(&legs)))];
-    Ok(ClosedPair { legs, base: i, platform: j, rank: product.rank, reading, product, decisions })
+    let exact = Body::BOTH.map(|body| ends.exact.dimension(body, &legs));
+    let rank = ends.exact.rank(&legs);
+    let near = [numerical(Body::Base)?, numerical(Body::Platform)?];
+    let rounded = product(ends, &legs, near[0], near[1], None)?;
+    let same = exact == near && rank == rounded.rank;
+    let pair = |product: FlatProduct, reading: Reading| ClosedPair {
+        legs: legs.clone(),
+        base: product.base.dimension(),
+        platform: product.platform.dimension(),
+        rank: product.rank,
+        reading,
+        decisions: vec![product.decision.beside(Some(rank))],
+        product,
+    };
+    if same {
+        let product = if rounded.well_conditioned { rounded } else { exactly(ends, &legs, rounded)? };
+        return Ok(vec![pair(product, Reading::Both)]);
+    }
+    let mut all = Vec::new();
+    if !ends.constructed {
+        all.push(pair(rounded, Reading::ToleranceOnly));
+    }
+    let product = product(ends, &legs, exact[0], exact[1], Some(rank))?;
+    all.push(pair(exactly(ends, &legs, product)?, Reading::ExactOnly));
+    Ok(all)
 }

@@ -150,14 +150,25 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     let n = Normalisation::of(m);
     let legs = m.legs();
     let scaled = legs.map(|l| n.apply(&l));
+    let all: Vec<usize> = (0..6).collect();
+    let exact = ExactLegs::of(m);
     let ends = BothReadings {
         base: scaled.map(|l| l.base.coords),
         platform: scaled.map(|l| l.platform.coords),
-        exact: ExactLegs::of(m).or_else(|| ExactLegs::of_doubles(&legs)).ok_or(ComponentsError::NonFinite)?,
+        constructed: exact.is_some() && m.level() == Level::ExactJoints,
+        exact: exact.or_else(|| ExactLegs::of_doubles(&legs)).ok_or(ComponentsError::NonFinite)?,
         design: legs,
+        normalisation: n,
         tolerance: options.tolerance,
     };
-    let span = LegSpan::of(m, options.tolerance)?;
+    let exact_rank = ends.exact.rank(&all);
+    let mut span = LegSpan::of(m, options.tolerance)?;
+    let leg_rank = leg_rank(&span, exact_rank, options.tolerance);
+    if !span.is_well_conditioned(exact_rank)
+        && let Some(basis) = ends.basis(&all)
+    {
+        span = span.with_basis(&basis)?;
+    }
     let mut pairs = closed_pairs(&ends)?;
     // families of the exact data first; those within the tolerance only are compared with them
     pairs.sort_by_key(|p| (p.reading == Reading::ToleranceOnly, p.base.min(p.platform), p.base + p.platform));
@@ -172,9 +183,9 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     for (index, pair) in pairs.iter().enumerate() {
         search.pair(index, pair)?;
     }
-    let all: Vec<usize> = (0..6).collect();
-    let whole = flats::whole(&ends)?;
-    search.joints(&whole)?;
+    for whole in flats::whole(&ends)? {
+        search.joints(&whole)?;
+    }
     let mut planes = Vec::new();
     for (index, base, platform) in std::mem::take(&mut search.planes) {
         let pair = &pairs[index];
@@ -182,28 +193,21 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
         planes.push(planes::plane_pair(index, pair, sides, &n, options.tolerance, rng)?);
     }
     let components = ordered(&mut search)?;
-    let leg_rank = Decision::rank(
-        Question::LegRank,
-        &span.singular_values(),
-        span.singular_values()[0],
-        options.tolerance,
-    )
-    .beside(Some(ends.exact.rank(&all)));
     let mut doubts = search.doubts;
-    let leg_rank = match leg_rank.exact {
-        // the rank is that of the joints, exact or as written; the tolerance does not affect it
-        Some(exact) if exact != leg_rank.value => {
-            let joints = if m.level() == Level::ExactJoints { "exact joints" } else { "joints as written" };
-            doubts.push(format!(
-                "the {joints} have leg vectors of rank {exact}, of rank {} within the tolerance: families that the {joints} alone have are not found",
-                leg_rank.value
-            ));
-            leg_rank.taken(exact)
-        }
-        _ => leg_rank,
-    };
+    if leg_rank.value != leg_rank.numerical && !ends.constructed {
+        doubts.push(format!(
+            "the joints as written have leg vectors of rank {}, of rank {} within the tolerance: rounding decides which families exist",
+            leg_rank.value, leg_rank.numerical
+        ));
+    }
     let pairs = pairs.iter().map(|p| record(p, &components)).collect();
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
+}
+
+/// The rank of the leg vectors: that of the joints, exact or as written, which the tolerance does not affect.
+fn leg_rank(span: &LegSpan, exact: usize, tolerance: f64) -> Decision {
+    let values = span.singular_values();
+    Decision::rank(Question::LegRank, &values, values[0], tolerance).beside(Some(exact)).taken(exact)
 }
 
 /// Whether the vector of a leg is a combination of those of six, with all coordinates as rational numbers.

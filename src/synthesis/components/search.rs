@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use super::component::{Component, FamilyKind, SampledLeg, infinite_parameters};
+use super::component::{Component, FamilyKind, SampledLeg, flat_name, infinite_parameters};
 use super::exact::{combination, fibre as exact_fibre};
 use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
 use super::exact_form::ExactKind;
@@ -243,7 +243,10 @@ impl FamilySearch<'_> {
                     (0..6).filter(|k| near[*k] == near[i]).chain(0..6).map(|k| far[k]).collect();
                 let view = View { product, carrying, near, far: &of_joint, tolerance: ends.tolerance };
                 let exact = exact_fibre(&ends.exact, carrying, &exact_ends[i], &whole.legs);
-                if let Some(found) = view.over_point(&near[i], None)? {
+                let width = product.platform.dimension() + 1;
+                let exactly = ends.constructed || whole.reading == Reading::ExactOnly;
+                let rank = exactly.then(|| width.saturating_sub(exact));
+                if let Some(found) = view.over_point(&near[i], rank)? {
                     let dimension = found.shape.dimension();
                     // in a larger family every joint has such a flat, which adds nothing
                     if !self.inside_larger(&found) {
@@ -306,13 +309,21 @@ impl FamilySearch<'_> {
         self.found.iter().any(|(k, c)| c.dimension > found.shape.dimension() && inside(&k.shape))
     }
 
-    /// Adds a family unless it is known already.
+    /// Adds a family unless it is known already, or exact joints lack it.
     pub(super) fn add(
         &mut self,
         mut found: FoundComponents,
         pair: &ClosedPair,
         exact: Option<bool>,
     ) -> Result<(), LinalgError> {
+        if self.ends.constructed && exact == Some(false) {
+            let (base, platform) = (flat_name(found.base_span), flat_name(found.platform_span));
+            self.doubts.push(format!(
+                "legs {} have a family between {base} and {platform} within the tolerance only, so numbers are too close to separate the exact families",
+                names(&pair.legs)
+            ));
+            return Ok(());
+        }
         found.exact = exact;
         let mut decisions = pair.decisions.clone();
         decisions.append(&mut found.decisions);

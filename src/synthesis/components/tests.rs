@@ -4,6 +4,8 @@ use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
 use crate::{LegMapTolerances, leg_map};
+use num::exact::{Rational, integer};
+use num::surd::Surd;
 use platform::manipulator::Leg;
 
 /// A multiple of 1/64: sums and products of a few of them are exact.
@@ -57,7 +59,8 @@ fn check_samples(c: &Components, limit: f64) {
             assert!(s.residual < limit, "{} {}: {:e}", family.type_name(), family.kind.name(), s.residual);
             if c.leg_rank.value == 6 && limit < 1e-8 {
                 let sum: f64 = s.coefficients.iter().sum();
-                assert!((sum - 1.0).abs() < 1e-8, "{sum}");
+                let size = s.coefficients.iter().fold(1.0f64, |m, c| m.max(c.abs()));
+                assert!((sum - 1.0).abs() < 1e-8 * size, "{sum}");
             }
         }
     }
@@ -380,6 +383,69 @@ fn dependent_legs_are_said_to_be_dependent() {
     );
     let kinds: Vec<_> = c.components.iter().map(|x| (x.type_name(), x.exact)).collect();
     assert!(kinds.contains(&("point-plane".to_string(), Some(true))), "{kinds:?}");
+}
+
+/// The member of the class of two fixed triangles with offsets `t` on the sides of the leg hexagon, exactly. The legs
+/// are in the order `order`.
+fn member(t: &[Rational; 6], order: [usize; 6]) -> Manipulator {
+    let corner = |x: i64, y: i64| [integer(x), integer(y), integer(0)];
+    let base = [corner(0, 0), corner(16, 0), corner(4, 12)];
+    let platform = [corner(0, 0), corner(8, 4), corner(-4, 8)];
+    let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let between = |p: &[Rational; 3], q: &[Rational; 3], t: &Rational| {
+        [0, 1, 2].map(|k| Surd::rational(&(&p[k] + (&q[k] - &p[k]) * t)).unwrap())
+    };
+    let ends = order.map(|k| {
+        let ((i, j), (l, n)) = (hexagon[k], hexagon[(k + 1) % 6]);
+        [between(&base[i], &base[l], &t[k]), between(&platform[j], &platform[n], &t[k])]
+    });
+    Manipulator::from_exact_ends(&ends).unwrap()
+}
+
+/// All members of a class have the families of its octahedral platform, however near to a singular one they are: then
+/// their doubles are singular, and have others.
+#[test]
+fn exact_joints_have_the_families_of_their_class_next_to_singular_members() {
+    let half = || Rational::new(1.into(), 2.into());
+    let trace = |digits: u32| Rational::new(1.into(), num_bigint::BigInt::from(10).pow(digits));
+    for (digits, order) in [
+        (6, [0, 1, 2, 3, 4, 5]),
+        (10, [3, 5, 1, 0, 2, 4]),
+        (13, [5, 4, 3, 2, 1, 0]),
+        (30, [2, 0, 4, 1, 5, 3]),
+    ] {
+        let offsets: [Rational; 6] =
+            std::array::from_fn(|k| if k == 5 { half() + trace(digits) } else { half() });
+        let c = components(&member(&offsets, order), ComponentOptions::default()).unwrap();
+        assert!(c.doubts.is_empty(), "{digits}: {:?}", c.doubts);
+        assert_eq!((c.leg_rank.value, c.planes.len()), (6, 1), "{digits}");
+        let six =
+            |of: &str| c.components.iter().filter(|x| x.type_name() == of && x.exact == Some(true)).count();
+        assert_eq!((six("point-line"), c.components.len()), (6, 6), "{digits}: {:?}", list(&c));
+        assert!(c.components.iter().all(|x| x.support.len() == 6), "{digits}");
+        check_samples(&c, 1e-12);
+        // both curves are the sides of the triangles, in numbers as well as exactly
+        for curve in [&c.planes[0].base, &c.planes[0].platform] {
+            let lines = curve.parts.iter().filter(|p| p.kind == PartKind::Line).count();
+            let exact =
+                curve.exact.as_ref().unwrap().parts.iter().filter(|p| p.kind == ExactKind::Line).count();
+            assert_eq!((lines, exact), (3, 3), "{digits}: {:?}", curve.parts);
+        }
+    }
+}
+
+/// Exact joints are not rounded: families that they have within the tolerance only are not theirs.
+#[test]
+fn exact_joints_have_no_families_within_the_tolerance() {
+    let offsets: [Rational; 6] = std::array::from_fn(|k| Rational::new((2 + k as i64).into(), 10.into()));
+    let m = member(&offsets, [0, 1, 2, 3, 4, 5]);
+    let mut ends = m.exact_ends().unwrap();
+    let trace = Surd::rational(&Rational::new(1.into(), num_bigint::BigInt::from(10).pow(12))).unwrap();
+    // one joint leaves its edge: the six lines are five and a cubic, or a line and a conic
+    ends[0][0][1] = ends[0][0][1].plus(&trace).unwrap();
+    let c = components(&Manipulator::from_exact_ends(&ends).unwrap(), ComponentOptions::default()).unwrap();
+    assert!(c.components.iter().all(|x| x.exact != Some(false)), "{:?}", list(&c));
+    assert!(c.pairs.iter().all(|p| p.reading != Reading::ToleranceOnly));
 }
 
 /// Two families over the ends `(sqrt 2, ..)` and `(-sqrt 2, ..)` of a base line, with conjugate platform lines through
