@@ -41,8 +41,9 @@ pub struct NearestSingular {
     /// Whether every coordinate changes by at most `2^-50` of the largest coordinate of its body, so that rounding of
     /// the file may hide the change.
     pub within_rounding: bool,
-    /// Half a unit of the last given decimal, design units, if no coordinate changes by more. The design is then
-    /// singular to the given digits.
+    /// Half a unit of the last given digit, design units, if no coordinate changes by more: the same for all
+    /// coordinates with equal decimals, the largest with equal significant digits. The design is then singular to the
+    /// given digits.
     pub within_digits: Option<f64>,
 }
 
@@ -69,27 +70,95 @@ impl NearestSingular {
 /// # Errors
 /// When a singular value decomposition does not converge.
 pub(super) fn rounded_singular(m: &Manipulator) -> Result<Option<NearestSingular>, LinalgError> {
+    let digits = DigitUnits::given(m);
     // if one pose proves a distance from singular designs beyond rounding, no search is needed
-    let reach = ROUNDING * largest(m.base_joints()).max(largest(m.platform_joints()));
-    let reach = 6.0 * half_unit_given(m).map_or(reach, |half| reach.max(half));
+    let reach = 6.0 * ROUNDING * largest(m.base_joints()).max(largest(m.platform_joints()));
+    let reach = digits.iter().map(DigitUnits::reach).fold(reach, f64::max);
     if candidate_poses(m).take(4).any(|pose| proved_at_pose(m, &pose.pose()) > reach) {
         return Ok(None);
     }
-    Ok(nearest_singular(m, SEED)?.filter(NearestSingular::may_be_meant))
+    let Some(nearest) = nearest_singular(m, SEED)? else { return Ok(None) };
+    if nearest.may_be_meant() {
+        return Ok(Some(nearest));
+    }
+    // the nearest design may change one coordinate too much while another changes none so
+    for units in digits.iter().filter(|units| nearest.distance <= units.reach()) {
+        let starts = UnitCoefficients::all(m, SEED, STARTS);
+        let searched = starts.iter().filter_map(|start| project(m, start, Some(units)));
+        if let Some(meant) = changes(m).into_iter().chain(searched).find(|change| units.contain(change)) {
+            return describe(m, meant).map(Some);
+        }
+    }
+    Ok(None)
 }
 
 fn largest(points: &[Point3<f64>]) -> f64 {
     points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
 }
 
-/// Half a unit of the last decimal of the coordinates as written, design units. `None` if it is a large share of the
-/// design, so that the numbers are not rounded values.
-fn half_unit_given(m: &Manipulator) -> Option<f64> {
-    let decimals = |x: f64| format!("{x}").split_once('.').map_or(0, |(_, digits)| digits.len());
-    let used = m.legs().into_iter().flat_map(|leg| [leg.base, leg.platform]);
-    let most = used.flat_map(|p| [p.x, p.y, p.z]).map(decimals).max().unwrap_or(0);
-    let half = 0.5 * 10f64.powi(-i32::try_from(most).ok()?);
-    (half <= COARSE * m.size()).then_some(half)
+/// Half a unit of the last given digit of every coordinate, design units.
+#[derive(Debug, Clone, PartialEq)]
+struct DigitUnits {
+    base: Vec<Vector3<f64>>,
+    platform: Vec<Vector3<f64>>,
+}
+
+impl DigitUnits {
+    /// The ways in which the plain coordinates may have been rounded: to equal decimals, and to equal significant
+    /// digits. Units that are a large share of the design are left out, since such numbers are no rounded values.
+    fn given(m: &Manipulator) -> Vec<Self> {
+        if m.level() != Level::DoublesAsWritten {
+            return Vec::new();
+        }
+        let legs = m.legs();
+        let used = || legs.iter().flat_map(|leg| [leg.base, leg.platform]).flat_map(|p| [p.x, p.y, p.z]);
+        let forms: Vec<(i32, i32)> = used().filter(|x| *x != 0.0).map(decimal_form).collect();
+        let decimals = forms.iter().map(|(digits, exponent)| digits - 1 - exponent).max().unwrap_or(0).max(0);
+        let digits = forms.iter().map(|form| form.0).max().unwrap_or(0);
+        // rounding to significant digits leaves most coordinates with all of them, or with a last zero less
+        let long = forms.iter().filter(|form| form.0 + 1 >= digits).count();
+        let of = |half: &dyn Fn(f64) -> f64| {
+            let joints = |list: &[Point3<f64>]| list.iter().map(|p| p.coords.map(half)).collect();
+            Self { base: joints(m.base_joints()), platform: joints(m.platform_joints()) }
+        };
+        let mut found = vec![of(&|_| half_unit(decimals))];
+        if 2 * long > forms.len() {
+            found.push(of(&|x| if x == 0.0 { 0.0 } else { half_unit(digits - 1 - decimal_form(x).1) }));
+        }
+        found.retain(|units| units.largest() <= COARSE * m.size());
+        found
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Vector3<f64>> {
+        self.base.iter().chain(&self.platform)
+    }
+
+    fn largest(&self) -> f64 {
+        self.all().map(Vector3::amax).fold(0.0, f64::max)
+    }
+
+    /// The greatest distance of a design within these units.
+    fn reach(&self) -> f64 {
+        self.all().map(Vector3::norm_squared).sum::<f64>().sqrt()
+    }
+
+    /// Whether no coordinate changes by more.
+    fn contain(&self, change: &Change) -> bool {
+        let changes = change.base.iter().chain(&change.platform);
+        changes.zip(self.all()).all(|(by, half)| by.iter().zip(half.iter()).all(|(x, h)| x.abs() <= *h))
+    }
+}
+
+fn half_unit(decimals: i32) -> f64 {
+    0.5 * 10f64.powi(-decimals)
+}
+
+/// Number of significant digits, and exponent of the first one, of the shortest decimal that is read as this double.
+fn decimal_form(x: f64) -> (i32, i32) {
+    let text = format!("{x:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, ""));
+    let count = digits.bytes().filter(u8::is_ascii_digit).count();
+    (i32::try_from(count).unwrap_or(0), exponent.parse().unwrap_or(0))
 }
 
 /// Changes of the joints that make a design singular.
@@ -130,8 +199,9 @@ pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSing
         all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
     };
     let closed = least(changes(m));
-    let searched =
-        least(UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
+    let searched = least(
+        UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start, None)).collect(),
+    );
     let best = match (closed, searched) {
         // if both ways find the same design, take the exact one regardless of rounding
         (Some(x), Some(y)) => Some(if x.norm() <= y.norm() * (1.0 + SAME) { x } else { y }),
@@ -157,8 +227,8 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
     let within = |by: &[Vector3<f64>], limit: f64| by.iter().all(|d| d.amax() <= limit);
     let within_rounding = within(&change.base, ROUNDING * largest(m.base_joints()))
         && within(&change.platform, ROUNDING * largest(m.platform_joints()));
-    let given = half_unit_given(m).filter(|_| m.level() == Level::DoublesAsWritten);
-    let within_digits = given.filter(|half| within(&change.base, *half) && within(&change.platform, *half));
+    let within_digits =
+        DigitUnits::given(m).iter().find(|units| units.contain(&change)).map(DigitUnits::largest);
     Ok(NearestSingular {
         distance: change.norm(),
         kind,
@@ -238,6 +308,15 @@ impl NearestProblem {
         Self { joints, start: DVector::from_vec(x), legs }
     }
 
+    /// The units of all coordinates, over the largest; 1 without units.
+    fn weights(&self, units: Option<&DigitUnits>) -> DVector<f64> {
+        let Some(units) = units else { return DVector::from_element(self.start.len(), 1.0) };
+        let of_body = self.joints.iter().zip([&units.base, &units.platform]);
+        let joints = of_body.flat_map(|(used, all)| used.iter().map(|j| &all[*j]));
+        let list: Vec<f64> = joints.flat_map(|half| half.iter().map(|x| x / units.largest())).collect();
+        DVector::from_vec(list)
+    }
+
     /// `(1, a)` and `(1, b)` of a leg.
     fn ends(&self, x: &DVector<f64>, leg: usize) -> [[f64; 4]; 2] {
         let (a, b) = self.legs[leg];
@@ -267,9 +346,11 @@ impl NearestProblem {
     }
 }
 
-/// Follows one start; `None` if it does not converge to a design with a relation.
-fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
+/// Follows one start; `None` if it does not converge to a design with a relation. With `units`, changes are measured in
+/// those of their coordinates, and coordinates without a unit stay.
+fn project(m: &Manipulator, start: &UnitCoefficients, units: Option<&DigitUnits>) -> Option<Change> {
     let problem = NearestProblem::of(m);
+    let weights = problem.weights(units);
     let mut x = problem.start.clone();
     let mut c = DVector::from_row_slice(&start.0).normalize();
     for _ in 0..STEPS {
@@ -287,8 +368,10 @@ fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
         };
         let y = &x - &problem.start;
         let target = across(&DMatrix::from_column_slice(16, 1, (&by_x * &y - &f).as_slice()));
-        let least = pseudo_solve(&across(&by_x), &target)?;
-        let mut step = DVector::from_column_slice(least.as_slice()) - &y;
+        let mut weighted = by_x.clone();
+        weighted.column_iter_mut().zip(weights.iter()).for_each(|(mut column, weight)| column *= *weight);
+        let least = pseudo_solve(&across(&weighted), &target)?;
+        let mut step = DVector::from_column_slice(least.as_slice()).component_mul(&weights) - &y;
         let left = -(&f + &by_x * &step);
         let mut turn = pseudo_solve(&tangent(&v, &c), &DMatrix::from_column_slice(16, 1, left.as_slice()))?;
         let damping = (STRIDE / step.norm().max(turn.norm())).min(1.0);
@@ -482,5 +565,77 @@ fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize]
         line_up(m, &mut change, body, &groups);
         meet(m, &mut change, body.other(), &pair);
         found.push(change);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+    use num::Rng;
+    use platform::manipulator::Leg;
+
+    /// A Griffis-Duffy platform with `prod t_i = prod (1 - t_i)`, rotated and moved in general.
+    fn singular() -> [Leg; 6] {
+        let corner = |x: f64, y: f64| Vector3::new(x, y, 0.0);
+        let base = [corner(0., 0.), corner(160., 0.), corner(40., 120.)];
+        let platform = [corner(0., 0.), corner(80., 40.), corner(-40., 80.)];
+        let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let t = [0.3, 0.7, 0.4, 0.2, 0.8, 0.6];
+        let turn = |x: f64, y: f64, z: f64| Rotation3::new(Vector3::new(x, y, z));
+        let (turns, shifts) = (
+            [turn(0.4, -0.9, 0.3), turn(-0.2, 0.5, 1.1)],
+            [Vector3::new(7.3, -5.1, 11.2), Vector3::new(-61.7, 0.3, 18.9)],
+        );
+        std::array::from_fn(|k| {
+            let ((i, j), (l, n)) = (hexagon[k], hexagon[(k + 1) % 6]);
+            let at = |p: Vector3<f64>, q: Vector3<f64>, body: usize| {
+                Point3::from(turns[body] * (p + (q - p) * t[k]) + shifts[body])
+            };
+            Leg { base: at(base[i], base[l], 0), platform: at(platform[j], platform[n], 1) }
+        })
+    }
+
+    fn rounded(legs: &[Leg; 6], round: &dyn Fn(f64) -> f64) -> Manipulator {
+        let point = |p: &Point3<f64>| Point3::from(p.coords.map(round));
+        let leg = |l: &Leg| Leg { base: point(&l.base), platform: point(&l.platform) };
+        Manipulator::from_legs(legs.each_ref().map(leg)).unwrap()
+    }
+
+    fn significant(digits: usize) -> impl Fn(f64) -> f64 {
+        move |x| format!("{x:.*e}", digits - 1).parse().unwrap()
+    }
+
+    fn decimals(count: usize) -> impl Fn(f64) -> f64 {
+        move |x| format!("{x:.count$}").parse().unwrap()
+    }
+
+    #[test]
+    fn a_singular_design_is_recognised_behind_its_digits() {
+        let exact = singular();
+        for digits in [5, 6, 8, 10, 12, 14, 17] {
+            let m = rounded(&exact, &significant(digits));
+            let meant = rounded_singular(&m).unwrap();
+            assert!(meant.is_some_and(|n| n.may_be_meant()), "{digits} significant digits");
+        }
+        for count in [2, 3, 5, 8, 11] {
+            let m = rounded(&exact, &decimals(count));
+            let meant = rounded_singular(&m).unwrap().unwrap();
+            assert!(meant.within_rounding || meant.within_digits == Some(half_unit(count as i32)), "{count}");
+        }
+    }
+
+    #[test]
+    fn regular_designs_with_few_digits_are_meant() {
+        let mut rng = Rng::new(5);
+        for digits in [5, 6, 9, 12] {
+            let mut point = || Point3::new(rng.normal(), rng.normal(), 0.1 * rng.normal());
+            let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
+            assert_eq!(rounded_singular(&rounded(&legs, &significant(digits))).unwrap(), None, "{digits}");
+        }
+        // a thousand units of the last digit off the singular design
+        let mut legs = singular();
+        legs[2].platform.x += 1e-5;
+        assert_eq!(rounded_singular(&rounded(&legs, &significant(10))).unwrap(), None);
     }
 }
