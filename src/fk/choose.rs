@@ -3,9 +3,10 @@
 use std::sync::OnceLock;
 
 use super::bounds::class_bound;
+use super::trilateration::Prepared as PreparedTrilateration;
 use super::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, OcticSolver,
-    PoseCounting, PreparedDesign, Trilateration,
+    PreparedDesign, SolutionSet, Trilateration,
 };
 #[cfg(feature = "lab")]
 use super::{Sylvester, Template};
@@ -51,18 +52,26 @@ impl ForwardKinematics for Automatic {
             Err(_) => {}
         }
         // bounding the poses of the class takes longer than the octic
-        if class_bound(m).is_some_and(|t| t.bound() <= FEW_POSES) {
-            match Trilateration::default().solve(m, s, o) {
-                Ok(found) if found.is_complete() => return Ok(found),
-                _ => {}
-            }
+        if class_bound(m).is_none_or(|t| t.bound() > FEW_POSES) {
+            return Homotopy.solve(m, s, o);
         }
-        Homotopy.solve(m, s, o)
+        let trilateration = Trilateration::default();
+        if let Some(found) = trilateration.proved(m, s, o) {
+            return Ok(found);
+        }
+        let found = Homotopy.solve(m, s, o)?;
+        if found.is_complete() || found.solution_set != SolutionSet::Isolated {
+            return Ok(found);
+        }
+        // the exact polynomial may take many times as long as the paths
+        let exact = trilateration.solve(m, s, o).ok().filter(FkSolutions::is_complete);
+        Ok(exact.unwrap_or(found))
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let few = || class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
-        let by_trilateration = || if few() { Trilateration::default().prepare(m, o) } else { None };
+        let by_trilateration =
+            || if few() { Trilateration::default().prepared(&m.with_merged_joints()).ok().map(Box::new) } else { None };
         let by_octic = OcticSolver::new(m).ok().map(|solver| QuickDesign::Octic(Box::new(solver)));
         let by_distances = by_octic.or_else(|| Some(QuickDesign::Trilateration(by_trilateration()?)));
         let Some(quick) = by_distances else { return Homotopy.prepare(m, o) };
@@ -74,7 +83,7 @@ impl ForwardKinematics for Automatic {
 /// The methods that are tried before paths.
 enum QuickDesign {
     Octic(Box<OcticSolver>),
-    Trilateration(Box<dyn PreparedDesign>),
+    Trilateration(Box<PreparedTrilateration>),
 }
 
 /// [`Automatic`] for a design that the octic or trilateration applies to.
@@ -92,9 +101,7 @@ impl PreparedDesign for PreparedAutomatic {
         // the general treatment, and counting poses, take longer than the paths of the prepared design
         let proved = match &self.quick {
             QuickDesign::Octic(solver) => solver.proved(s, o.seed),
-            QuickDesign::Trilateration(design) => {
-                design.solve(s, &o.pose_count(PoseCounting::Never)).ok().filter(FkSolutions::is_complete)
-            }
+            QuickDesign::Trilateration(design) => design.proved(s, o),
         };
         if let Some(found) = proved {
             return Ok(found);

@@ -7,9 +7,11 @@
 //! many certified roots are then all isolated poses; fewer may be all.
 
 use super::bounded::Surroundings;
+use super::dependent::related;
 use super::evidence::{all_distinct, cluster_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
+use crate::solve::dependence;
 use crate::solve::pose_count::{
     CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
@@ -141,12 +143,15 @@ pub(super) fn compared_with_count(
     if found.completeness.is_proved() || surroundings.conclude(&mut found, s, o.pose_count)? {
         return Ok(found);
     }
+    // rounded lengths contradict a relation between the legs, so that the count would find no pose
+    if let Some(dependent) = related(dependence(m, s), m, s, o) {
+        return dependent;
+    }
     if let Some(count) = counted(m, s, o)
         && let CountVerdict::PositiveDimensional { dimension } = compare(&mut found, &count)?
     {
         reject_others(&mut found);
-        found.solution_set =
-            SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
+        found.solution_set = SolutionSet::seen(dimension, Vec::new());
     }
     surroundings.conclude_last(&mut found, s);
     Ok(found)
@@ -159,6 +164,34 @@ mod tests {
     use nalgebra::Point3;
     use num::double_double::DoubleDouble;
     use platform::manipulator::LegLengths;
+
+    /// Rounded lengths contradict the relation of three legs in a plane pencil, whichever method is asked first.
+    #[test]
+    fn rounded_lengths_of_dependent_legs_have_a_motion_by_every_method() {
+        let p = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
+        let star = p(8., -9., -7.);
+        let base = vec![star, star, star, p(1., 2., 0.), p(-9., 5., 3.), p(4., 8., -2.)];
+        let platform = vec![
+            p(1., 0., 0.),
+            p(4., 6., -3.),
+            p(-2., -6., 3.),
+            p(2., -6., 1.),
+            p(6., 3., -4.),
+            p(-1., 4., 5.),
+        ];
+        let m = Manipulator::try_new(base, platform, [0, 1, 2, 3, 4, 5].map(|k| (k, k))).unwrap();
+        let rotation = nalgebra::Rotation3::from_euler_angles(0.2, -0.4, 0.7);
+        let pose = platform::geom::Pose { rotation, position: nalgebra::Vector3::new(3.0, -2.0, 17.0) };
+        let lengths = pose.squared_lengths(&m).unwrap().lengths().get();
+        let s = LegLengths::try_new(lengths).unwrap().squared();
+        for method in [None, Some(crate::Method::Homotopy), Some(crate::Method::Trilateration)] {
+            let found = crate::solver(method).solve(&m, &s, &FkOptions::new()).unwrap();
+            let SolutionSet::PositiveDimensional { witnesses, degree, .. } = &found.solution_set else {
+                panic!("{method:?}: {:?}", found.completeness)
+            };
+            assert!(found.roots.is_empty() && degree.is_some_and(|d| d <= witnesses.len()), "{method:?}");
+        }
+    }
 
     /// Sixteen certified poses of lengths known within radii, of which nothing is known yet.
     fn sixteen() -> (Manipulator, SquaredLegLengths, FkSolutions) {

@@ -8,9 +8,9 @@ use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, Reason, Rejected,
     RejectionReason, SolutionSet, Theorem,
 };
-use crate::solve::ScaledFrames;
 use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
-use crate::solve::pose_count::{CountedLengths, PoseSet};
+use crate::solve::pose_count::{CountedLengths, PoseCount, PoseSet};
+use crate::solve::{LegDependence, ScaledFrames};
 use num::Purpose;
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
@@ -19,6 +19,8 @@ use platform::manipulator::{Manipulator, SquaredLegLengths};
 const RANK: f64 = 1e-9;
 /// Points of a section with imaginary parts this many times the tolerance are not real.
 const NON_REAL: f64 = 1e4;
+/// Points of a section closer than this are not known to be two, in entries of the rotation and sizes.
+const ONE_POSE: f64 = 1e-6;
 /// Slices tried for one with a real pose on it.
 const SLICES: u64 = 4;
 
@@ -37,8 +39,22 @@ fn without_roots(completeness: Completeness, solution_set: SolutionSet, o: &FkOp
     }
 }
 
+/// The answer for leg vectors with a proved relation; `None` without one.
+pub(super) fn related(
+    legs: LegDependence,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+) -> Option<Result<FkSolutions, FkError>> {
+    match legs {
+        LegDependence::Incompatible => Some(Ok(incompatible(o))),
+        LegDependence::Compatible { relations } => Some(curves(m, s, o, &ScaledFrames::of(m, s), relations)),
+        LegDependence::Independent | LegDependence::Nearly => None,
+    }
+}
+
 /// Leg vectors with a relation that the lengths contradict.
-pub(super) fn incompatible(o: &FkOptions) -> FkSolutions {
+fn incompatible(o: &FkOptions) -> FkSolutions {
     let theorem = Theorem::ContradictoryLengths;
     without_roots(Completeness::Proved { theorem }, SolutionSet::Empty, o)
 }
@@ -63,6 +79,7 @@ pub(super) fn curves(
     let cuts = cut(m, s, o, frame, least)?;
     let dimension = cuts.dimension;
     let established = proved > 0 && dimension == proved && cuts.clean && !cuts.points.is_empty();
+    let degree = if established { Some(cuts.points.len()) } else { cuts.degree(count.as_ref(), m.size()) };
     let mut points = cuts.points;
     let sections = points.len();
     if points.iter().all(|p| p.reality != Reality::Real) {
@@ -73,7 +90,7 @@ pub(super) fn curves(
     if let Some(count) = &count {
         completeness.learn(set_counted(count, established));
     }
-    let set = SolutionSet::PositiveDimensional { dimension, witnesses: points, established };
+    let set = SolutionSet::PositiveDimensional { dimension, witnesses: points, degree, established };
     let mut out = without_roots(completeness, set, o);
     out.pose_count = count;
     Ok(out)
@@ -91,8 +108,7 @@ pub(super) fn not_told_apart(
     if let Some(count) = counted(m, s, o)
         && let CountVerdict::PositiveDimensional { dimension } = compare(&mut out, &count)?
     {
-        out.solution_set =
-            SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
+        out.solution_set = SolutionSet::seen(dimension, Vec::new());
     }
     Ok(out)
 }
@@ -113,13 +129,15 @@ pub(super) fn positive_dimensional(
     found.rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
     found.roots = isolated;
     forget_numbering(&mut found.paths);
-    let mut points = cut(m, s, o, frame, dimension)?.points;
+    let cuts = cut(m, s, o, frame, dimension)?;
+    let degree = cuts.degree(found.pose_count.as_ref(), m.size());
+    let mut points = cuts.points;
     let sections = points.len();
     points.extend(searched(m, s, o));
     let isolated = found.roots.len();
     found.completeness.doubt(Reason::Sectioned { points: sections, real: real(&points), isolated });
     found.solution_set =
-        SolutionSet::PositiveDimensional { dimension, witnesses: points, established: false };
+        SolutionSet::PositiveDimensional { dimension, witnesses: points, degree, established: false };
     Ok(found)
 }
 
@@ -134,6 +152,18 @@ struct Cuts {
     dimension: usize,
     /// All paths of the sections have a regular end or none, and all regular ends are points of the set.
     clean: bool,
+}
+
+impl Cuts {
+    /// The degree counted modulo random primes for these lengths, if the sections have as many distinct points. General
+    /// sections meet every component of that dimension, and have no more points than the degree.
+    fn degree(&self, count: Option<&PoseCount>, size: f64) -> Option<usize> {
+        let count = count.filter(|c| c.lengths == CountedLengths::Given)?;
+        let PoseSet::PositiveDimensional { dimension, degree } = count.set else { return None };
+        let poses: Vec<&ComplexPose> = self.points.iter().map(|p| &p.pose).collect();
+        let apart = |k: usize| poses[..k].iter().all(|p| p.distance(poses[k], size) > ONE_POSE);
+        (dimension == self.dimension && degree == poses.len() && (0..degree).all(apart)).then_some(degree)
+    }
 }
 
 /// Real random sections, as many as dimensions, up to [`SLICES`] times until one has a real point.
@@ -247,6 +277,5 @@ pub(super) fn detect_curves(found: &mut FkSolutions, m: &Manipulator, s: &Square
     forget_numbering(&mut found.paths);
     let paths = curve.iter().map(|r| r.multiplicity).sum();
     found.completeness.doubt(Reason::CurvesSeen { paths });
-    found.solution_set =
-        SolutionSet::PositiveDimensional { dimension: 1, witnesses: curve, established: false };
+    found.solution_set = SolutionSet::seen(1, curve);
 }

@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use super::bounded::Surroundings;
 use super::counted::{CountVerdict, compare, counted, set_counted};
-use super::dependent::{curves, detect_curves, incompatible, not_told_apart, positive_dimensional};
+use super::dependent::{curves, detect_curves, not_told_apart, positive_dimensional, related};
 use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{Harvest, HarvestEnd, PreciseEnd, harvest};
 use super::{
@@ -49,13 +49,14 @@ impl ForwardKinematics for Homotopy {
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let frame = ScaledFrames::of(m, s);
-        let nearly = match dependence(m, s) {
-            LegDependence::Independent => false,
-            LegDependence::Nearly if ratio_of_bodies(m) > BODIES_APART => return not_told_apart(m, s, o),
-            LegDependence::Nearly => true,
-            LegDependence::Incompatible => return Ok(incompatible(o)),
-            LegDependence::Compatible { relations } => return curves(m, s, o, &frame, relations),
-        };
+        let legs = dependence(m, s);
+        let nearly = matches!(legs, LegDependence::Nearly);
+        if nearly && ratio_of_bodies(m) > BODIES_APART {
+            return not_told_apart(m, s, o);
+        }
+        if let Some(dependent) = related(legs, m, s, o) {
+            return dependent;
+        }
         let Some(sections) = frame.sections(m, s) else {
             return if nearly { curves(m, s, o, &frame, 0) } else { not_told_apart(m, s, o) };
         };

@@ -98,8 +98,11 @@ pub enum SolutionSet {
         dimension: usize,
         /// One pose for each intersection of the set with general linear sections, so at least one on each component of
         /// that dimension. The sections are linear in the seventeen quadratic forms of the dual quaternion, as many as
-        /// the dimension. The number of poses is the degree of the set in that embedding when `established`.
+        /// the dimension. Real points of a search follow when no section has one.
         witnesses: Vec<FkRoot>,
+        /// Degree of the set in that embedding, if the sections have all its points. Either the set is `established`,
+        /// or the sections have as many distinct points as the degree counted modulo random primes.
+        degree: Option<usize>,
         /// `true` when a relation between the legs is proved on the joints as given, the lengths satisfy it within
         /// rounding and all witnesses are regular; `false` when the motion was only seen numerically.
         established: bool,
@@ -109,6 +112,11 @@ pub enum SolutionSet {
 num::displayed!(SolutionSet by name);
 
 impl SolutionSet {
+    /// A set of positive dimension that was seen with some of its poses.
+    pub(super) fn seen(dimension: usize, witnesses: Vec<FkRoot>) -> Self {
+        Self::PositiveDimensional { dimension, witnesses, degree: None, established: false }
+    }
+
     /// The name used in JSON.
     #[must_use]
     pub fn name(&self) -> &'static str {

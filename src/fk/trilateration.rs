@@ -8,6 +8,7 @@ use num_complex::Complex64;
 use super::bounds::class_bound;
 use super::closure_candidates;
 use super::counted::compared_with_count;
+use super::dependent::related;
 use super::evidence::attach;
 use super::harvest::{Harvest, HarvestEnd, harvest};
 use super::{
@@ -16,6 +17,7 @@ use super::{
 };
 use crate::distance::{Evaluator, GenericDegrees, NoPlan, fit};
 use crate::solve::certify::dual_quaternion;
+use crate::solve::dependence;
 use platform::geom::ComplexPose;
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use platform::topology::{JointIndex, Nesting, Sequence, sequences};
@@ -49,7 +51,7 @@ type Ranked = Result<Vec<(Sequence, GenericDegrees)>, NoPlan>;
 
 /// [`Trilateration`] for one design.
 #[derive(Debug)]
-struct Prepared {
+pub(super) struct Prepared {
     manipulator: Manipulator,
     evaluators: Vec<Evaluator>,
     /// The bound of the design's class: working it out takes as long as a pose.
@@ -69,7 +71,21 @@ impl Trilateration {
         })
     }
 
-    fn prepared(&self, m: &Manipulator) -> Result<Prepared, FkError> {
+    /// The answer if evaluations in floating point prove it, without the exact polynomial.
+    pub(super) fn proved(
+        &self,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+        o: &FkOptions,
+    ) -> Option<FkSolutions> {
+        let m = &m.with_merged_joints();
+        match hidden::solve(m, s, o) {
+            Some(found) => found.ok().filter(|found| found.completeness.is_proved()),
+            None => self.prepared(m).ok()?.proved(s, o),
+        }
+    }
+
+    pub(super) fn prepared(&self, m: &Manipulator) -> Result<Prepared, FkError> {
         let refuse =
             |why: NoPlan| FkError::NotApplicable { method: Method::Trilateration, reason: why.to_string() };
         let ranked = self.ranked(m);
@@ -138,6 +154,8 @@ impl ForwardKinematics for Trilateration {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        // joints in one place are one joint, as for the bounds of the classes
+        let m = &m.with_merged_joints();
         match hidden::solve(m, s, o) {
             Some(found) => compared_with_count(found?, m, s, o),
             None => self.prepared(m)?.solve(s, o),
@@ -145,7 +163,7 @@ impl ForwardKinematics for Trilateration {
     }
 
     fn prepare(&self, m: &Manipulator, _: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
-        Some(Box::new(self.prepared(m).ok()?))
+        Some(Box::new(self.prepared(&m.with_merged_joints()).ok()?))
     }
 }
 
@@ -162,8 +180,17 @@ impl Prepared {
     }
 }
 
-impl PreparedDesign for Prepared {
-    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+/// All evaluations, of which the last may be proved to be complete.
+struct Evaluated {
+    found: FkSolutions,
+    ends: Vec<HarvestEnd>,
+    expected: usize,
+    attempts: usize,
+}
+
+impl Prepared {
+    /// Evaluations on sequence after sequence, until one is proved to be complete.
+    fn evaluated(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<Evaluated, FkError> {
         let squares = s.get().map(Complex64::from);
         let mut ends: Vec<HarvestEnd> = Vec::new();
         let mut answer = None;
@@ -177,23 +204,38 @@ impl PreparedDesign for Prepared {
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
             let tried = Tried::Evaluations(attempt + 1);
             let found = self.with_evidence(s, o, &ends, configurations.expected, tried)?;
-            if found.completeness.is_proved() {
-                return Ok(found);
+            let proved = found.completeness.is_proved();
+            answer = Some((found, configurations.expected, attempt + 1));
+            if proved {
+                break;
             }
-            answer = Some((found, configurations.expected, attempt + 2));
         }
-        if let Some((found, expected, attempts)) = &mut answer {
+        let (found, expected, attempts) =
+            answer.ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })?;
+        Ok(Evaluated { found, ends, expected, attempts })
+    }
+
+    /// The answer if evaluations in floating point prove it.
+    pub(super) fn proved(&self, s: &SquaredLegLengths, o: &FkOptions) -> Option<FkSolutions> {
+        Some(self.evaluated(s, o).ok()?.found).filter(|found| found.completeness.is_proved())
+    }
+}
+
+impl PreparedDesign for Prepared {
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        let Evaluated { mut found, mut ends, expected, attempts } = self.evaluated(s, o)?;
+        if !found.completeness.is_proved() {
+            let legs = dependence(&self.manipulator, s);
+            if let Some(dependent) = related(legs, &self.manipulator, s, o) {
+                return dependent;
+            }
             // doubles did not find them all: the exact polynomial, where there is one
             let exact = closure_candidates(&self.manipulator, s);
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
-                let tried = Tried::Evaluations(*attempts);
-                *found = self.with_evidence(s, o, &ends, *expected, tried)?;
+                found = self.with_evidence(s, o, &ends, expected, Tried::Evaluations(attempts + 1))?;
             }
         }
-        let found = answer.map(|a| a.0);
-        let found =
-            found.ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })?;
         compared_with_count(found, &self.manipulator, s, o)
     }
 }

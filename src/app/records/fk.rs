@@ -327,7 +327,7 @@ pub enum SolutionSetRecord {
         /// Whether the dimension is proved for the lengths as written. False: the lengths satisfy it only within
         /// rounding, and have finitely many poses.
         dimension_established: bool,
-        /// Degree of the set; null: not established.
+        /// Degree of the set, with as many points of a general section; null: points may be missing.
         degree: Option<usize>,
         /// Points of a general section, and real points found by a search.
         witness_points: Vec<SolutionRecord>,
@@ -350,7 +350,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
         match &s.solution_set {
             SolutionSet::Isolated => Self::Isolated {},
             SolutionSet::Empty => Self::Empty {},
-            SolutionSet::PositiveDimensional { dimension, witnesses, established } => {
+            SolutionSet::PositiveDimensional { dimension, witnesses, degree, established } => {
                 let given = s.pose_count.as_ref().filter(|c| c.lengths == CountedLengths::Given);
                 let counted = given.map(|c| &c.set);
                 Self::PositiveDimensional {
@@ -360,7 +360,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
                     },
                     dimension_at_least: *dimension,
                     dimension_established: *established && !matches!(counted, Some(PoseSet::Finite { .. })),
-                    degree: established.then_some(witnesses.len()),
+                    degree: *degree,
                     witness_points: witnesses.iter().map(SolutionRecord::from).collect(),
                 }
             }
