@@ -20,17 +20,17 @@ fn at_pose(design: &str, pose: &str) -> (Option<i32>, Value) {
 /// Bifurcations, freedoms of first order that no motion has, turns about a line, translations on a sphere.
 #[test]
 fn platforms_that_move_at_a_singular_pose_are_seen_to_move() {
-    for (name, pose, dimension, tangent) in [
-        ("borel-bricard.toml", "0,0,0,0,0,180", 1, 2),
-        ("similar-circle-doubles.toml", "home", 1, 3),
-        ("similar-circle-doubles.toml", "0,0,10,0,0,1", 1, 3),
-        ("collinear-platform.toml", "0,0,64,0,0,0", 1, 2),
-        ("congruent.toml", "1,1,1,0,0,0", 2, 3),
+    for (name, pose, dimension, tangent, evidence) in [
+        ("borel-bricard.toml", "0,0,0,0,0,180", 1, 2, "traced"),
+        ("similar-circle-doubles.toml", "home", 1, 3, "traced"),
+        ("similar-circle-doubles.toml", "0,0,10,0,0,1", 1, 3, "traced"),
+        ("collinear-platform.toml", "0,0,64,0,0,0", 1, 2, "common_line"),
+        ("congruent.toml", "1,1,1,0,0,0", 2, 3, "traced"),
     ] {
         let (code, doc) = at_pose(&file(name), pose);
         let found = [&doc["dimension"], &doc["tangent_dimension"]].map(Value::as_u64);
         assert_eq!((code, found), (Some(0), [Some(dimension), Some(tangent)]), "{name} {pose}: {doc}");
-        assert_eq!(doc["evidence"], "traced", "{name}");
+        assert_eq!(doc["evidence"], evidence, "{name}");
         assert!(doc["worst_length_error"].as_f64().unwrap() < 1e-13, "{name}");
         let curves = doc["curves"].as_array().unwrap();
         assert!((dimension == 1) != curves.is_empty(), "{name}");
@@ -65,6 +65,18 @@ fn exit_0_stands_beside_no_doubt_about_a_surface() {
 #[ignore = "evidence"]
 fn exit_0_never_stands_beside_components_that_may_be_missing() {
     doubts(&[("borel-bricard.toml", "0,0,0,0,0,180"), ("similar-circle-doubles.toml", "home")]);
+}
+
+/// The Borel-Bricard motion from a crossing of its curve: its sections have as many points as its degree counted modulo
+/// random primes.
+#[test]
+fn components_are_accounted_for_by_the_counted_degree() {
+    let file = file("borel-bricard.toml");
+    let out = equipod(&["singular", "motion", &file, "--pose", "0,0,0,0,0,180", "--json"]);
+    let doc = document(&out);
+    assert_eq!((out.status.code(), &doc["components_accounted"]), (Some(0), &true.into()), "{doc}");
+    let degrees = doc["complex_components"].as_array().unwrap().iter();
+    assert_eq!(degrees.map(|c| c["degree"].as_u64().unwrap()).sum::<u64>(), 4);
 }
 
 fn doubts(cases: &[(&str, &str)]) {

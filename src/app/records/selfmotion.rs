@@ -62,6 +62,8 @@ pub enum MotionEvidenceWord {
     SecondOrder,
     /// Proved: the rank of the leg lines is constant around the pose.
     ConstantRank,
+    /// Proved: all joints of one body are on a line, and the platform turns about it. The dimension is sampled.
+    CommonLine,
     /// Tracing found poses along a stretch, and the dimension is sampled: no proof.
     Traced,
     /// Random sections cut the set of poses with these lengths: no proof.
@@ -76,6 +78,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
             PoseVerdict::Isolated { order: 1, .. } => Self::FirstOrder,
             PoseVerdict::Isolated { .. } | PoseVerdict::Confined { .. } => Self::SecondOrder,
             PoseVerdict::Moves { evidence: MotionEvidence::ConstantRank, .. } => Self::ConstantRank,
+            PoseVerdict::Moves { evidence: MotionEvidence::CommonLine, .. } => Self::CommonLine,
             PoseVerdict::Moves { evidence: MotionEvidence::Traced, .. } => Self::Traced,
             PoseVerdict::Undecided => Self::Undecided,
         }

@@ -154,18 +154,19 @@ impl Design {
             dimension = if start.is_none() { Some(cut.dimension) } else { dimension };
             if cut.dimension == 1 {
                 starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Section)));
-                let given = start.into_iter().map(ComplexPose::from);
+                // whole sections have a point on every curve, and the given pose may be at a crossing
+                let given = start.filter(|_| !cut.whole).into_iter().map(ComplexPose::from);
                 let on: Vec<ComplexPose> = given.chain(cut.points.iter().map(|r| r.pose)).collect();
                 let found = critical_poses(m, &squares, &on, seed);
                 starts.extend(found.poses.iter().map(|p| (*p, MotionOrigin::CriticalPoint)));
-                accounted = Some(found.is_accounted() && cut.established);
+                accounted = Some(found.is_accounted() && cut.whole);
                 critical = Some(found);
             } else {
                 // surfaces are not traced; one real pose of each real component found has to suffice
                 starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Search)));
                 // no search counts the components of a surface
                 let counted = cut.dimension == 0 || start.is_some();
-                accounted = counted.then_some(start.is_none() && cut.established);
+                accounted = counted.then_some(start.is_none() && cut.whole);
             }
             let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
             motion = self_motion(m, &squares, &all, &options.motion);
@@ -192,23 +193,22 @@ struct PoseSections {
     /// The dimension of the set: 0 if it is empty or holds isolated poses only.
     dimension: usize,
     points: Vec<FkRoot>,
-    /// Whether the relation between the legs is proved, and all points of every section were found.
-    established: bool,
+    /// Whether all points of every section were found: as many as the degree of the set.
+    whole: bool,
 }
 
 impl PoseSections {
     fn of(m: &Manipulator, s: &SquaredLegLengths, sections: u64, seed: u64) -> Result<Self, FkError> {
-        let mut out = Self { dimension: 0, points: Vec::new(), established: true };
+        let mut out = Self { dimension: 0, points: Vec::new(), whole: true };
         for k in 0..sections {
             let found = Homotopy.solve(m, s, &FkOptions::new().seed(seed.wrapping_add(k)))?;
-            if let SolutionSet::PositiveDimensional { witnesses, dimension, established } =
-                &found.solution_set
+            if let SolutionSet::PositiveDimensional { witnesses, dimension, degree, .. } = &found.solution_set
             {
                 out.dimension = out.dimension.max(*dimension);
-                out.established &= established;
+                out.whole &= degree.is_some();
                 out.points.extend(witnesses.iter().cloned());
             } else {
-                out.established &= found.all_accounted();
+                out.whole &= found.all_accounted();
             }
         }
         Ok(out)

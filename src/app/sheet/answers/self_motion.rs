@@ -97,6 +97,10 @@ fn verdict(r: &SelfmotionAnswer) -> String {
             freedoms(d),
             6 - d
         ),
+        (Some(d), MotionEvidenceWord::CommonLine) => format!(
+            "the platform moves at this pose, proved: all joints of one body are on a line, and the platform turns about it; {} found, the leg lines allow {first}",
+            freedoms(d)
+        ),
         (Some(d), MotionEvidenceWord::Traced) => {
             format!(
                 "the platform moves at this pose with {}, found by tracing, not proved; the leg lines allow {first}",

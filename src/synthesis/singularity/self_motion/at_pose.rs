@@ -21,7 +21,7 @@ use num::interval::Interval;
 use num::small::bounded_svd;
 use num::vector::cross;
 use platform::geom::Pose;
-use platform::manipulator::Manipulator;
+use platform::manipulator::{Body, Manipulator, dimension_of_ends};
 
 /// Singular values of the leg lines below this times the largest count as zero.
 const ZERO: f64 = 1e-9;
@@ -94,6 +94,9 @@ pub enum PoseVerdict {
 pub enum MotionEvidence {
     /// Proved: the leg lines have the same rank at all nearby poses, so the poses with these lengths are a manifold.
     ConstantRank,
+    /// Proved: all joints of one body are on a line, and the platform turns about it at every pose. The dimension is
+    /// sampled.
+    CommonLine,
     /// Found by tracing: poses with equal lengths, to rounding, along a stretch; the dimension is sampled.
     Traced,
 }
@@ -151,6 +154,9 @@ pub(super) fn leaving(m: &Manipulator, pose: &Pose, seed: u64) -> (AtPose, Vec<D
     if let Some(rank) = constant {
         at.verdict =
             PoseVerdict::Moves { dimension: 6 - rank, reach, evidence: MotionEvidence::ConstantRank };
+    } else if joints_on_a_line(m) {
+        at.verdict =
+            PoseVerdict::Moves { dimension: sampled.max(1), reach, evidence: MotionEvidence::CommonLine };
     } else if sampled > 0 {
         at.verdict = PoseVerdict::Moves { dimension: sampled, reach, evidence: MotionEvidence::Traced };
     }
@@ -176,6 +182,12 @@ fn constant_rank(
     let rank = exact.or_else(|| Inverted::of(&local.rows(), split, k).map(|_| 6 - k)).filter(|r| *r < 6)?;
     let architecture = Architecture::of(m);
     (architecture.level.is_some() && architecture.jacobian.rank == rank).then_some(rank)
+}
+
+/// Whether all joints of a body are on one line, exactly.
+fn joints_on_a_line(m: &Manipulator) -> bool {
+    let on_a_line = |ends: &_, body| dimension_of_ends(ends, body).is_some_and(|dimension| dimension <= 1);
+    m.exact_ends().is_some_and(|ends| Body::BOTH.into_iter().any(|body| on_a_line(&ends, body)))
 }
 
 type Vector = [Interval; 3];
