@@ -169,7 +169,8 @@ mod tests {
     #[test]
     fn rounded_lengths_of_dependent_legs_have_a_motion_by_every_method() {
         let p = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
-        let base = vec![p(8., -9., -7.), p(1., 2., 0.), p(-9., 5., 3.), p(4., 8., -2.)];
+        let star = p(8., -9., -7.);
+        let base = vec![star, star, star, p(1., 2., 0.), p(-9., 5., 3.), p(4., 8., -2.)];
         let platform = vec![
             p(1., 0., 0.),
             p(4., 6., -3.),
@@ -178,8 +179,7 @@ mod tests {
             p(6., 3., -4.),
             p(-1., 4., 5.),
         ];
-        let m =
-            Manipulator::try_new(base, platform, [(0, 0), (0, 1), (0, 2), (1, 3), (2, 4), (3, 5)]).unwrap();
+        let m = Manipulator::try_new(base, platform, [0, 1, 2, 3, 4, 5].map(|k| (k, k))).unwrap();
         let rotation = nalgebra::Rotation3::from_euler_angles(0.2, -0.4, 0.7);
         let pose = platform::geom::Pose { rotation, position: nalgebra::Vector3::new(3.0, -2.0, 17.0) };
         let lengths = pose.squared_lengths(&m).unwrap().lengths().get();

@@ -78,6 +78,7 @@ impl Trilateration {
         s: &SquaredLegLengths,
         o: &FkOptions,
     ) -> Option<FkSolutions> {
+        let m = &m.with_merged_joints();
         match hidden::solve(m, s, o) {
             Some(found) => found.ok().filter(|found| found.completeness.is_proved()),
             None => self.prepared(m).ok()?.proved(s, o),
@@ -153,6 +154,8 @@ impl ForwardKinematics for Trilateration {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        // joints in one place are one joint, as for the bounds of the classes
+        let m = &m.with_merged_joints();
         match hidden::solve(m, s, o) {
             Some(found) => compared_with_count(found?, m, s, o),
             None => self.prepared(m)?.solve(s, o),
@@ -160,7 +163,7 @@ impl ForwardKinematics for Trilateration {
     }
 
     fn prepare(&self, m: &Manipulator, _: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
-        Some(Box::new(self.prepared(m).ok()?))
+        Some(Box::new(self.prepared(&m.with_merged_joints()).ok()?))
     }
 }
 

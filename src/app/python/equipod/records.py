@@ -2104,7 +2104,7 @@ class FkAnswer(Record):
     #: Whether the dimension is proved for the lengths as written. False: the lengths satisfy it only
     #: within rounding, and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: Degree of the set; null: not established.
+    #: Degree of the set, with as many points of a general section; null: points may be missing.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
@@ -2180,7 +2180,7 @@ class FkOneAnswer(Record):
     #: Whether the dimension is proved for the lengths as written. False: the lengths satisfy it only
     #: within rounding, and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: Degree of the set; null: not established.
+    #: Degree of the set, with as many points of a general section; null: points may be missing.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
@@ -2261,7 +2261,7 @@ class FkRowRecord(Record):
     #: Whether the dimension is proved for the lengths as written. False: the lengths satisfy it only
     #: within rounding, and have finitely many poses.
     dimension_established: Union[bool, None]
-    #: Degree of the set; null: not established.
+    #: Degree of the set, with as many points of a general section; null: points may be missing.
     degree: Union[int, None]
     #: Points of a general section, and real points found by a search.
     witness_points: Union[tuple[SolutionRecord, ...], None]
