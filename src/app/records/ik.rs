@@ -77,7 +77,7 @@ view! {
         pub drives: Option<DriveLengthsRecord> = None,
         /// Whether the pose meets all requirements of the design, the length limits included; null: it has none. For
         /// joints that are not ideal, whether the drive lengths are within `leg_length`.
-        pub within_limits: Option<bool> = (!margins.is_empty()).then(|| outside.is_empty() && all_met),
+        pub within_limits: Option<bool> = (!margins.is_empty()).then_some(outside.is_empty() && all_met),
         /// Legs outside `leg_length`, from 1.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub outside: Vec<usize> = outside,

@@ -179,7 +179,12 @@ struct Reader<'a> {
     at: usize,
     /// The factor of the last list that had one.
     factor: Option<f64>,
+    /// Lists and mappings around the present one.
+    depth: usize,
 }
+
+/// Greatest depth of lists in lists; a file of brackets alone would exhaust the stack.
+const DEEPEST: usize = 32;
 
 impl Reader<'_> {
     fn next(&mut self) -> Option<&Token> {
@@ -226,7 +231,7 @@ impl Reader<'_> {
             (self.at, lines) = (self.at + 1, lines + 1);
         }
         match self.peek()?.clone() {
-            Token::Item if lines > 0 => self.items(),
+            Token::Item if lines > 0 => self.deeper(Self::items),
             Token::Number(x) if lines == 0 => {
                 self.at += 1;
                 Some(ListValue::Number(x))
@@ -274,6 +279,21 @@ impl Reader<'_> {
 
     /// `x: 1`, one per line, with the names in one column; deeper names are a mapping in it.
     fn mapping(&mut self) -> Option<ListValue> {
+        self.deeper(Self::mapping_here)
+    }
+
+    /// Reads a value one level deeper; `None` below [`DEEPEST`].
+    fn deeper(&mut self, read: impl FnOnce(&mut Self) -> Option<ListValue>) -> Option<ListValue> {
+        if self.depth >= DEEPEST {
+            return None;
+        }
+        self.depth += 1;
+        let value = read(self);
+        self.depth -= 1;
+        value
+    }
+
+    fn mapping_here(&mut self) -> Option<ListValue> {
         let column = *self.columns.get(self.at)?;
         let mut named = Vec::new();
         while let Some([Token::Word(name), Token::Is]) = self.tokens.get(self.at..self.at + 2)
@@ -300,6 +320,10 @@ impl Reader<'_> {
 
     /// The contents of brackets, after the opening one.
     fn list(&mut self, open: char) -> Option<ListValue> {
+        self.deeper(|reader| reader.list_here(open))
+    }
+
+    fn list_here(&mut self, open: char) -> Option<ListValue> {
         let close = match open {
             '[' => ']',
             '(' => ')',
@@ -379,7 +403,7 @@ impl Reader<'_> {
 /// Factors of lists are guesses.
 fn named_values(text: &str, guesses: &mut Vec<String>) -> Option<Vec<(String, ListValue)>> {
     let (tokens, columns) = tokens(text)?;
-    let mut reader = Reader { tokens: &tokens, columns: &columns, at: 0, factor: None };
+    let mut reader = Reader { tokens: &tokens, columns: &columns, at: 0, factor: None, depth: 0 };
     let mut out = Vec::new();
     reader.skip_lines();
     if reader.peek() == Some(&Token::Open('{')) {

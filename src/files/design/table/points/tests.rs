@@ -558,6 +558,14 @@ fn polar_columns_have_their_own_units_of_angles_and_may_be_diameters() {
 }
 
 #[test]
+fn brackets_without_end_are_refused() {
+    for open in ["[", "{\"a\": [", "(", "\n- ", "- b:\n - "] {
+        let why = refusal(&format!("a = {}", open.repeat(100_000)));
+        assert!(!why.is_empty());
+    }
+}
+
+#[test]
 fn faults_name_their_place() {
     let footer = six(";", "bx;by;bz;px;py;pz\n", |x| x.to_string()) + "mean;1;2;3;4;5;6\n";
     assert!(refusal(&footer).contains("the last is line 8, `mean 1 2 3"), "{}", refusal(&footer));
