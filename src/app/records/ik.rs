@@ -10,7 +10,7 @@ use super::{
 use ask::{Design, PoseFrames};
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
-use machine::requirements::{JointAngles, LeastMargins, Term, Terms};
+use machine::requirements::{JointAngles, LeastMargins, Term, TermKind, Terms};
 use platform::geom::{Pose, PoseConvention};
 use platform::manipulator::{inverse_condition, jacobian};
 
