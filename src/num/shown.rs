@@ -65,10 +65,11 @@ pub fn rounded_down(x: f64) -> String {
 
 /// The ends of an interval, rounded inward by at most a thousandth of its width, so that quoted values lie within it.
 pub fn rounded_inward([least, most]: [f64; 2]) -> [String; 2] {
-    // the power of ten of the last digit
-    let last = (most - least).abs().log10().floor() - 3.0;
-    let decimals = if last.is_finite() { (-last).clamp(0.0, 17.0) as usize } else { 17 };
-    let step = 10f64.powi(decimals as i32);
+    let (mut decimals, mut step) = (0, 1.0);
+    while (most - least).abs() * step < 1000.0 && decimals < 17 {
+        decimals += 1;
+        step *= 10.0;
+    }
     [(least * step).ceil() / step, (most * step).floor() / step].map(|x| format!("{:.decimals$}", x + 0.0))
 }
 

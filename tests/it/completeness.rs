@@ -118,7 +118,7 @@ fn singular_platforms_move_or_cannot_be_assembled() {
         let m = midline(rng);
         let s = real_pose(rng).squared_lengths(&m).unwrap();
         let found = solve(&m, &s);
-        let SolutionSet::PositiveDimensional { dimension, witnesses, established } = &found.solution_set
+        let SolutionSet::PositiveDimensional { dimension, witnesses, established, .. } = &found.solution_set
         else {
             panic!("seed {seed}: {:?}", found.solution_set);
         };

@@ -97,7 +97,7 @@ fn saved_poses_are_shown_as_their_commands_print_them() {
     let frames = design.pose_frames(PoseConvention::default());
     let is_shown = |text: &str, sheet: &Sheet| text.contains(&shown(&sheet.html()));
 
-    let found = design.fk(&design.ik(&frames.home).unwrap()).unwrap();
+    let found = design.fk(design.ik(&frames.home).unwrap()).unwrap();
     let solved = SolvedRecord::from(&found).with_real_poses(design.manipulator(), &frames);
     let poses = FkAnswer::One(Box::new(solved.into())).with_frames(&frames, &design.units);
     let sheet = answers::fk("the design", &design.units, &poses);

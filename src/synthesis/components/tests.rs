@@ -440,7 +440,7 @@ fn exact_joints_have_the_families_of_their_class_next_to_singular_members() {
 /// Exact joints are not rounded: families that they have within the tolerance only are not theirs.
 #[test]
 fn exact_joints_have_no_families_within_the_tolerance() {
-    let offsets: [Rational; 6] = std::array::from_fn(|k| Rational::new((2 + k as i64).into(), 10.into()));
+    let offsets: [Rational; 6] = [2, 3, 4, 5, 6, 7].map(|k: i64| Rational::new(k.into(), 10.into()));
     let m = member(&offsets, [0, 1, 2, 3, 4, 5]);
     let mut ends = m.exact_ends().unwrap();
     let trace = Surd::rational(&Rational::new(1.into(), num_bigint::BigInt::from(10).pow(12))).unwrap();

@@ -619,9 +619,9 @@ mod tests {
             assert!(meant.is_some_and(|n| n.may_be_meant()), "{digits} significant digits");
         }
         for count in [2, 3, 5, 8, 11] {
-            let m = rounded(&exact, &decimals(count));
+            let m = rounded(&exact, &decimals(usize::try_from(count).unwrap()));
             let meant = rounded_singular(&m).unwrap().unwrap();
-            assert!(meant.within_rounding || meant.within_digits == Some(half_unit(count as i32)), "{count}");
+            assert!(meant.within_rounding || meant.within_digits == Some(half_unit(count)), "{count}");
         }
     }
 

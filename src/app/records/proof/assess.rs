@@ -78,7 +78,9 @@ impl ProofFile {
         let poses: Vec<Pose> = listed.copied().collect();
         let terms = Terms::new(m, &required, &space.home);
         let mut least = LeastMargins::default();
-        poses.iter().for_each(|pose| least.see(terms.at(pose), ()));
+        for pose in &poses {
+            least.see(terms.at(pose), ());
+        }
         let assessed = Assessed {
             place: k,
             manipulator: m,
@@ -228,16 +230,13 @@ impl ProofFile {
 
     fn regular_region(&mut self, a: &Assessed<'_>, region: &StatedRegion, regular: bool) {
         let tiled = region.tiled.as_ref().filter(|_| regular);
-        match tiled.and_then(|tiled| Some((tiled.unit(), tiled.regular_tiling()?))) {
-            Some((unit, tree)) => {
-                let (unit, text) = (of_double(unit), Box::new(region.text.clone()));
-                let claim = Claim::RegularRegion { design: a.place, region: text, unit, tree };
-                self.claim(format!("regular-{}", region.name), claim);
-            }
-            None => {
-                let reason = "it is not proved nonzero, or its tiling needs too many cells";
-                self.leave_out(format!("det J {}", region.place), region.reason(reason));
-            }
+        if let Some((unit, tree)) = tiled.and_then(|tiled| Some((tiled.unit(), tiled.regular_tiling()?))) {
+            let (unit, text) = (of_double(unit), Box::new(region.text.clone()));
+            let claim = Claim::RegularRegion { design: a.place, region: text, unit, tree };
+            self.claim(format!("regular-{}", region.name), claim);
+        } else {
+            let reason = "it is not proved nonzero, or its tiling needs too many cells";
+            self.leave_out(format!("det J {}", region.place), region.reason(reason));
         }
     }
 }

@@ -169,7 +169,7 @@ impl ServoSizes {
         if least - ROUNDED_DEG <= angle && angle <= most + ROUNDED_DEG {
             return Ok(());
         }
-        let rods = self.rods_within(&reach, [least, most]).map_or_else(
+        let rods = rods_within(&reach, [least, most]).map_or_else(
             || "no rods hold it within them".to_owned(),
             |rods| {
                 let [shortest, longest] = rounded_inward(rods);
@@ -183,16 +183,6 @@ impl ServoSizes {
         ))
     }
 
-    /// The lengths of rods that hold home with cranks at these angles. On one side of the crank the rod gets shorter
-    /// while the crank turns towards the platform joint.
-    fn rods_within(&self, reach: &CrankReach, [least, most]: [f64; 2]) -> Option<[f64; 2]> {
-        let nearest = reach.middle.to_degrees();
-        let middle = 0.5 * (least + most);
-        let shift = angle_near((nearest - 90.0).to_radians(), middle.to_radians()).to_degrees() - middle;
-        let (first, last) = ((least + shift).max(nearest - 180.0), (most + shift).min(nearest));
-        (first < last).then(|| [last, first].map(|angle| reach.rod(angle.to_radians())))
-    }
-
     /// The heights at which rods reach from the circles of the cranks: the distance `w` of the platform joint from the
     /// axis is from `|q - r|` to `q + r` with the crank `r` and `q^2 = l^2 - along^2`, and `w^2 = out^2 + height^2`.
     fn heights(&self, rod: f64) -> Option<[f64; 2]> {
@@ -202,6 +192,16 @@ impl ServoSizes {
         let heights = [height((q - self.crank).abs()), height(q + self.crank)];
         (heights[0] < heights[1]).then_some(heights)
     }
+}
+
+/// The lengths of rods that hold home with cranks at these angles. On one side of the crank the rod gets shorter
+/// while the crank turns towards the platform joint.
+fn rods_within(reach: &CrankReach, [least, most]: [f64; 2]) -> Option<[f64; 2]> {
+    let nearest = reach.middle.to_degrees();
+    let middle = 0.5 * (least + most);
+    let shift = angle_near((nearest - 90.0).to_radians(), middle.to_radians()).to_degrees() - middle;
+    let (first, last) = ((least + shift).max(nearest - 180.0), (most + shift).min(nearest));
+    (first < last).then(|| [last, first].map(|angle| reach.rod(angle.to_radians())))
 }
 
 /// Rounding of an angle at home, degrees.
@@ -334,7 +334,7 @@ mod tests {
         let stated = |height: f64, rod: f64| {
             ServoSizes { angle_deg: None, home: ServoHome::Stated { height, rod }, ..SIZES }.solved()
         };
-        for rod in [60.0, 300.0] {
+        for (rod, count) in [(60.0, 1), (300.0, 2)] {
             let Err(InvalidServoSizes::Home(why)) = stated(110.0, rod) else { panic!("{rod}") };
             let words = why.split(' ').filter_map(|word| word.trim_end_matches([',', ':']).parse().ok());
             let quoted: Vec<f64> = words.collect();
@@ -348,7 +348,7 @@ mod tests {
             {
                 assert!(stated(*h, rod).is_ok() && stated(factor * h, rod).is_err(), "{why}");
             }
-            assert_eq!(heights.len(), if rod == 60.0 { 1 } else { 2 }, "{why}");
+            assert_eq!(heights.len(), count, "{why}");
         }
         let Err(InvalidServoSizes::Home(why)) = stated(110.0, 20.0) else { panic!() };
         assert!(why.contains("at no height"), "{why}");
