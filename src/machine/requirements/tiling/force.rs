@@ -95,10 +95,10 @@ impl TiledRegion {
             let right = std::array::from_fn(|j| -w_over[j].slope(k) - dot_six(changes[k][j], &phi));
             there.solve(&right)
         });
-        for leg in 0..6 {
+        for (leg, phi_of_leg) in phi_at.iter().enumerate() {
             let lengths = [&at, &over].map(|cell| norm_squared(&self.line_jet(leg, cell)).root());
             let [Some(length_at), Some(length)] = lengths else { return longest() };
-            let force = phi_at[leg] * length_at.value;
+            let force = *phi_of_leg * length_at.value;
             let along = |k: usize| {
                 slopes[k]
                     .map_or(Interval::WHOLE, |phi_k| phi_k[leg] * length.value + phi[leg] * length.slope(k))

@@ -185,7 +185,7 @@ mod tests {
         own.map(|(_, gap)| gap).fold(f64::INFINITY, f64::min)
     }
 
-    /// Legs with a rod, of one part, and shorter than their cylinder, as neighbours and on opposite sides.
+    /// Legs of one part, with a rod, and shorter than their cylinder.
     #[test]
     fn gaps_with_room_are_tiled_and_others_are_not() {
         let whole = LegBody { diameter: 30.0, rod: None };
