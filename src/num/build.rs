@@ -1,5 +1,5 @@
 //! Leaves AVX-512 out of builds of little optimisation, the profile `dev` above all: every loop over lanes is compiled
-//! once for each vector unit, and this one took 21 of 550 s of a whole build.
+//! once for each vector unit, and this one takes some 20 of 550 s of a whole build, by estimate.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
