@@ -5,46 +5,19 @@
 
 use super::modular::Field;
 
-/// Remainders of numbers of up to 124 bits by a prime between `2^60` and `2^61` (Barrett 1986).
-#[derive(Debug, Clone, Copy)]
-struct Wide {
-    p: u64,
-    /// `floor(2^124 / p)`, below `2^64`.
-    reciprocal: u64,
-    /// `2^62 p`, the upper limit of accumulators.
-    ceiling: u128,
-}
-
-impl Wide {
-    fn new(field: Field) -> Self {
-        let p = field.prime();
-        Self { p, reciprocal: ((1u128 << 124) / u128::from(p)) as u64, ceiling: u128::from(p) << 62 }
-    }
-
-    /// `sum + x y`, below the ceiling; the products are below `2^122`, the ceiling is at least that.
-    #[inline]
-    fn add_product(self, sum: u128, x: u64, y: u64) -> u128 {
-        let next = sum + u128::from(x) * u128::from(y);
-        if next >= self.ceiling { next - self.ceiling } else { next }
-    }
-
-    #[inline]
-    fn reduced(self, x: u128) -> u64 {
-        let quotient = (((x >> 60) * u128::from(self.reciprocal)) >> 64) as u64;
-        // the quotient is too small by at most two
-        let mut rest = (x - u128::from(quotient) * u128::from(self.p)) as u64;
-        while rest >= self.p {
-            rest -= self.p;
-        }
-        rest
-    }
+/// `sum + x y`, below `ceiling = 2^62 p`; products of residues are smaller.
+#[inline]
+fn add_product(sum: u128, x: u64, y: u64, ceiling: u128) -> u128 {
+    let next = sum + u128::from(x) * u128::from(y);
+    if next >= ceiling { next - ceiling } else { next }
 }
 
 /// The span of rows, in echelon form: leading entries are one, in different columns.
 #[derive(Debug, Clone)]
 pub struct Echelon {
     field: Field,
-    wide: Wide,
+    /// `2^62 p`, the upper limit of accumulators.
+    ceiling: u128,
     /// Row with its leading entry in a column.
     of_column: Vec<Option<usize>>,
     rows: Vec<Vec<u64>>,
@@ -56,7 +29,7 @@ impl Echelon {
     pub fn new(field: Field, width: usize) -> Self {
         Self {
             field,
-            wide: Wide::new(field),
+            ceiling: u128::from(field.prime()) << 62,
             of_column: vec![None; width],
             rows: Vec::new(),
             work: vec![0; width],
@@ -72,29 +45,29 @@ impl Echelon {
     /// Adds a row of residues; returns the column of its leading entry after elimination, or `None` if it depends on
     /// the earlier rows.
     pub fn insert(&mut self, row: &[u64]) -> Option<usize> {
-        let Self { wide, work, .. } = self;
+        let Self { field, ceiling, work, .. } = self;
         for (w, x) in work.iter_mut().zip(row) {
             *w = u128::from(*x);
         }
         for column in 0..work.len() {
-            let x = wide.reduced(work[column]);
+            let x = field.reduced(work[column]);
             if x == 0 {
                 continue;
             }
             let Some(known) = self.of_column[column] else {
-                let inverse = self.field.inverse(x);
+                let inverse = field.inverse(x);
                 let mut own = vec![0; work.len()];
                 own[column] = 1;
                 for k in column + 1..work.len() {
-                    own[k] = wide.reduced(wide.add_product(0, wide.reduced(work[k]), inverse));
+                    own[k] = field.mul(field.reduced(work[k]), inverse);
                 }
                 self.of_column[column] = Some(self.rows.len());
                 self.rows.push(own);
                 return Some(column);
             };
-            let negative = wide.p - x;
+            let negative = field.prime() - x;
             for (w, y) in work[column..].iter_mut().zip(&self.rows[known][column..]) {
-                *w = wide.add_product(*w, negative, *y);
+                *w = add_product(*w, negative, *y, *ceiling);
             }
         }
         None
@@ -105,7 +78,7 @@ impl Echelon {
         let width = self.of_column.len();
         let leading: Vec<usize> = (0..width).filter(|c| self.of_column[*c].is_some()).collect();
         let free: Vec<usize> = (0..width).filter(|c| self.of_column[*c].is_none()).collect();
-        let Self { wide, work, .. } = self;
+        let Self { field, ceiling, work, .. } = self;
         for (place, &column) in leading.iter().enumerate().rev() {
             let Some(own) = self.of_column[column] else { continue };
             for &k in &free {
@@ -116,12 +89,12 @@ impl Echelon {
                 let Some(other) = self.of_column[later].filter(|_| x != 0) else { continue };
                 // the other row has no entries left in leading columns except its own
                 for &k in &free {
-                    work[k] = wide.add_product(work[k], wide.p - x, self.rows[other][k]);
+                    work[k] = add_product(work[k], field.prime() - x, self.rows[other][k], *ceiling);
                 }
                 self.rows[own][later] = 0;
             }
             for &k in &free {
-                self.rows[own][k] = wide.reduced(work[k]);
+                self.rows[own][k] = field.reduced(work[k]);
             }
         }
     }
@@ -138,20 +111,16 @@ mod tests {
     use crate::Rng;
 
     #[test]
-    fn remainders_are_those_of_division() {
+    fn sums_of_products_stay_below_the_ceiling() {
         let mut rng = Rng::new(8);
         for _ in 0..200 {
             let field = Field::drawn(&mut rng);
-            let wide = Wide::new(field);
-            let p = u128::from(wide.p);
-            let random = (u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64())) % wide.ceiling;
-            for x in [0, 1, p - 1, p, p + 1, 2 * p, p * p, wide.ceiling - 1, random] {
-                assert_eq!(u128::from(wide.reduced(x)), x % p);
-            }
-            let (x, y) = (rng.next_u64() % wide.p, rng.next_u64() % wide.p);
-            let sum = wide.add_product(wide.ceiling - 1, x, y);
-            assert!(sum < wide.ceiling);
-            assert_eq!(sum % p, ((wide.ceiling - 1) % p + u128::from(x) * u128::from(y)) % p);
+            let p = u128::from(field.prime());
+            let ceiling = p << 62;
+            let (x, y) = (rng.next_u64() % field.prime(), rng.next_u64() % field.prime());
+            let sum = add_product(ceiling - 1, x, y, ceiling);
+            assert!(sum < ceiling);
+            assert_eq!(u128::from(field.reduced(sum)), ((ceiling - 1) % p + u128::from(x) * u128::from(y)) % p);
         }
     }
 

@@ -9,14 +9,18 @@ use super::Rng;
 
 /// The field of integers modulo a prime below `2^61`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Field(u64);
+pub struct Field {
+    prime: u64,
+    /// `floor(2^124 / p)`, below `2^64`, for primes between `2^60` and `2^61`; otherwise zero.
+    reciprocal: u64,
+}
 
 /// Guaranteed bits of every prime of [`fields`]: all are above `2^60`.
 pub const PRIME_BITS: u32 = 60;
 
 /// Prime fields below `2^61`, largest first, practically without end; the first is [`Field::MERSENNE`].
 pub(crate) fn all_fields() -> impl Iterator<Item = Field> {
-    (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k).filter(|n| is_prime(*n)).map(Field)
+    (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k).filter(|n| is_prime(*n)).map(Field::modulo)
 }
 
 /// The `count` first of `all_fields`.
@@ -26,12 +30,12 @@ pub fn fields(count: usize) -> Vec<Field> {
 
 impl Field {
     /// The field of the Mersenne prime `2^61 - 1`.
-    pub const MERSENNE: Self = Self((1 << 61) - 1);
+    pub const MERSENNE: Self = Self::modulo((1 << 61) - 1);
 
-    /// The field of another prime.
-    #[cfg(test)]
-    pub(crate) fn of_prime(p: u64) -> Self {
-        Self(p)
+    /// The integers modulo any number.
+    pub(crate) const fn modulo(prime: u64) -> Self {
+        let reciprocal = if prime >> PRIME_BITS != 1 { 0 } else { ((1u128 << 124) / prime as u128) as u64 };
+        Self { prime, reciprocal }
     }
 
     /// The field of a prime drawn uniformly from those between `2^60` and `2^61`.
@@ -39,19 +43,19 @@ impl Field {
         loop {
             let n = (1 << 60) | (rng.next_u64() >> 4) | 1;
             if is_prime(n) {
-                return Self(n);
+                return Self::modulo(n);
             }
         }
     }
 
     /// The prime.
     pub fn prime(self) -> u64 {
-        self.0
+        self.prime
     }
 
     /// The residue of an integer of any size.
     pub fn residue(self, x: &BigInt) -> u64 {
-        let p = u128::from(self.0);
+        let p = u128::from(self.prime);
         let digits = x.magnitude().iter_u64_digits().rev();
         let r = digits.fold(0u128, |r, d| ((r << 64) | u128::from(d)) % p) as u64;
         if x.sign() == Sign::Minus { self.sub(0, r) } else { r }
@@ -59,7 +63,7 @@ impl Field {
 
     /// The residue of an integer.
     pub fn integer(self, x: i64) -> u64 {
-        let r = x.unsigned_abs() % self.0;
+        let r = x.unsigned_abs() % self.prime;
         if x < 0 { self.sub(0, r) } else { r }
     }
 
@@ -71,33 +75,42 @@ impl Field {
 
     fn power_of_two(self, exponent: i32) -> u64 {
         // (p + 1) / 2 is the inverse of 2
-        let base = if exponent < 0 { self.0.div_ceil(2) } else { 2 };
+        let base = if exponent < 0 { self.prime.div_ceil(2) } else { 2 };
         self.pow(base, u64::from(exponent.unsigned_abs()))
     }
 
     /// `x + y`.
+    #[inline]
     pub fn add(self, x: u64, y: u64) -> u64 {
         let sum = x + y;
-        if sum >= self.0 { sum - self.0 } else { sum }
+        if sum >= self.prime { sum - self.prime } else { sum }
     }
 
     /// `x - y`.
+    #[inline]
     pub fn sub(self, x: u64, y: u64) -> u64 {
-        if x >= y { x - y } else { x + self.0 - y }
+        if x >= y { x - y } else { x + self.prime - y }
     }
 
     /// `x y`.
+    #[inline]
     pub fn mul(self, x: u64, y: u64) -> u64 {
-        let product = u128::from(x) * u128::from(y);
-        let short = (1u64 << 61).wrapping_sub(self.0);
-        if short >= 1 << 30 {
-            return (product % u128::from(self.0)) as u64;
+        self.reduced(u128::from(x) * u128::from(y))
+    }
+
+    /// The residue of a number below `2^124` (Barrett 1986).
+    #[inline]
+    pub(crate) fn reduced(self, x: u128) -> u64 {
+        if self.reciprocal == 0 {
+            return (x % u128::from(self.prime)) as u64;
         }
-        // 2^61 is `short` modulo the prime: twice folded, 122 bits become 92, then 62, without a division
-        let fold = |x: u128| (x & ((1 << 61) - 1)) + (x >> 61) * u128::from(short);
-        let folded = fold(fold(product)) as u64;
-        let rest = if folded >= 1 << 61 { folded - self.0 } else { folded };
-        if rest >= self.0 { rest - self.0 } else { rest }
+        let quotient = (((x >> PRIME_BITS) * u128::from(self.reciprocal)) >> 64) as u64;
+        // the quotient is too small by at most two
+        let mut rest = (x - u128::from(quotient) * u128::from(self.prime)) as u64;
+        while rest >= self.prime {
+            rest -= self.prime;
+        }
+        rest
     }
 
     /// `base` to the power `exponent`.
@@ -115,12 +128,12 @@ impl Field {
 
     /// The inverse of a nonzero number.
     pub fn inverse(self, x: u64) -> u64 {
-        self.pow(x, self.0 - 2)
+        self.pow(x, self.prime - 2)
     }
 
     /// A square root, if there is one (Tonelli 1891, Shanks 1973).
     pub(crate) fn square_root(self, x: u64) -> Option<u64> {
-        let p = self.0;
+        let p = self.prime;
         if x == 0 {
             return Some(0);
         }
@@ -153,7 +166,7 @@ impl Field {
 
     /// An element of this order, a product of twos, threes and fives, if there is one.
     pub(crate) fn element_of_order(self, n: u64) -> Option<u64> {
-        let p = self.0;
+        let p = self.prime;
         if !(p - 1).is_multiple_of(n) {
             return None;
         }
@@ -220,7 +233,7 @@ pub(crate) fn is_prime(n: u64) -> bool {
     if n.is_multiple_of(2) {
         return false;
     }
-    let field = Field(n);
+    let field = Field::modulo(n);
     let twos = (n - 1).trailing_zeros();
     [2, 325, 9375, 28178, 450775, 9780504, 1795265022].into_iter().all(|base| {
         let base = base % n;
@@ -311,19 +324,25 @@ mod tests {
     }
 
     #[test]
-    fn products_by_folding_are_those_by_division() {
+    fn products_by_a_reciprocal_are_those_by_division() {
         let mut state = 1_u64;
         for field in
-            fields(40).into_iter().chain([Field(7), Field((1 << 61) - (1 << 31) - 1), Field(u64::MAX >> 1)])
+            fields(40).into_iter().chain([Field::modulo(7), Field::modulo((1 << 61) - (1 << 31) - 1), Field::modulo(u64::MAX >> 1)])
         {
-            let edge = [0, 1, field.0 / 2, field.0 - 2, field.0 - 1];
+            let edge = [0, 1, field.prime / 2, field.prime - 2, field.prime - 1];
             let drawn = (0..200).map(|_| {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                state % field.0
+                state % field.prime
             });
             let list: Vec<u64> = edge.into_iter().chain(drawn).collect();
             for (x, y) in list.iter().flat_map(|x| edge.iter().chain(list.last()).map(move |y| (*x, *y))) {
-                assert_eq!(u128::from(field.mul(x, y)), u128::from(x) * u128::from(y) % u128::from(field.0));
+                assert_eq!(u128::from(field.mul(x, y)), u128::from(x) * u128::from(y) % u128::from(field.prime));
+            }
+            if field.reciprocal > 0 {
+                let p = u128::from(field.prime);
+                for x in [p, p + 1, 2 * p, p << 62, (p << 62) - 1].into_iter().filter(|x| x >> 124 == 0) {
+                    assert_eq!(u128::from(field.reduced(x)), x % p);
+                }
             }
         }
     }

@@ -60,7 +60,7 @@ mod tests {
         let primes: Vec<u64> = all_fields().take(3).map(Field::prime).collect();
         // 2^61 - 1, 2^61 - 31, 2^61 - 45
         assert_eq!(primes, [1, 31, 45].map(|k| (1u64 << 61) - k));
-        let m = Field::of_prime(97);
+        let m = Field::modulo(97);
         assert_eq!(m.mul(m.inverse(35), 35), 1);
         assert_eq!(m.residue(&BigInt::from(-1)), 96);
         assert!(!is_prime(91) && !is_prime(3_215_031_751));
