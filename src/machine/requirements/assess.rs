@@ -171,7 +171,7 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
 ///
 /// Random steps move one to all coordinates of the cube and shrink from a tenth to a millionth of its width. The search
 /// needs no derivatives, since margins have kinks. Deterministic for a seed, unless [`AssessOptions::until`] ends it:
-/// then home and the listed poses are evaluated at least.
+/// then the listed poses are evaluated, or one pose of the region.
 #[must_use]
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
@@ -185,7 +185,8 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
     }
     let mut worst: BTreeMap<TermKind, Vec<RegionPoint>> = BTreeMap::new();
     for x in space.cube_points(o.points, &mut rng) {
-        if o.is_late() {
+        // a kind without a margin would count as not required
+        if poses > 0 && o.is_late() {
             break;
         }
         let pose = space.pose(&x);
