@@ -240,7 +240,8 @@ fn a_pivot_is_the_origin_of_a_moved_platform_frame() {
     }
 }
 
-/// A proof without time samples no more than one pose of the region, bounds hardly any cell, and is no stronger than the whole one.
+/// A proof without time samples at most one pose of the region and bounds hardly any cell. It is no stronger than the
+/// whole one.
 #[test]
 fn proofs_end_when_their_time_is_over() {
     let mut rng = Rng::new(31);
