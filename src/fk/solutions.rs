@@ -139,6 +139,7 @@ impl SolutionSet {
 
 /// One root with its evidence.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FkRoot {
     /// The pose.
     pub pose: ComplexPose,
@@ -161,6 +162,12 @@ pub struct FkRoot {
 }
 
 impl FkRoot {
+    /// A simple root without certificate.
+    #[must_use]
+    pub fn new(pose: ComplexPose, reality: Reality, residual: f64, condition: f64) -> Self {
+        Self { pose, reality, certificate: None, multiplicity: 1, residual, condition, dual_quaternion: None }
+    }
+
     /// Whether the root is proved.
     #[must_use]
     pub fn certified(&self) -> bool {
@@ -192,6 +199,7 @@ num::answer_words! {
 /// The report of a path of the homotopy.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "PathRecord", transform = num::nullable))]
+#[non_exhaustive]
 pub struct PathReport {
     /// Start index.
     pub start: usize,
@@ -213,6 +221,24 @@ pub struct PathReport {
     pub isotropy: f64,
     /// Number of repetitions with smaller steps.
     pub retracked: u32,
+}
+
+impl PathReport {
+    /// A path without steps that leads to no root.
+    #[must_use]
+    pub fn new(start: usize, end: PathEnd) -> Self {
+        Self {
+            start,
+            end,
+            root: None,
+            mirror_root: None,
+            steps: 0,
+            rejections: 0,
+            winding: 0,
+            isotropy: 0.0,
+            retracked: 0,
+        }
+    }
 }
 
 /// Why a candidate is not a root.
@@ -265,6 +291,7 @@ pub struct LibraryCalls {
 
 /// All roots of one problem.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FkSolutions {
     /// The method that found them.
     pub method: Method,
@@ -288,6 +315,25 @@ pub struct FkSolutions {
     pub library_calls: Vec<LibraryCalls>,
     /// Seed of the generic constants.
     pub seed: u64,
+}
+
+impl FkSolutions {
+    /// Isolated roots without further evidence.
+    #[must_use]
+    pub fn new(method: Method, roots: Vec<FkRoot>, completeness: Completeness, seed: u64) -> Self {
+        Self {
+            method,
+            roots,
+            solution_set: SolutionSet::Isolated,
+            completeness,
+            paths: Vec::new(),
+            rejected: Vec::new(),
+            pose_count: None,
+            unproved: Vec::new(),
+            library_calls: Vec::new(),
+            seed,
+        }
+    }
 }
 
 /// One sentence: how many poses, how many are real, how many are proved, whether these are all.

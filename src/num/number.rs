@@ -57,13 +57,21 @@ pub fn nullable(schema: &mut Schema) {
     transform_subschemas(&mut nullable, schema);
 }
 
-/// Writes enums by the words of their `name`, which are strings in a schema.
+/// Writes and reads enums by the words of their `name`, which are strings in a schema; `ALL` has every choice.
 #[macro_export]
 macro_rules! written_as_word {
     ($($kind:ty),+) => {$(
         impl serde::Serialize for $kind {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
                 to.serialize_str(self.name())
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $kind {
+            fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                let word = <String as serde::Deserialize>::deserialize(from)?;
+                $crate::names::named(stringify!($kind), &word, &Self::ALL, Self::name)
+                    .map_err(serde::de::Error::custom)
             }
         }
 

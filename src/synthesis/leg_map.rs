@@ -6,6 +6,7 @@ use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
 use super::exact_map::{ExactMap, ExactRelation};
+use super::singularity::Architecture;
 use super::{LegSpan, Normalisation};
 use num::double_double::DoubleDouble;
 use num::linalg::LinalgError;
@@ -199,6 +200,9 @@ pub struct LegMapOutcome {
     leg_vectors_independent: bool,
     /// Distance of a singular platform from one of the two, design units, if it is within rounding.
     pub near_singular: Option<f64>,
+    /// The decisions whether FROM and TO are architecturally singular. `None` if they were not asked for, as for
+    /// dependent leg vectors, which decide alone.
+    pub architectures: Option<Box<[Architecture; 2]>>,
     /// Legs of TO that are not in the span of FROM.
     off: [bool; 6],
     /// The tolerances used.
@@ -486,6 +490,7 @@ fn related(
         exact_numbers: None,
         leg_vectors_independent: false,
         near_singular: None,
+        architectures: None,
         off: residuals.map(|r| r.is_nan() || r > tolerances.residual),
         tolerances,
     };

@@ -20,20 +20,19 @@ use synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
 /// # Errors
 /// When a singular value decomposition does not converge.
 pub fn decide_map(a: &Manipulator, b: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
-    let map = leg_map(a, b, LegMapTolerances::default())?;
+    let mut map = leg_map(a, b, LegMapTolerances::default())?;
     if map.relation == Relation::Singular {
         return Ok(map);
     }
     let found = [SingularityVerdict::of(a)?, SingularityVerdict::of(b)?];
     // independent leg vectors may belong to dependent lines
-    if let Some(level) =
-        found.iter().find(|f| f.is_singular() == Some(true)).and_then(SingularityVerdict::level)
-    {
-        return Ok(map.with_dependent_lines(level));
-    }
+    let dependent = found.iter().find(|f| f.is_singular() == Some(true)).and_then(SingularityVerdict::level);
+    let near = found.iter().find_map(|f| f.meant.as_ref()).map(|near| near.distance);
+    map.architectures = Some(Box::new(found.map(|f| f.architecture)));
     let doubles = map.relation == Relation::Equivalent && map.level == Level::DoublesAsWritten;
-    match found.iter().find_map(|f| f.meant.as_ref()) {
-        Some(near) if doubles => Ok(map.near_singular(near.distance)),
-        _ => Ok(map),
-    }
+    Ok(match (dependent, near) {
+        (Some(level), _) => map.with_dependent_lines(level),
+        (None, Some(distance)) if doubles => map.near_singular(distance),
+        _ => map,
+    })
 }

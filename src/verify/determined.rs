@@ -32,18 +32,11 @@ mod tests {
     use num_complex::Complex64;
 
     fn root(r: f64, p: f64, condition: f64) -> FkRoot {
-        FkRoot {
-            pose: ComplexPose {
-                rotation: Matrix3::repeat(Complex64::new(0.0, r)),
-                position: Vector3::repeat(Complex64::new(p, 0.0)),
-            },
-            reality: Reality::NonReal,
-            certificate: None,
-            multiplicity: 1,
-            residual: 1e-15,
-            condition,
-            dual_quaternion: None,
-        }
+        let pose = ComplexPose {
+            rotation: Matrix3::repeat(Complex64::new(0.0, r)),
+            position: Vector3::repeat(Complex64::new(p, 0.0)),
+        };
+        FkRoot::new(pose, Reality::NonReal, 1e-15, condition)
     }
 
     #[test]

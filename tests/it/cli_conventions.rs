@@ -306,3 +306,29 @@ fn calibrations_read_measurements_in_the_convention_of_the_table() {
     own.reverse();
     assert!(differ(&own, &usual) < 1e-9, "{next}");
 }
+
+/// Programs write the scalar of a quaternion first or last, so an answer states which order was read.
+#[test]
+fn the_order_of_seven_numbers_is_stated_once() {
+    let design = "designs/symmetric-hexapod.toml";
+    let notes = |more: &[&str]| {
+        let out = equipod(&[&["ik", design, "--quiet"], more].concat());
+        assert_eq!(out.status.code(), Some(0), "{more:?}");
+        String::from_utf8(out.stderr).unwrap()
+    };
+    let first = "The seven numbers of --pose were read as x, y, z, qw, qx, qy, qz.\n";
+    let last = "The seven numbers of --pose were read as x, y, z, qx, qy, qz, qw.\n";
+    let turned = ["--pose", "0,0,350,0.8,0,0,0.6"];
+    assert_eq!(notes(&turned), first);
+    assert_eq!(notes(&[turned, ["--pose", "0,0,360,1,0,0,0"]].concat()), first);
+    assert!(notes(&[turned, ["--quaternion", "xyzw"]].concat()).contains(last));
+    let own = ["--pose", "base:0,0,350,0.8,0,0,0.6", "--quaternion", "xyzw"];
+    assert!(notes(&own).contains(first));
+    assert_eq!(notes(&["--pose", "0,0,350,0,0,10"]), "");
+    let locus = equipod(&["singular", "locus", design, "--pose", "0,0,350,1,0,0,1/2"]);
+    assert_eq!(String::from_utf8(locus.stderr).unwrap(), first);
+    let asked = |order: &str| asked(&["ik", design, "--pose", turned[1], "--quaternion", order]);
+    for order in ["wxyz", "xyzw"] {
+        assert_eq!(asked(order)["frames"]["quaternion"], order);
+    }
+}

@@ -445,12 +445,17 @@ fn assessments_on_holes_end_with_the_time_limit_and_are_undecided() {
     let out = explore(design.to_str().unwrap(), &folder, &["--json", "--time-limit", "0.001"]);
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
     assert_eq!((out.status.code(), &d["verdict"]), (Some(3), &"inconclusive".into()), "{d}");
-    assert_eq!((&d["interrupted"], &d["optimize"]["status"]), (&true.into(), &"interrupted".into()), "{d}");
+    // on a busy machine the search ends before its first platform
+    let status = &d["optimize"]["status"];
+    assert!(d["interrupted"] == true && (status.is_null() || status == "interrupted"), "{d}");
     assert!(d["explanation"].as_str().unwrap().ends_with("; search or assessment was interrupted"), "{d}");
     // the platform is on holes, with an open verdict
     let rounded: Value = serde_json::from_str(&read(&folder, "rounded-assess.json")).unwrap();
     assert!(d["holes"]["variant"].is_string() && rounded["met"].is_null(), "{rounded}");
     assert_eq!(d["assessment"]["met"], rounded["met"]);
+    // neither samples nor rays follow: without a limit there are over ten thousand poses
+    let poses = rounded["poses"].as_u64().unwrap();
+    assert!(poses < 100 && rounded["regular"]["cells"] == 0, "{rounded}");
     assert!(d["safety_margin"].is_null() || d["safety_margin"]["kept"].is_null(), "{d}");
 }
 

@@ -35,6 +35,7 @@ mod cli_plot;
 mod cli_proof;
 mod cli_provenance;
 mod cli_ranges;
+mod cli_report;
 mod cli_round;
 mod cli_singularities;
 mod cli_streams;

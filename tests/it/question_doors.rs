@@ -38,7 +38,7 @@ fn replaceable_legs_and_the_platforms_made_of_them_are_those_of_the_commands() {
     let said: Vec<usize> = listed.iter().map(|c| c["samples"].as_array().unwrap().len()).collect();
     assert_eq!((answer["count"].as_u64(), said), (Some(drawn.len() as u64), drawn));
 
-    let targets = MoveTargets { no_shared_joints: true, ..MoveTargets::default() };
+    let targets = MoveTargets::default().no_shared_joints(true);
     let found = design.search_moves(&legs.found, &targets, &MoveSearchOptions::default()).unwrap();
     let (_, answer) = asked(&["equivalents", "move", GRIFFIS_DUFFY, "--search", "--no-shared-joints"]);
     assert_eq!(

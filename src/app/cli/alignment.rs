@@ -116,7 +116,9 @@ impl Second {
     pub(crate) fn compared(&self, a: &Manipulator) -> Result<LegMapOutcome, LinalgError> {
         let given = decide_map(a, &self.given)?;
         match self.aligned.as_ref().map(|found| &found.given) {
-            Some(Alignment::Found { motions, .. }) if given.relation != Relation::Singular => {
+            Some(Alignment::Found { motions, .. })
+                if given.relation != Relation::Singular && motions[0].is_motion() =>
+            {
                 Ok(motions[0].map.clone())
             }
             _ => Ok(given),

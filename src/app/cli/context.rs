@@ -1,6 +1,6 @@
 //! The context of a command: global options, warnings, and the designs read.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::path::{Path, PathBuf};
 
 use clap::ArgMatches;
@@ -55,6 +55,8 @@ pub(crate) struct Context {
     warnings: Vec<FileWarning>,
     /// The designs that were read: name and file.
     designs: Vec<(String, String)>,
+    /// The notes written once.
+    noted: RefCell<Vec<String>>,
 }
 
 impl Context {
@@ -69,6 +71,7 @@ impl Context {
             typed: typed(matches),
             warnings: Vec::new(),
             designs: Vec::new(),
+            noted: RefCell::default(),
         }
     }
 
@@ -141,6 +144,15 @@ impl Context {
     pub(crate) fn note(&self, words: &str) {
         if !self.json {
             diagnostic::print_note(words);
+        }
+    }
+
+    /// Writes such a part of the answer once, however often it applies.
+    pub(crate) fn note_once(&self, words: String) {
+        let mut noted = self.noted.borrow_mut();
+        if !noted.contains(&words) {
+            self.note(&words);
+            noted.push(words);
         }
     }
 

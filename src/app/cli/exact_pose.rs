@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::numbers;
 use super::poses::FORM;
-use ask::{Design, PoseFrames, USUAL};
+use ask::{Design, PoseFrames};
 use files::design::Share;
 use num::exact::Rational;
 use num::surd::Surd;
@@ -25,11 +25,7 @@ pub(crate) fn read(
     if text == "home" {
         return Ok(home(design));
     }
-    let usual = PoseConvention::default();
-    let (text, convention) = match text.strip_prefix(USUAL) {
-        Some(numbers) => (numbers, &usual),
-        None => (text, &frames.convention),
-    };
+    let (convention, text) = frames.convention_of(text);
     let (position, rotation) = if text.split(',').count() == 7 {
         let [x, y, z, quaternion @ ..] = numbers::exact::<7>(text).map_err(refuse)?;
         if quaternion.iter().all(Surd::is_zero) {
@@ -38,10 +34,10 @@ pub(crate) fn read(
         ([x, y, z], Some(convention.quaternion_order().scalar_first(quaternion)))
     } else {
         let [x, y, z, angles @ ..] = numbers::exact::<6>(text).map_err(refuse)?;
-        ([x, y, z], quaternion_of(convention, &angles))
+        ([x, y, z], quaternion_of(&convention, &angles))
     };
     let exact =
-        rotation.and_then(|quaternion| placed(convention, ExactPose { position, quaternion }, design));
+        rotation.and_then(|quaternion| placed(&convention, ExactPose { position, quaternion }, design));
     if let Some(pose) = exact {
         Ok(pose)
     } else {

@@ -1,10 +1,11 @@
 //! Poses from the command line.
 
+use super::context::Context;
 use super::failure::Failure;
 use ask::{Design, PoseFrames};
 use files::design::Workspace;
 use machine::requirements::PoseSpace;
-use platform::geom::Pose;
+use platform::geom::{Pose, PoseConvention};
 
 /// The form of a pose in an option.
 pub(super) const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz; options such as --rotation-order change this order, and `base:` before the numbers restores it";
@@ -27,8 +28,24 @@ pub(crate) fn space(design: &Design) -> (PoseSpace, bool) {
 
 /// The names of the seven fields in which [`csv_fields`] writes a pose.
 pub(crate) fn csv_names(frames: &PoseFrames) -> [&'static str; 7] {
-    let [a, b, c, d] = frames.convention.quaternion_order().written(["qw", "qx", "qy", "qz"]);
+    names(&frames.convention)
+}
+
+/// The names of the seven numbers of a pose with a quaternion.
+fn names(convention: &PoseConvention) -> [&'static str; 7] {
+    let [a, b, c, d] = convention.quaternion_order().written(["qw", "qx", "qy", "qz"]);
     ["x", "y", "z", a, b, c, d]
+}
+
+/// Tells in which order seven numbers were read, because programs write quaternions in two orders.
+pub(crate) fn note_order(text: &str, frames: &PoseFrames, option: &str, context: &Context) {
+    let (convention, numbers) = frames.convention_of(text);
+    if numbers.split(',').count() == 7 {
+        context.note_once(format!(
+            "The seven numbers of {option} were read as {}.",
+            names(&convention).join(", ")
+        ));
+    }
 }
 
 /// A pose of a CSV file in the convention: position and quaternion.
@@ -43,6 +60,15 @@ pub(crate) fn csv_fields(frames: &PoseFrames, pose: &Pose) -> String {
 ///
 /// # Errors
 /// Exit 2 with the code given.
-pub(crate) fn parse(text: &str, frames: &PoseFrames, option: &str, code: &str) -> Result<Pose, Failure> {
-    frames.read(text).map_err(|why| Failure::refused(code, format!("{option}: {why}")).with_help(FORM))
+pub(crate) fn parse(
+    text: &str,
+    frames: &PoseFrames,
+    (option, code): (&str, &str),
+    context: &Context,
+) -> Result<Pose, Failure> {
+    let pose = frames
+        .read(text)
+        .map_err(|why| Failure::refused(code, format!("{option}: {why}")).with_help(FORM))?;
+    note_order(text, frames, option, context);
+    Ok(pose)
 }

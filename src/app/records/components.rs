@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, leg_number};
 use ask::{ReplaceableFamily, ReplaceableLegs};
@@ -14,7 +14,7 @@ use synthesis::components::{
 
 view! {
     /// The answer of `equivalents components`.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct ComponentsAnswer {
         /// The name of the design.
         pub name: String = name.to_owned(),
@@ -48,7 +48,7 @@ view! {
 
 view! {
     /// A dimension or rank, with the evidence for its value.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct DecisionRecord {
         /// The quantity decided.
         #[schemars(extend("enum" = [
@@ -92,7 +92,7 @@ fn point(p: &Point3<f64>) -> [Number; 3] {
 
 view! {
     /// A pair of flats spanned by its legs.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct FlatPairRecord {
         /// The legs, from 1.
         pub legs: Vec<usize> = legs(&p.legs),
@@ -119,7 +119,7 @@ pub type Bilinear = Vec<[[Number; 3]; 3]>;
 
 view! {
     /// A pair of planes with the curves of points that carry replaceable legs.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct PlanePairRecord {
         /// Number of the pair in `pairs`, from 1.
         pub pair: usize = p.pair + 1,
@@ -142,7 +142,7 @@ view! {
 
 view! {
     /// A plane curve of points that carry replaceable legs.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct PlaneCurveRecord {
         /// The origin of plane coordinates, body frame.
         pub origin: [Number; 3] = point(&c.origin),
@@ -189,7 +189,7 @@ fn monomials(degree: usize) -> Vec<String> {
 
 view! {
     /// A singular point of a plane curve.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct SingularPointRecord {
         /// The point, body frame; null: at infinity.
         pub point: Option<[Number; 3]> = s.point.as_ref().map(point),
@@ -207,7 +207,7 @@ view! {
 }
 
 /// Curve for the joints as rational numbers, or the reason why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExactCurveOutcome {
     /// The curve.
@@ -221,7 +221,7 @@ pub enum ExactCurveOutcome {
 
 view! {
     /// A plane curve with integer coefficients.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct ExactCurveRecord {
         /// Body coordinates used as plane coordinates.
         pub axes: [String; 2] = curve.axes.map(|k| ["x", "y", "z"][k].to_owned()),
@@ -253,7 +253,7 @@ impl From<&Result<ExactCurve, NoExactCurve>> for ExactCurveOutcome {
 
 view! {
     /// A family of replaceable legs.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct ComponentRecord {
         /// The number of the family, from 1.
         pub component: usize = k + 1,
@@ -291,7 +291,7 @@ view! {
 }
 
 /// Formulas of the legs of a family.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum ParametrisationRecord {
     /// Rational functions of the parameters.
@@ -324,7 +324,7 @@ pub enum ParametrisationRecord {
 }
 
 /// A term of the homogeneous coordinates of a leg end.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MovingTermRecord {
     /// The exponents of the parameters.
     pub exponents: [u8; 3],
@@ -370,7 +370,7 @@ impl From<&CubicPencil> for ParametrisationRecord {
 
 view! {
     /// The ends of a leg.
-    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct LegEndsRecord {
         /// The base end, base frame, design units.
         pub base: [Number; 3] = point(&l.base),
@@ -382,7 +382,7 @@ view! {
 
 view! {
     /// A leg drawn from a family.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct SampledLegRecord {
         /// The parameters of the leg.
         pub parameters: Vec<Number> = numbers(&s.parameters),

@@ -25,7 +25,17 @@ impl DesignRecord {
     /// The name of the design.
     #[must_use]
     pub fn name(&self) -> &str {
-        self.0.get("name").and_then(Value::as_str).unwrap_or_default()
+        self.text("name")
+    }
+
+    /// The unit of its lengths.
+    #[must_use]
+    pub fn units(&self) -> &str {
+        self.text("units")
+    }
+
+    fn text(&self, key: &str) -> &str {
+        self.0.get(key).and_then(Value::as_str).unwrap_or_default()
     }
 }
 

@@ -7,7 +7,7 @@ use super::{
     DriveLengthsRecord, Number, PoseConventionRecord, PoseInFrames, PoseRecord, PoseUncertaintyRecord,
     RotaryIkRecord, RotaryIkRowsAnswer,
 };
-use ask::{Design, PoseFrames};
+use ask::{Design, PoseFrames, meets_all};
 use machine::coupled::{CoupledLegs, DriveState};
 use machine::manufacture::MachineUncertainty;
 use machine::requirements::{JointAngles, LeastMargins, Term, TermKind, Terms};
@@ -209,13 +209,6 @@ impl IkRecord {
         self.drives = Some(drives);
         self
     }
-}
-
-/// Whether all these margins at a pose are met; a margin of zero to rounding is.
-pub(super) fn meets_all(terms: &Terms<'_>, margins: &[(Term, f64)], pose: &Pose) -> bool {
-    margins
-        .iter()
-        .all(|(term, margin)| *margin > 0.0 || terms.standing(term.kind, *margin, Some(pose)).is_met())
 }
 
 impl PoseMarginRecord {

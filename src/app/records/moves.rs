@@ -2,7 +2,7 @@
 //! equivalent platforms.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{AssessAnswer, DesignRecord, DesignRoleWord, LegEndsRecord, MapRecord, Number, leg_number};
 use ask::{Design, MoveSearchReport, MovedAtOnce, MovedPlatform, MovesReport, SearchWord};
@@ -25,7 +25,7 @@ pub enum MoveAnswer {
 
 view! {
     /// The result of moving legs.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct MovesAnswer {
         /// The name of the design.
         pub name: String = design.name.clone(),
@@ -56,7 +56,7 @@ view! {
 }
 
 /// The order of moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MoveMode {
     /// One after another.
@@ -67,7 +67,7 @@ pub enum MoveMode {
 
 view! {
     /// A step: moves made at once.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct MoveStepRecord {
         /// Relation to the platform before; null: undecided.
         pub outcome: Option<Relation> = r.map.relation.decided(),
@@ -83,7 +83,7 @@ view! {
 
 view! {
     /// One leg moved along a family.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct LegMoveRecord {
         /// The leg, from 1.
         pub leg: usize = leg_number(m.request.leg),
@@ -118,7 +118,7 @@ view! {
 
 view! {
     /// The result of the search for an equivalent platform with requested properties.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct MoveSearchAnswer {
         /// The name of the design.
         pub name: String = design.name.clone(),
@@ -162,7 +162,7 @@ view! {
 
 view! {
     /// The requested properties of an equivalent platform.
-    #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct TargetsRecord {
         /// Whether the fewest shared joints are requested, at best none.
         pub no_shared_joints: bool = w.no_shared_joints,
@@ -184,7 +184,7 @@ view! {
 
 view! {
     /// A hole requested for an end of a leg.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct HoleRecord {
         /// Body of the hole.
         pub body: Body = *body,
@@ -214,7 +214,7 @@ view! {
 
 view! {
     /// An equivalent platform.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct CandidateRecord {
         /// Whether all properties hold and all requirements are proved.
         pub fulfilled: bool = found.is_fulfilled(),
@@ -252,7 +252,7 @@ view! {
 
 view! {
     /// The origin of one leg of an equivalent platform.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct PlacementRecord {
         /// The leg, from 1.
         pub leg: usize = leg_number(p.leg),

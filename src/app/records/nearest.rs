@@ -1,7 +1,7 @@
 //! Answers about the octahedral platform nearest to a design.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{DesignRecord, Number, PoseQuaternionRecord, SourceWord};
 use ask::Design;
@@ -11,7 +11,7 @@ use synthesis::{LengthDeviation, NearestOptions, length_deviation};
 
 view! {
     /// The answer of `equivalents nearest`.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct NearestAnswer {
         /// The name of the design.
         pub name: String = design.name.clone(),
@@ -58,7 +58,7 @@ view! {
 
 view! {
     /// The nearest octahedral platform with the error of replacing the design by it.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct NearestRecord {
         /// Leg on side k of the hexagon, from 1.
         pub order: [usize; 6] = n.order.map(|leg| leg.get() + 1),
@@ -100,7 +100,7 @@ view! {
 }
 
 /// The errors of the nearest octahedral platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NearestErrorRecord {
     /// Largest displacement of a leg end, design units.
     pub largest_displacement: Number,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::topologies::joint_pairs;
 use platform::manipulator::Body;
@@ -13,7 +13,7 @@ use synthesis::rearrangement::{
 
 view! {
     /// One line of the table of rearrangements.
-    #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
     pub struct RearrangementRecord {
         /// The identifier of the topology, T01 to T34.
         pub id: String = r.topology.id(),
@@ -69,7 +69,7 @@ view! {
 }
 
 /// Argument for all families of replaceable legs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArgumentWord {
     /// Joints of the base hold all legs.
@@ -84,7 +84,7 @@ pub enum ArgumentWord {
 
 view! {
     /// A family of replaceable legs.
-    #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
     pub struct FamilyRecord {
         /// Kind.
         pub kind: PieceKind = p.kind,
@@ -114,7 +114,7 @@ view! {
 
 view! {
     /// A design with rational joints.
-    #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
     pub struct ExactDesignRecord {
         /// Base joints: [x, y, z], fractions as text.
         pub base: BTreeMap<String, [String; 3]> = joints('A', a.base()),

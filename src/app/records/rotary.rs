@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ik::meets_all;
 use super::{Number, PoseConventionRecord, PoseInFrames, PoseMarginRecord, PoseRecord};
-use ask::{Design, PoseFrames};
+use ask::{Design, PoseFrames, meets_all};
 use machine::requirements::Terms;
 use machine::rotary::{CrankAngles, Elbow, RotaryPlatform};
 use platform::geom::Pose;

@@ -1,7 +1,7 @@
 //! Answers about the curves of poses with constant leg lengths.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
 use ask::MotionOrigin;
@@ -11,7 +11,7 @@ use synthesis::singularity::{
 };
 
 /// The answer of `singular motion`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SelfmotionAnswer {
     /// The name of the design.
     pub name: String,
@@ -35,7 +35,8 @@ pub struct SelfmotionAnswer {
     pub further_starts: usize,
     /// Real poses on sets of higher dimension, with `--lengths`; these sets are not traced.
     pub real_poses: Vec<PoseQuaternionRecord>,
-    /// The completeness of the curves: they are traced numerically, without a proof that the list is complete.
+    /// The completeness of the curves. Proved: with these lengths there are none. Other lists are traced numerically,
+    /// without a proof.
     pub completeness: CompletenessWord,
     /// Whether every real component is accounted for, numerically; null: no search for other components was made.
     pub components_accounted: Option<bool>,
@@ -52,7 +53,7 @@ pub struct SelfmotionAnswer {
 }
 
 /// The evidence for the dimension of a self-motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionEvidenceWord {
     /// Proved: the leg lines are independent at the pose.
@@ -66,7 +67,7 @@ pub enum MotionEvidenceWord {
     CommonLine,
     /// Tracing found poses along a stretch, and the dimension is sampled: no proof.
     Traced,
-    /// Random sections cut the set of poses with these lengths: no proof.
+    /// Random sections cut the set of poses with these lengths: no proof of a motion.
     Sections,
     /// No evidence: the question is undecided.
     Undecided,
@@ -87,7 +88,7 @@ impl From<PoseVerdict> for MotionEvidenceWord {
 
 /// The neighbourhood of a pose without others of its lengths, in displacements `(t / size, c)`: translation divided by
 /// the size, and axis times tangent of half the angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IsolatedRecord {
     /// Radius of the ball: every pose with these lengths inside it lies within the distance `within`.
     pub radius: Number,
@@ -110,7 +111,7 @@ impl IsolatedRecord {
 
 view! {
     /// The outcomes of the paths to critical points.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
     pub struct CriticalPointsRecord {
         /// Number of paths followed.
         pub paths: usize = c.paths,
@@ -132,7 +133,7 @@ view! {
 
 view! {
     /// A curve of poses.
-    #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
     pub struct MotionCurveRecord {
         /// End of the curve: closed, joined, unfinished or stuck.
         #[schemars(extend("enum" = ["closed", "joined", "unfinished", "stuck"]))]

@@ -1,14 +1,14 @@
 //! Answers about the ways in which six legs can share joints.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{RearrangementRecord, TrilaterationStepRecord};
 use fk::distance::ClosureDegrees;
 use platform::topology::{JointIndex, NamedTopology, Sequence};
 
 /// The answer of `equivalents topologies`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TopologiesAnswer {
     /// Topologies that can hold a platform.
     #[schemars(extend("const" = 34))]
@@ -29,7 +29,7 @@ pub struct TopologiesAnswer {
 }
 
 /// The topology of a design.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RecognisedRecord {
     /// The name of the design.
     pub name: String,
@@ -43,7 +43,7 @@ pub struct RecognisedRecord {
 
 view! {
     /// Numbers of topologies by the virtual legs that trilateration needs.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
     pub struct VirtualLegsRecord {
         /// Number of topologies without a virtual leg.
         #[serde(rename = "0")]
@@ -75,7 +75,7 @@ view! {
 
 view! {
     /// One topology.
-    #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+    #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
     pub struct TopologyRecord {
         /// The identifier of the topology, T01 to T34.
         #[schemars(regex(pattern = r"^T(0[1-9]|[12][0-9]|3[0-4])$"))]

@@ -27,8 +27,16 @@ const YES: [&str; 10] = [
     "identical",
 ];
 /// Words of the commands for no.
-const NO: [&str; 7] =
-    ["not_equivalent", "not equivalent", "infeasible", "singular", "not_realizable", "violated", "none"];
+const NO: [&str; 8] = [
+    "not_equivalent",
+    "not equivalent",
+    "infeasible",
+    "impossible",
+    "singular",
+    "not_realizable",
+    "violated",
+    "none",
+];
 
 /// The verdict, if the result has one.
 pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {
@@ -51,10 +59,11 @@ pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {
         };
         return Some(ResultVerdict { word: word.into(), holds, explanation });
     }
-    let word = ["verdict", "status", "relation"].iter().find_map(|key| text(key)).or_else(|| {
-        let count = |key: &str| fields.get(key).and_then(Value::as_u64);
-        Some(format!("{} finite poses, {} real", count("finite_count")?, count("real_count")?))
-    })?;
+    let word =
+        ["verdict", "status", "relation", "outcome"].iter().find_map(|key| text(key)).or_else(|| {
+            let count = |key: &str| fields.get(key).and_then(Value::as_u64);
+            Some(format!("{} finite poses, {} real", count("finite_count")?, count("real_count")?))
+        })?;
     let holds = match word.as_str() {
         w if YES.contains(&w) => Some(true),
         w if NO.contains(&w) => Some(false),

@@ -34,8 +34,8 @@ pub struct AssessOptions {
     /// Threads for the proofs; `None`: as many as the process may run at the same time. The answers do not depend on
     /// it.
     pub threads: Option<NonZeroUsize>,
-    /// Time at which proofs end with their current bounds; `None`: they end when they decide or have used up their
-    /// cells.
+    /// Time at which the samples end, and proofs with their current bounds. `None`: proofs end when they decide or have
+    /// used up their cells.
     pub until: Option<Instant>,
 }
 
@@ -75,11 +75,11 @@ impl AssessOptions {
         /// Number of cells for a kind of requirement that the usual number leaves undecided; 0, the default: it stays
         /// undecided.
         fn patient_cells(cells: usize) = cells;
-        /// Optional time at which proofs end with their current bounds; open ones stay undecided.
+        /// Optional time at which samples and proofs end with their results so far; open proofs stay undecided.
         fn until(until: Option<Instant>) = until;
     }
 
-    /// Whether the time of the proofs is over.
+    /// Whether the time of samples and proofs is over.
     #[must_use]
     pub fn is_late(&self) -> bool {
         self.until.is_some_and(|end| Instant::now() >= end)
@@ -170,7 +170,8 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
 /// It then searches for worse poses near the worst ones found.
 ///
 /// Random steps move one to all coordinates of the cube and shrink from a tenth to a millionth of its width. The search
-/// needs no derivatives, since margins have kinks. Deterministic for a seed.
+/// needs no derivatives, since margins have kinks. Deterministic for a seed, unless [`AssessOptions::until`] ends it:
+/// then the listed poses are evaluated, or one pose of the region.
 #[must_use]
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
@@ -184,6 +185,10 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
     }
     let mut worst: BTreeMap<TermKind, Vec<RegionPoint>> = BTreeMap::new();
     for x in space.cube_points(o.points, &mut rng) {
+        // a kind without a margin would count as not required
+        if poses > 0 && o.is_late() {
+            break;
+        }
         let pose = space.pose(&x);
         let mut here = LeastMargins::default();
         here.see(terms.at(&pose), ());
@@ -200,6 +205,9 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
     if !axes.is_empty() {
         for (kind, starts) in worst {
             for start in starts {
+                if o.is_late() {
+                    break;
+                }
                 let (x, tried) = descend(&terms, kind, space, &axes, start, &mut rng);
                 let pose = space.pose(&x);
                 found.see(terms.at(&pose), Some(pose));

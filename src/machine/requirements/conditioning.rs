@@ -16,7 +16,8 @@ pub struct LeastConditioning {
 }
 
 /// The least inverse condition number over the poses that [`assess`](super::assess()) examines first: home, those
-/// listed, and points of the region. Poses between the sampled ones may have a smaller value.
+/// listed, and points of the region. Poses between the sampled ones may have a smaller value, and so may those that
+/// [`AssessOptions::until`] leaves out.
 #[must_use]
 pub fn least_conditioning(
     m: &Manipulator,
@@ -36,6 +37,7 @@ pub(super) fn least_over(
     let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
     let at = |pose: Pose| LeastConditioning { value: number(&pose), pose };
     let points = space.cube_points(o.points, &mut rng).into_iter().map(|x| space.pose(&x));
-    let all = space.listed(o.steps).into_iter().chain(points).map(at);
+    let in_time = |_: &Pose| !o.is_late();
+    let all = space.listed(o.steps).into_iter().chain(points).take_while(in_time).map(at);
     all.fold(at(space.home), |least, next| if next.value < least.value { next } else { least })
 }

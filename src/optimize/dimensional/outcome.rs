@@ -122,6 +122,7 @@ pub enum DimensionalOutcome {
 
 /// All results of the search.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DimensionalReport {
     /// The answer.
     pub outcome: DimensionalOutcome,

@@ -29,6 +29,7 @@ pub struct ParetoPoint {
 
 /// A front.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ParetoReport {
     /// Members, by falling gain of the first objective; none dominates another in the dense evaluation.
     pub front: Vec<ParetoPoint>,

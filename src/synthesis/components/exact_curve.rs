@@ -17,7 +17,7 @@ const LONG: u64 = 300;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "ExactPartRecord")
 )]
 pub struct ExactPart {
@@ -41,7 +41,7 @@ pub struct ExactPart {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "ExactPointRecord")
 )]
 pub struct ExactPoint {

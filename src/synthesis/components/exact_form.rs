@@ -151,6 +151,19 @@ pub enum ExactKind {
 num::written_as_word!(ExactKind);
 
 impl ExactKind {
+    /// Every kind.
+    pub const ALL: [Self; 9] = [
+        Self::Line,
+        Self::RealLines,
+        Self::ComplexLines,
+        Self::ThreeLines { real: 3 },
+        Self::ThreeLines { real: 1 },
+        Self::Conic,
+        Self::EmptyConic,
+        Self::Cubic,
+        Self::Undecided,
+    ];
+
     /// The name used in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -266,7 +266,7 @@ pub(super) fn candidates(joints: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// A part of a plane curve.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurvePartRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "CurvePartRecord", transform = num::nullable))]
 pub struct CurvePart {
     /// Kind.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["line", "conic", "conic_without_real_points", "conjugate_lines", "cubic", "higher"])))]

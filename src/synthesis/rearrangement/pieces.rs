@@ -28,7 +28,7 @@ use platform::manipulator::{Body, ExactLeg};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case"),
     schemars(rename = "FamilyKindWord")
 )]

@@ -341,7 +341,7 @@ fn spread(
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "ObstructionRecord")
 )]
 pub struct Obstruction {

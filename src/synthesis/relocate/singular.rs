@@ -12,7 +12,7 @@ use platform::manipulator::Leg;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case"),
     schemars(rename = "SingularParametersRecord", transform = num::nullable)
 )]

@@ -452,14 +452,14 @@ impl Design {
             return Err(Error::NothingRequired);
         }
         tell(AssessStage::SingularPoses);
-        // a proof that is out of time examines one cell
-        let (cells, patient) =
-            if options.is_late() { (1, 1) } else { (cells, cells.max(options.patient_cells)) };
-        let of_rods = regular_rods(m, &required, &space, patient, options.seed);
-        let (regularity, regularity_cells) = of_rods.map_or_else(
-            || regular_workspace(m, &space, cells, options.seed),
-            |(of_rods, cells)| (as_regularity(&of_rods), cells),
-        );
+        let patient = cells.max(options.patient_cells);
+        let (regularity, regularity_cells) = if options.is_late() {
+            (Regularity::Undecided(space.home), 0)
+        } else if let Some((of_rods, cells)) = regular_rods(m, &required, &space, patient, options.seed) {
+            (as_regularity(&of_rods), cells)
+        } else {
+            regular_workspace(m, &space, cells, options.seed)
+        };
         tell(AssessStage::Conditioning);
         let conditioning = self.least_conditioning(options, length);
         Ok(AssessReport {
@@ -494,7 +494,7 @@ impl Design {
         self.assessed_until(seed, None)
     }
 
-    /// The same; proofs end at the given time with the result so far.
+    /// The same; samples and proofs end at the given time with the result so far.
     pub fn assessed_until(&self, seed: u64, until: Option<Instant>) -> Option<AssessReport> {
         self.decided_by(&deciding(seed).until(until), self.characteristic_length())
     }

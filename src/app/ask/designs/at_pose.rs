@@ -7,7 +7,7 @@ use super::PoseFrames;
 use crate::Design;
 use fk::{NearOutcome, NearSolver};
 use machine::reach::StraightPath;
-use machine::requirements::LeastStiffness;
+use machine::requirements::{LeastStiffness, Term, Terms};
 use machine::rotary::OutOfReach;
 use machine::statics::{PoseStatics, Screw, both_in, in_axes};
 use platform::geom::Pose;
@@ -321,6 +321,14 @@ impl Design {
     }
 }
 
+/// Whether a pose meets all requirements that have these margins there; a margin of zero within rounding is met.
+#[must_use]
+pub fn meets_all(terms: &Terms<'_>, margins: &[(Term, f64)], pose: &Pose) -> bool {
+    margins
+        .iter()
+        .all(|(term, margin)| *margin > 0.0 || terms.standing(term.kind, *margin, Some(pose)).is_met())
+}
+
 /// The twist of a point of the platform at the start of a path, whose own pivot stays on its line.
 fn twist_along(way: &StraightPath, point: &Vector3<f64>) -> Vector6<f64> {
     let velocity = way.velocity + way.turn.cross(&(way.start.rotation * (point - way.pivot)));
@@ -341,4 +349,29 @@ fn at_point(wrench: Vector6<f64>, arm: &Vector3<f64>) -> Vector6<f64> {
     let force: Vector3<f64> = wrench.fixed_rows::<3>(0).into();
     let torque: Vector3<f64> = wrench.fixed_rows::<3>(3) - arm.cross(&force);
     Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::parse;
+    use files::design::Format;
+    use machine::requirements::LengthLimits;
+
+    /// The greatest length is that of the legs at home, changed by a share of it.
+    fn meets(share: f64) -> bool {
+        let text = include_str!("../../../../designs/symmetric-hexapod.toml");
+        let (mut design, _) = parse(text, Format::Toml).unwrap();
+        let home = design.home_or_default();
+        let longest = home.lengths(design.manipulator()).unwrap().get().into_iter().fold(0.0, f64::max);
+        design.hardware.leg_length = Some(LengthLimits::Range(longest / 2.0, longest * (1.0 + share)));
+        let required = design.requirements();
+        let terms = Terms::new(design.manipulator(), &required, &home);
+        meets_all(&terms, &terms.at(&home), &home)
+    }
+
+    #[test]
+    fn a_margin_of_zero_is_met_and_a_negative_one_is_not() {
+        assert_eq!([1e-6, 1e-16, 0.0, -1e-16, -1e-6].map(meets), [true, true, true, true, false]);
+    }
 }

@@ -180,7 +180,7 @@ impl Design {
     /// violated safety margin alone does not end the proof, since the question is whether the drive fits.
     fn proved(&self, required: &Requirements, seed: u64) -> MarginProof {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
-        let mut found = MarginProof { bounds: Vec::new(), poses: 0 };
+        let mut found = MarginProof::default();
         for cells in [BRIEF_CELLS, ASSESS_CELLS, PATIENT_CELLS] {
             found = prove(m, required, &space, &deciding(seed), cells);
             let decided = match found.all_met() {

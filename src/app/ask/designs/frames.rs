@@ -14,7 +14,7 @@ pub struct PoseFrames {
 }
 
 /// The prefix of a pose in the usual convention, whatever else is stated.
-pub const USUAL: &str = "base:";
+const USUAL: &str = "base:";
 
 impl PoseFrames {
     /// The pose of a text: `home`, six or seven numbers of the convention, or such numbers in the usual one after
@@ -23,10 +23,19 @@ impl PoseFrames {
     /// # Errors
     /// As of [`PoseConvention::read_text`].
     pub fn read(&self, text: &str) -> Result<Pose, InvalidPose> {
+        if text == "home" {
+            return Ok(self.home);
+        }
+        let (convention, numbers) = self.convention_of(text);
+        convention.read_text(numbers, &self.home)
+    }
+
+    /// The convention of a text, and the text without the prefix that names the usual one.
+    #[must_use]
+    pub fn convention_of<'t>(&self, text: &'t str) -> (PoseConvention, &'t str) {
         match text.strip_prefix(USUAL) {
-            None if text == "home" => Ok(self.home),
-            None => self.convention.read_text(text, &self.home),
-            Some(numbers) => PoseConvention::default().read_text(numbers, &self.home),
+            Some(numbers) => (PoseConvention::default(), numbers),
+            None => (self.convention, text),
         }
     }
 

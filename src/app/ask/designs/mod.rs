@@ -36,7 +36,9 @@ pub mod whole;
 use crate::Error;
 
 pub use assessing::{AssessReport, AssessedPoses, BOX_CELLS, CheckReport};
-pub use at_pose::{AtPoseOptions, AtPoseReport, AxisCapacity, DrivesAt, HeldWrench, NoAtPose, StuckLeg};
+pub use at_pose::{
+    AtPoseOptions, AtPoseReport, AxisCapacity, DrivesAt, HeldWrench, NoAtPose, StuckLeg, meets_all,
+};
 pub use comparing::{CrankFigures, DesignFigures, FigureOptions, Separation};
 pub use design::Design;
 pub use equivalence::{ComparedDesigns, SAMPLES, VerifyOptions, leg_map, sample_plan, verify, verify_with};
@@ -45,7 +47,7 @@ pub use exploring::{
     DefaultSafetyMargin, ExploreFinding, ExploreOptions, ExploreProgress, ExploreReport, ExploreVerdict,
     ExploredClass, ExploredDesign, LengthsOrigin, NoExploration, NoOwnPoses, OwnPoses,
 };
-pub use frames::{PoseFrames, USUAL};
+pub use frames::PoseFrames;
 pub use holding::SingularHome;
 pub use locus::{LocusOptions, LocusPoint, LocusReport, LocusWord, NoLocus, VirtualLeg};
 pub use moved_legs::{

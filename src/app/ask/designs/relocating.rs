@@ -26,6 +26,7 @@ const ON_LINE: f64 = 1e-12;
 
 /// Requested properties of an equivalent platform; missing ones follow from the design.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct MoveTargets {
     /// Whether every joint shall hold one leg.
     pub no_shared_joints: bool,
@@ -45,8 +46,29 @@ pub struct MoveTargets {
     pub workspace: bool,
 }
 
+impl MoveTargets {
+    num::setters! {
+        /// Whether every joint shall hold one leg.
+        fn no_shared_joints(no_shared_joints: bool) = no_shared_joints;
+        /// Whether no two legs, as straight segments, may meet.
+        fn no_crossing(no_crossing: bool) = no_crossing;
+        /// Least clearance of two legs.
+        fn clearance(clearance: Option<f64>) = clearance;
+        /// Holes for joints.
+        fn holes(holes: Vec<Hole>) = holes;
+        /// Least distance of two joints of one body.
+        fn spacing(spacing: Option<f64>) = spacing;
+        /// Least inverse condition number of the Jacobian.
+        fn conditioning(conditioning: Option<f64>) = conditioning;
+        /// Greatest distance of a joint from the centre of its body, in sizes of the design.
+        fn reach(reach: Option<f64>) = reach;
+        /// Whether all poses of the workspace are checked, rather than home alone.
+        fn workspace(workspace: bool) = workspace;
+    }
+}
+
 /// The outcome of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchWord {
     /// A platform has every requested property and meets the requirements of the design.

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::Design;
-use fk::{FkError, FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
+use fk::{Completeness, FkError, FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{Manipulator, SquaredLegLengths};
 use synthesis::singularity::{
@@ -50,7 +50,7 @@ impl SelfMotionOptions {
 
 num::words! {
     /// The origin of the first pose of a curve.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
     #[serde(rename_all = "snake_case")]
     #[schemars(rename = "OriginWord")]
     pub enum MotionOrigin as name {
@@ -106,6 +106,8 @@ pub struct SelfMotionReport {
     pub critical: Option<CriticalPoses>,
     /// Whether every real component is accounted for, numerically; `None`: no search was made.
     pub accounted: Option<bool>,
+    /// Whether all real poses with the lengths are proved to be isolated, by a list of them that is proved complete.
+    pub isolated: bool,
 }
 
 impl SelfMotionReport {
@@ -113,18 +115,16 @@ impl SelfMotionReport {
         self.motion.curves.iter().all(|c| matches!(c.end, CurveEnd::Closed | CurveEnd::Joined))
     }
 
-    /// Whether the platform moves at the pose, or at some pose with the lengths; `None`: undecided.
+    /// Whether the platform moves at the pose, or at some pose with the lengths; `None`: not proved either way.
+    ///
+    /// Other components with the same lengths do not matter: [`accounted`](Self::accounted) tells about them.
     #[must_use]
     pub fn moves(&self) -> Option<bool> {
-        match self.dimension {
-            Some(0) if self.start.is_some() || self.accounted == Some(true) => Some(false),
-            Some(1) if self.is_whole() && !self.motion.curves.is_empty() && self.accounted != Some(false) => {
-                Some(true)
-            }
-            Some(1) if self.start.is_none() && self.accounted == Some(true) => Some(false),
-            // the platform moves on a surface or a set of higher dimension
-            Some(d) if d > 1 && !self.origins.is_empty() => Some(true),
-            _ => None,
+        let at_first = self.motion.at_pose.as_ref().and_then(|at| at.verdict.moves());
+        match self.start {
+            Some(_) => at_first,
+            None if at_first == Some(true) => Some(true),
+            None => self.isolated.then_some(false),
         }
     }
 
@@ -166,10 +166,11 @@ impl Design {
             start.into_iter().map(|p| (p, MotionOrigin::Pose)).collect();
         let mut motion = self_motion(m, &squares, start.as_slice(), &options.motion);
         let mut dimension = motion.dimension();
-        let (mut critical, mut accounted) = (None, None);
+        let (mut critical, mut accounted, mut isolated) = (None, None, false);
         if options.sections > 0 && (start.is_none() || dimension == Some(1)) {
             let cut = PoseSections::of(m, &squares, options.sections, seed)?;
             dimension = if start.is_none() { Some(cut.dimension) } else { dimension };
+            isolated = cut.dimension == 0 && cut.complete;
             if cut.dimension == 1 {
                 starts.extend(cut.real().map(|pose| (pose, MotionOrigin::Section)));
                 // whole sections have a point on every curve, and the given pose may be at a crossing
@@ -199,6 +200,7 @@ impl Design {
             real_poses,
             critical,
             accounted,
+            isolated,
         };
         let followed = dimension != Some(1) || starts.is_empty() || report.motion.dimension() == Some(1);
         report.accounted = accounted.map(|a| a && report.is_whole() && followed);
@@ -213,11 +215,13 @@ struct PoseSections {
     points: Vec<FkRoot>,
     /// Whether all points of every section were found: as many as the degree of the set.
     whole: bool,
+    /// Whether a list of isolated poses is proved to have all real ones.
+    complete: bool,
 }
 
 impl PoseSections {
     fn of(m: &Manipulator, s: &SquaredLegLengths, sections: u64, seed: u64) -> Result<Self, FkError> {
-        let mut out = Self { dimension: 0, points: Vec::new(), whole: true };
+        let mut out = Self { dimension: 0, points: Vec::new(), whole: true, complete: false };
         for k in 0..sections {
             let found = Homotopy.solve(m, s, &FkOptions::new().seed(seed.wrapping_add(k)))?;
             if let SolutionSet::PositiveDimensional { witnesses, dimension, degree, .. } = &found.solution_set
@@ -227,6 +231,10 @@ impl PoseSections {
                 out.points.extend(witnesses.iter().cloned());
             } else {
                 out.whole &= found.all_accounted();
+                out.complete |= matches!(
+                    found.completeness,
+                    Completeness::Proved { .. } | Completeness::ProvedBounded { .. }
+                );
             }
         }
         Ok(out)

@@ -56,7 +56,7 @@ fn body(word: &str) -> Result<Body, String> {
 pub(crate) fn run(args: &AtArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
     let frames = args.frames.of(&design);
-    let pose = poses::parse(&args.pose, &frames, "--pose", "at::bad_pose")?;
+    let pose = poses::parse(&args.pose, &frames, ("--pose", "at::bad_pose"), context)?;
     let point = match &args.point {
         None => frames.convention.pivot_on_platform(),
         Some(text) => frames.convention.axes() * Vector3::from(given::<3>(text, "--point", "X,Y,Z")?),

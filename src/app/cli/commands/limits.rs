@@ -54,8 +54,9 @@ const BAD_POSE: &str = "limits::bad_pose";
 pub(crate) fn run(args: &LimitsArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_ideal(&args.design)?;
     let frames = args.frames.of(&design);
-    let at = poses::parse(&args.at, &frames, "--at", BAD_POSE)?;
-    let to = args.to.as_ref().map(|text| poses::parse(text, &frames, "--to", BAD_POSE)).transpose()?;
+    let at = poses::parse(&args.at, &frames, ("--at", BAD_POSE), context)?;
+    let to =
+        args.to.as_ref().map(|text| poses::parse(text, &frames, ("--to", BAD_POSE), context)).transpose()?;
     let surface = args.surface.as_ref().map(|path| surface_format(path)).transpose()?;
     if !args.workspace {
         context.no_effect("rays", "--workspace is not given")?;

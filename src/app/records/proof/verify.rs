@@ -1,5 +1,7 @@
 //! The proof of a relation between two designs.
 
+use std::borrow::Cow;
+
 use super::{Claim, ProofFile, text, texts};
 use ask::Design;
 use platform::manipulator::{ExactLegs, Manipulator};
@@ -19,7 +21,12 @@ impl ProofFile {
         let first = proof.design((&a.name, &a.units), a.manipulator(), statement);
         let other = proof.design((&b.name, &b.units), second, statement);
         let (Some((from, legs_a)), Some((to, legs_b))) = (first, other) else { return proof };
-        proof.relation(relation, (from, &legs_a, a.manipulator()), (to, &legs_b, second));
+        let known = |k: usize| map.architectures.as_ref().map(|both| &both[k]);
+        proof.relation(
+            relation,
+            (from, &legs_a, Asked { m: a.manipulator(), known: known(0) }),
+            (to, &legs_b, Asked { m: second, known: known(1) }),
+        );
         proof.leave_out(
             "agreement of the poses at sampled lengths",
             "it is evidence beside the proof: option `--proof` of `fk` proves the poses for given lengths",
@@ -51,8 +58,8 @@ impl ProofFile {
             self.architecture(a);
         }
         if relation == Relation::Singular {
-            for (design, _, m) in [a, b] {
-                self.dependent_lines(design, &Architecture::of(m));
+            for (design, _, asked) in [a, b] {
+                self.dependent_lines(design, &asked.architecture());
             }
         }
         if self.is_empty() {
@@ -68,8 +75,8 @@ impl ProofFile {
     }
 
     /// A pose that proves a design regular.
-    fn architecture(&mut self, (design, legs, m): Numbered<'_>) {
-        let pose = (&Architecture::of(m).jacobian.witness).into();
+    fn architecture(&mut self, (design, legs, asked): Numbered<'_>) {
+        let pose = (&asked.architecture().jacobian.witness).into();
         self.regular_pose(format!("regular-{}", design + 1), (design, legs), &pose, true);
     }
 
@@ -82,4 +89,41 @@ impl ProofFile {
 }
 
 /// A design by its place in the file.
-type Numbered<'a> = (usize, &'a ExactLegs, &'a Manipulator);
+type Numbered<'a> = (usize, &'a ExactLegs, Asked<'a>);
+
+/// A platform with the decision about it that the answer has.
+#[derive(Debug, Clone, Copy)]
+struct Asked<'a> {
+    m: &'a Manipulator,
+    known: Option<&'a Architecture>,
+}
+
+impl<'a> Asked<'a> {
+    /// The decision; it is made here only if dependent leg vectors decided the answer without it.
+    fn architecture(self) -> Cow<'a, Architecture> {
+        self.known.map_or_else(|| Cow::Owned(Architecture::of(self.m)), Cow::Borrowed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ask::design::parse;
+    use files::design::Format;
+    use synthesis::singularity::RationalPose;
+
+    /// The pose of the answer stands in the proof, and not one that is searched for again.
+    #[test]
+    fn a_proof_takes_the_decision_about_a_design_from_the_answer() {
+        let read = |text: &str| parse(text, Format::Toml).unwrap().0;
+        let a = read(include_str!("../../../../designs/rbt-octahedral.toml"));
+        let b = read(include_str!("../../../../designs/rbt-griffis-duffy.toml"));
+        let mut map = ask::leg_map(&a, &b).unwrap();
+        let known = map.architectures.as_mut().unwrap();
+        assert_eq!(known[1], Architecture::of(b.manipulator()));
+        known[0].jacobian.witness = RationalPose { quaternion: [97, 1, 2, 3], steps: [5, 6, 701], unit: -6 };
+        let proof = ProofFile::verify(&a, (&b, b.manipulator()), &map);
+        let text = serde_json::to_string(&proof).unwrap();
+        assert!(text.contains("701/64") && text.contains("\"97\""), "{text}");
+    }
+}

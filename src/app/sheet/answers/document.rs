@@ -7,8 +7,9 @@ use super as answers;
 use crate::{Sheet, Table, left};
 use num::shown::significant;
 use records::{
-    AssessAnswer, AtPoseAnswer, CheckAnswer, CompareAnswer, DrivesAnswer, FamilyAnswer, FkAnswer,
-    FkOneAnswer, LimitsAnswer, MapAnswer, MotionAnswer, OptimizeAnswer, RoundAnswer, TolerancesAnswer,
+    AssessAnswer, AtPoseAnswer, CheckAnswer, CompareAnswer, ComponentsAnswer, DrivesAnswer, FamilyAnswer,
+    FkAnswer, FkOneAnswer, LimitsAnswer, MapAnswer, MotionAnswer, MoveSearchAnswer, MovesAnswer,
+    NearestAnswer, OptimizeAnswer, RoundAnswer, SelfmotionAnswer, TolerancesAnswer, TopologiesAnswer,
     VerifyAnswer,
 };
 
@@ -19,7 +20,7 @@ type Fields = Map<String, Value>;
 struct DocumentKind(&'static [&'static str], &'static str, fn(&Fields, [&str; 2]) -> Option<Sheet>);
 
 /// The kinds of documents; the first kind with all its fields present applies.
-const KINDS: [DocumentKind; 17] = [
+const KINDS: [DocumentKind; 20] = [
     DocumentKind(&["samples", "map"], "Equivalence", |f, [a, b]| {
         read(f).map(|x: VerifyAnswer| answers::verify(&x, a, b))
     }),
@@ -37,9 +38,24 @@ const KINDS: [DocumentKind; 17] = [
     DocumentKind(&["requirements", "regular"], "Requirements", |f, _| {
         read(f).map(|x: AssessAnswer| answers::assess(&x))
     }),
-    DocumentKind(&["components"], "Replaceable legs", |_, _| None),
-    DocumentKind(&["curves"], "Self-motions", |_, _| None),
-    DocumentKind(&["topologies"], "Topologies", |_, _| None),
+    DocumentKind(&["components", "planes"], "Replaceable legs", |f, _| {
+        read(f).map(|x: ComponentsAnswer| answers::components(&x))
+    }),
+    DocumentKind(&["curves", "singular_values"], "Self-motions", |f, _| {
+        read(f).map(|x: SelfmotionAnswer| answers::self_motion(&x))
+    }),
+    DocumentKind(&["topologies", "members"], "Topologies", |f, _| {
+        read(f).map(|x: TopologiesAnswer| answers::topologies(&x))
+    }),
+    DocumentKind(&["steps", "moves_left_out"], "Moved legs", |f, _| {
+        read(f).map(|x: MovesAnswer| answers::moves(&x))
+    }),
+    DocumentKind(&["targets", "patterns_searched"], "Equivalent platforms", |f, _| {
+        read(f).map(|x: MoveSearchAnswer| answers::move_search(&x))
+    }),
+    DocumentKind(&["nearest", "extension"], "Nearest octahedral platform", |f, _| {
+        read(f).map(|x: NearestAnswer| answers::nearest(&x))
+    }),
     DocumentKind(&["exact", "nearest"], "Joints on holes", |f, _| {
         read(f).map(|x: RoundAnswer| answers::round(&x))
     }),

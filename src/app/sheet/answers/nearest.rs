@@ -5,12 +5,13 @@ use crate::figure::{figure, length};
 use crate::{Sheet, Table, right};
 use records::{NearestAnswer, SourceWord};
 
-/// The answer of `equivalents nearest` for a design in these units.
+/// The answer of `equivalents nearest`.
 #[must_use]
-pub fn nearest(units: &str, r: &NearestAnswer) -> Sheet {
+pub fn nearest(r: &NearestAnswer) -> Sheet {
     let mut out = Sheet::new();
     say!(out, "{}: {}", r.name, r.explanation);
     let Some(n) = &r.nearest else { return out };
+    let units = n.beside.units();
     let bracket = if units == "1" { String::new() } else { format!(" [{units}]") };
     let moves = ["base", "platform"].map(|body| right(format!("{body} joint moves{bracket}"), 0).gap(2));
     let columns = [right("leg", 3), right("side", 4).gap(2), right("offset", 11).gap(2)];

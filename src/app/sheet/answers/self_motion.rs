@@ -4,6 +4,7 @@ use super::poses::{POSE, pose as at};
 use crate::Sheet;
 use crate::figure::figure;
 use ask::MotionOrigin;
+use fk::CompletenessWord;
 use records::{MotionEvidenceWord, SelfmotionAnswer};
 
 /// The answer of `singular motion`.
@@ -73,6 +74,7 @@ pub fn self_motion(r: &SelfmotionAnswer) -> Sheet {
 fn verdict(r: &SelfmotionAnswer) -> String {
     let freedoms = |d: usize| if d == 1 { "1 freedom".to_string() } else { format!("{d} freedoms") };
     let first = r.tangent_dimension.unwrap_or(0);
+    let at = if r.start.is_some() { "at this pose" } else { "at a pose with these lengths" };
     match (r.dimension, r.evidence) {
         (Some(0), MotionEvidenceWord::FirstOrder) => format!(
             "no self-motion at this pose, proved: the six leg lines are independent (ratio of singular values {})",
@@ -91,15 +93,19 @@ fn verdict(r: &SelfmotionAnswer) -> String {
                 freedoms(first)
             )
         }
+        (Some(0), _) if r.completeness == CompletenessWord::Proved => {
+            "no self-motion with these lengths, proved: every real pose is isolated".to_string()
+        }
         (Some(0), _) => "no curve of poses with these lengths was found".to_string(),
         (Some(d), MotionEvidenceWord::ConstantRank) => format!(
-            "the platform moves at this pose with {}, proved: the leg lines have rank {} at all poses around it",
+            "the platform moves {at} with {}, proved: the leg lines have rank {} at all poses around it",
             freedoms(d),
             6 - d
         ),
         (Some(d), MotionEvidenceWord::CommonLine) => format!(
-            "the platform moves at this pose, proved: all joints of one body are on a line, and the platform turns about it; {} found, the leg lines allow {first}",
-            freedoms(d)
+            "the platform moves {at}, proved: all joints of one body are on a line, and the platform turns about it; {} found{}",
+            freedoms(d),
+            r.tangent_dimension.map_or_else(String::new, |first| format!(", the leg lines allow {first}"))
         ),
         (Some(d), MotionEvidenceWord::Traced) => {
             format!(

@@ -240,16 +240,19 @@ fn a_pivot_is_the_origin_of_a_moved_platform_frame() {
     }
 }
 
-/// A proof without time bounds hardly any cell, and is no stronger than the whole one.
+/// A proof without time samples at most one pose of the region and bounds hardly any cell. It is no stronger than the
+/// whole one.
 #[test]
 fn proofs_end_when_their_time_is_over() {
     let mut rng = Rng::new(31);
     let (m, home) = random_platform(&mut rng);
     let space = random_space(home, &mut rng, Region::Box);
     let required = everything();
-    let proved =
-        |options: AssessOptions| prove(&m, &required, &space, &options.patient_cells(400), 150).bounds;
+    let proved = |options: AssessOptions| prove(&m, &required, &space, &options.patient_cells(400), 150);
     let (whole, ended) = (proved(quick()), proved(quick().until(Some(std::time::Instant::now()))));
+    assert_eq!(ended.poses, space.listed(quick().steps).len().max(1));
+    let (whole, ended) = (whole.bounds, ended.bounds);
+    assert_eq!(whole.len(), ended.len(), "every requirement has a margin");
     let cells = |bounds: &[MarginBound]| bounds.iter().map(|b| b.cells).sum::<usize>();
     assert!(cells(&ended) < cells(&whole) / 4, "{} of {}", cells(&ended), cells(&whole));
     for (a, b) in whole.iter().zip(&ended) {

@@ -69,7 +69,8 @@ impl MarginBound {
 }
 
 /// The least margins of all kinds with their proved bounds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct MarginProof {
     /// By kind.
     pub bounds: Vec<MarginBound>,

@@ -78,7 +78,7 @@ num::written_as_word!(Target);
 
 /// The margin of a requirement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "TargetMarginRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "TargetMarginRecord", transform = num::nullable))]
 pub struct TargetMargin {
     /// The requirement.
     #[cfg_attr(feature = "serde", schemars(extend("enum" = ["spacing", "clearance", "conditioning", "reach"])))]

@@ -102,6 +102,20 @@ pub enum MotionEvidence {
 }
 
 impl PoseVerdict {
+    /// Whether the platform can leave the pose, if that is proved either way; a motion found by tracing is not.
+    #[must_use]
+    pub fn moves(&self) -> Option<bool> {
+        match self {
+            Self::Isolated { .. } => Some(false),
+            Self::Moves { evidence: MotionEvidence::ConstantRank | MotionEvidence::CommonLine, .. } => {
+                Some(true)
+            }
+            Self::Moves { evidence: MotionEvidence::Traced, .. }
+            | Self::Confined { .. }
+            | Self::Undecided => None,
+        }
+    }
+
     /// Dimension of the self-motion through the pose, if known.
     #[must_use]
     pub fn dimension(&self) -> Option<usize> {

@@ -63,7 +63,7 @@ num::words! {
 
 /// A pose on a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "MotionPointRecord", transform = num::nullable))]
 pub struct MotionPoint {
     /// The pose.
     #[cfg_attr(feature = "serde", serde(flatten, with = "platform::geom::ByQuaternion"))]
@@ -81,7 +81,7 @@ pub struct MotionPoint {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, schemars::JsonSchema),
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     schemars(rename = "CurveCrossingRecord")
 )]
 pub struct CurveCrossing {

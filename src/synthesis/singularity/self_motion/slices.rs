@@ -265,7 +265,7 @@ const OFF_CROSSING: f64 = 1e-6;
 
 /// The degree of a curve of poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, schemars::JsonSchema), schemars(rename = "CurveDegreeRecord", transform = num::nullable))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema), schemars(rename = "CurveDegreeRecord", transform = num::nullable))]
 pub struct CurveDegree {
     /// The degree; a lower bound if incomplete.
     // number of intersections of a general hyperplane with the irreducible curve through the pose

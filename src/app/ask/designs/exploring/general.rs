@@ -52,7 +52,7 @@ impl ExploredDesign {
         options.stage(2, "equivalent platforms");
         let found = &families.found;
         let moves = (found.leg_rank.value == 6 && !found.components.is_empty()).then(|| {
-            let targets = MoveTargets { no_shared_joints: true, ..MoveTargets::default() };
+            let targets = MoveTargets::default().no_shared_joints(true);
             let options = MoveSearchOptions { seed, ..MoveSearchOptions::default() };
             design.search_moves(found, &targets, &options)
         });

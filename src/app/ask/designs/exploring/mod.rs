@@ -184,6 +184,7 @@ pub struct OwnPoses {
 
 /// The reason why there are no poses.
 #[derive(Debug, Clone, PartialEq, ThisError)]
+#[non_exhaustive]
 pub enum NoOwnPoses {
     /// Neither the design nor its home pose has lengths.
     #[error("the home pose has no finite leg lengths")]

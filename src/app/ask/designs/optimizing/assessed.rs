@@ -147,7 +147,7 @@ impl Checked {
 pub struct Assessing {
     /// Seed of the search and of the sampled poses.
     pub seed: u64,
-    /// The time at which proofs end with their result so far.
+    /// The time at which samples and proofs end with their result so far.
     pub until: Option<Instant>,
 }
 
@@ -194,7 +194,7 @@ fn assessed(
 ) -> Result<Checked, VerifyError> {
     let space = problem.space.with_home(*home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
-    let options = AssessOptions::new().points(POINTS).seed(seed);
+    let options = AssessOptions::new().points(POINTS).seed(seed).until(until);
     // the platform as written, which may differ from the search result by rounding
     let platform = out.manipulator();
     let assessment = assess(platform, &requirements, &space, &options);

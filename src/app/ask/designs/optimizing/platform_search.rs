@@ -120,7 +120,8 @@ pub(crate) fn find_platform(
         return Ok(FoundPlatform::assessed(design, free, report, None, options.into())?);
     };
     let report = optimize_without_conflict(&kept, options, progress)?;
-    let symmetric = FoundPlatform::assessed(design, kept, report, Some(StartSymmetry::Kept), options.into())?;
+    let mut symmetric =
+        FoundPlatform::assessed(design, kept, report, Some(StartSymmetry::Kept), options.into())?;
     if symmetric.is_met() || symmetric.report.interrupted {
         return Ok(symmetric);
     }
@@ -131,9 +132,9 @@ pub(crate) fn find_platform(
     if other.rank() >= symmetric.rank() {
         return Ok(other);
     }
-    let interrupted = other.report.interrupted;
-    let report = DimensionalReport { interrupted, conic_programs, ..symmetric.report };
-    Ok(FoundPlatform { report, ..symmetric })
+    symmetric.report.interrupted = other.report.interrupted;
+    symmetric.report.conic_programs = conic_programs;
+    Ok(symmetric)
 }
 
 /// A Pareto front with its members assessed.
@@ -210,12 +211,10 @@ pub(crate) fn find_front(
             let conic_programs = report.conic_programs;
             let other = FoundFront::assessed(design, free, report, given_up, options.into())?;
             Ok(match symmetric {
-                Some(found) if other.members.is_empty() && !found.members.is_empty() => {
-                    let interrupted = other.report.interrupted;
-                    FoundFront {
-                        report: ParetoReport { interrupted, conic_programs, ..found.report },
-                        ..found
-                    }
+                Some(mut found) if other.members.is_empty() && !found.members.is_empty() => {
+                    found.report.interrupted = other.report.interrupted;
+                    found.report.conic_programs = conic_programs;
+                    found
                 }
                 _ => other,
             })

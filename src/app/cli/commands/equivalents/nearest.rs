@@ -41,6 +41,6 @@ pub(crate) fn run(args: &EquivalentsNearestArgs, context: &mut Context) -> Resul
     }
     // a search without success proves nothing
     let exit = if answer.nearest.is_some() { Exit::Yes } else { Exit::Inconclusive };
-    let sheet = sheet::answers::nearest(&design.units, &answer);
+    let sheet = sheet::answers::nearest(&answer);
     Ok(Answer::new(exit, answer, sheet))
 }

@@ -219,6 +219,7 @@ fn no_poses(why: &NoOwnPoses) -> Failure {
     match why {
         NoOwnPoses::NoLengths => Failure::refused("explore::no_lengths", why.to_string()),
         NoOwnPoses::Fk(why) => fk_command::failure_of(why),
+        _ => Failure::internal(why.to_string()),
     }
 }
 

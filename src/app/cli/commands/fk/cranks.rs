@@ -70,7 +70,7 @@ pub(super) fn run(
     let machine = CrankMachine { design, platform, frames, seed: context.seed() };
     let (exits, outcomes) = if let Some(start) = &args.near {
         context.no_effect("threads", "each row is followed from the row before it")?;
-        let start = poses::parse(start, &frames, "--near", "fk::bad_pose")?;
+        let start = poses::parse(start, &frames, ("--near", "fk::bad_pose"), context)?;
         machine.follow(&series.rows, &start)?
     } else {
         if one {

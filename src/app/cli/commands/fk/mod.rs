@@ -102,7 +102,7 @@ pub(crate) fn run(args: &FkArgs, context: &mut Context) -> Result<Answer, Failur
     if let Some(text) = &args.near {
         context.no_effect("threads", "each row is followed from the row before it")?;
         context.no_effect("proof", "a proof is for the whole list of poses")?;
-        let start = poses::parse(text, &frames, "--near", "fk::bad_pose")?;
+        let start = poses::parse(text, &frames, ("--near", "fk::bad_pose"), context)?;
         if let Some(legs) = Context::coupled_of(&design)? {
             return Ok(drives::run(&design, legs, &given, start, context.seed(), &table));
         }

@@ -5,7 +5,7 @@ use super::{PoseTable, answered};
 use crate::app::cli::{Answer, Exit};
 use ask::{Design, PoseFrames};
 use fk::solve::certify::{Certifier, ProvedReality, RootCertificate};
-use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet};
+use fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason};
 use platform::geom::{ComplexPose, Pose};
 use platform::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
 use records::{
@@ -145,29 +145,12 @@ pub(super) fn record_with(
             Some(ProvedReality::NonReal) => Reality::NonReal,
             Some(ProvedReality::Undecided) | None => Reality::Undecided,
         };
-        FkRoot {
-            pose,
-            reality,
-            certificate: certificate.map(RootCertificate::Study),
-            multiplicity: 1,
-            residual: pose.residual(m, &s),
-            condition,
-            dual_quaternion: None,
-        }
+        let mut root = FkRoot::new(pose, reality, pose.residual(m, &s), condition);
+        root.certificate = certificate.map(RootCertificate::Study);
+        root
     });
-    let tracked = root.is_some();
-    let solutions = FkSolutions {
-        method: Method::Near,
-        roots: root.into_iter().collect(),
-        solution_set: SolutionSet::Isolated,
-        completeness: Completeness::unproved([Reason::OnePoseFollowed { found: tracked }]),
-        paths: Vec::new(),
-        rejected: Vec::new(),
-        pose_count: None,
-        library_calls: Vec::new(),
-        unproved: Vec::new(),
-        seed,
-    };
+    let followed = Completeness::unproved([Reason::OnePoseFollowed { found: root.is_some() }]);
+    let solutions = FkSolutions::new(Method::Near, root.into_iter().collect(), followed, seed);
     FkOneAnswer {
         near: Some(NearRecord::new(start, outcome, conditioning(machine, outcome))),
         ..SolvedRecord::from(&solutions).with_real_poses(m, &machine.frames).into()

@@ -2,7 +2,7 @@
 
 use fk::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Reason, Rejected,
-    RejectionReason, SolutionSet,
+    RejectionReason,
 };
 use nalgebra::{Rotation3, Vector3};
 use platform::geom::{ComplexPose, Pose};
@@ -13,37 +13,17 @@ use crate::app::cli::failure::Failure;
 
 fn solutions(condition: f64) -> FkSolutions {
     let pose = Pose { rotation: Rotation3::identity(), position: Vector3::new(1.0, 2.0, 0.1 + 0.2) };
-    let root = |reality| FkRoot {
-        pose: ComplexPose::from(pose),
-        reality,
-        certificate: None,
-        multiplicity: 2,
-        residual: 1e-15,
-        condition,
-        dual_quaternion: None,
+    let root = |reality| {
+        let mut root = FkRoot::new(ComplexPose::from(pose), reality, 1e-15, condition);
+        root.multiplicity = 2;
+        root
     };
-    FkSolutions {
-        method: Method::Homotopy,
-        roots: [Reality::Real, Reality::Undecided, Reality::NonReal].map(root).to_vec(),
-        solution_set: SolutionSet::Isolated,
-        completeness: Completeness::unproved([Reason::LegsNearlyDependent]),
-        paths: vec![PathReport {
-            start: 3,
-            end: PathEnd::AtInfinity,
-            root: None,
-            mirror_root: None,
-            steps: 9,
-            rejections: 1,
-            winding: 0,
-            isotropy: 0.5,
-            retracked: 0,
-        }],
-        rejected: vec![Rejected { reason: RejectionReason::Duplicate, residual: 0.0 }],
-        pose_count: None,
-        library_calls: Vec::new(),
-        unproved: Vec::new(),
-        seed: 7,
-    }
+    let roots = [Reality::Real, Reality::Undecided, Reality::NonReal].map(root).to_vec();
+    let unproved = Completeness::unproved([Reason::LegsNearlyDependent]);
+    let mut solutions = FkSolutions::new(Method::Homotopy, roots, unproved, 7);
+    solutions.paths = vec![PathReport::new(3, PathEnd::AtInfinity)];
+    solutions.rejected = vec![Rejected { reason: RejectionReason::Duplicate, residual: 0.0 }];
+    solutions
 }
 
 #[test]

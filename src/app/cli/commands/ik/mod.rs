@@ -42,7 +42,7 @@ pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failur
     let frames = args.frames.of(&design);
     let (mut series, one) = match &args.poses {
         Some(path) => (rows::poses(path, BAD_POSE, (&frames, &design.units), context)?, false),
-        None => (named(&args.pose, &frames)?, args.pose.len() < 2),
+        None => (named(&args.pose, &frames, context)?, args.pose.len() < 2),
     };
     if args.poses.is_none() {
         series.frames = frames.convention;
@@ -90,8 +90,8 @@ pub(crate) fn run(args: &IkArgs, context: &mut Context) -> Result<Answer, Failur
 }
 
 /// The poses of the options; home if there are none.
-fn named(texts: &[String], frames: &PoseFrames) -> Result<TimeSeries<Pose>, Failure> {
-    let pose = |text: &String| poses::parse(text, frames, "--pose", BAD_POSE);
+fn named(texts: &[String], frames: &PoseFrames, context: &Context) -> Result<TimeSeries<Pose>, Failure> {
+    let pose = |text: &String| poses::parse(text, frames, ("--pose", BAD_POSE), context);
     let mut all = texts.iter().map(pose).collect::<Result<Vec<_>, _>>()?;
     if all.is_empty() {
         all.push(frames.home);

@@ -116,7 +116,7 @@ impl<'a> ChosenMotions<'a> {
             );
             out.push((files::shown(path), motion));
         }
-        let about = about(self.about, &frames)?;
+        let about = about(self.about, &frames, context)?;
         for (name, manoeuvre) in manoeuvres(self.sine, self.accelerate, "motion::bad_manoeuvre")? {
             let samples = if matches!(manoeuvre, Manoeuvre::Sine { .. }) { self.samples as usize } else { 1 };
             out.push((name, PlatformMotion::Manoeuvre(manoeuvre, about, samples)));
@@ -170,7 +170,7 @@ pub(crate) fn run(args: &MotionArgs, context: &mut Context) -> Result<Answer, Fa
     let masses = masses(args, &design)?;
     let found: Vec<(String, MotionReport)> =
         motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();
-    let stiffness = stiffness(args, &design, masses.as_ref())?;
+    let stiffness = stiffness(args, &design, masses.as_ref(), context)?;
     if let Some(path) = &args.csv {
         files::write_text(path, &render::csv(&design, &args.frames.of(&design), &found))?;
     }
@@ -218,8 +218,8 @@ fn refuse_without_effect(args: &MotionArgs, design: &Design, context: &Context) 
     Ok(())
 }
 
-fn about(text: &str, frames: &PoseFrames) -> Result<Pose, Failure> {
-    poses::parse(text, frames, "--about", "motion::bad_pose")
+fn about(text: &str, frames: &PoseFrames, context: &Context) -> Result<Pose, Failure> {
+    poses::parse(text, frames, ("--about", "motion::bad_pose"), context)
 }
 
 /// The stiffness at the requested pose.
@@ -227,6 +227,7 @@ fn stiffness(
     args: &MotionArgs,
     design: &Design,
     masses: Option<&MotionMasses>,
+    context: &Context,
 ) -> Result<Option<StiffnessRecord>, Failure> {
     if !args.stiffness {
         return Ok(None);
@@ -237,11 +238,11 @@ fn stiffness(
             "leave out --stiffness; `equipod ik` gives the torques that hold the loads at a pose",
         ));
     }
-    let found =
-        design.stiffness_at(&about(&args.about, &args.frames.of(design))?, masses).ok_or_else(|| {
-            Failure::refused("motion::no_stiffness", "the design has no stiffness of its legs")
-                .with_help("add `leg_stiffness` to [hardware], in force units per design unit")
-        })?;
+    let about = about(&args.about, &args.frames.of(design), context)?;
+    let found = design.stiffness_at(&about, masses).ok_or_else(|| {
+        Failure::refused("motion::no_stiffness", "the design has no stiffness of its legs")
+            .with_help("add `leg_stiffness` to [hardware], in force units per design unit")
+    })?;
     Ok(Some(StiffnessRecord::new(&found)))
 }
 

@@ -103,7 +103,7 @@ impl Figure {
             Self::SingularPoses { design, pose, slice } => {
                 let design = context.load(design)?;
                 let frames = design.pose_frames(PoseConvention::default());
-                let pose = poses::parse(pose, &frames, "--pose", "plot::bad_pose")?;
+                let pose = poses::parse(pose, &frames, ("--pose", "plot::bad_pose"), context)?;
                 // the picture needs only the shape of the box
                 let options = design.box_options(0, seed);
                 let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);

@@ -25,8 +25,12 @@ pub(super) struct PlotPairArgs {
 
 pub(super) fn draw(args: &PlotPairArgs, context: &mut Context) -> Result<String, Failure> {
     let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
-    let pose =
-        poses::parse(&args.pose, &a.pose_frames(PoseConvention::default()), "--pose", "plot::bad_pose")?;
+    let pose = poses::parse(
+        &args.pose,
+        &a.pose_frames(PoseConvention::default()),
+        ("--pose", "plot::bad_pose"),
+        context,
+    )?;
     let found = decide_map(a.manipulator(), b.manipulator()).map_err(|e| Failure::internal(e.to_string()))?;
     let between = match found.relation {
         Relation::Equivalent => {

@@ -43,8 +43,12 @@ fn half_widths(text: &str) -> Result<[f64; 2], String> {
 pub(super) fn draw(args: &PlotWorkspaceArgs, context: &mut Context) -> Result<String, Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
-    let pose =
-        poses::parse(&args.pose, &design.pose_frames(PoseConvention::default()), "--pose", "plot::bad_pose")?;
+    let pose = poses::parse(
+        &args.pose,
+        &design.pose_frames(PoseConvention::default()),
+        ("--pose", "plot::bad_pose"),
+        context,
+    )?;
     let default = || args.slice.places().map(|k| if k < 3 { m.size() } else { DEGREES });
     let grid = PoseGrid {
         freedoms: args.slice,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::app::cli::exact_pose;
 use crate::app::cli::frames::{FrameArgs, note_frames};
 use crate::app::cli::numbers;
+use crate::app::cli::poses;
 use crate::app::cli::{Answer, Context, Exit, Failure};
 use num::surd::Surd;
 use records::SingularLocusAnswer;
@@ -36,6 +37,7 @@ pub(crate) fn run(args: &SingularLocusArgs, context: &mut Context) -> Result<Ans
     let frames = args.frames.of(&design);
     let pose = exact_pose::read(&args.pose, (&design, &frames), "--pose", "locus::bad_pose")?;
     note_frames(&frames, context);
+    poses::note_order(&args.pose, &frames, "--pose", context);
     let family = match (&args.along, &args.about) {
         (Some(text), _) => PoseFamily::Line(direction(text, "--along")?),
         (None, Some(text)) => PoseFamily::Rotation(direction(text, "--about")?),

@@ -77,16 +77,15 @@ impl TargetArgs {
         for text in &self.joint {
             holes.push(joint(text, design)?);
         }
-        Ok(MoveTargets {
-            no_shared_joints: self.no_shared_joints,
-            no_crossing: self.no_crossing,
-            clearance: Length::of_option(self.clearance.as_ref(), &design.units)?,
-            holes,
-            spacing: Length::of_option(self.spacing.as_ref(), &design.units)?,
-            conditioning: self.conditioning,
-            reach: self.reach,
-            workspace: self.workspace,
-        })
+        Ok(MoveTargets::default()
+            .no_shared_joints(self.no_shared_joints)
+            .no_crossing(self.no_crossing)
+            .clearance(Length::of_option(self.clearance.as_ref(), &design.units)?)
+            .holes(holes)
+            .spacing(Length::of_option(self.spacing.as_ref(), &design.units)?)
+            .conditioning(self.conditioning)
+            .reach(self.reach)
+            .workspace(self.workspace))
     }
 
     pub(in crate::app::cli::commands) fn options(&self, seed: u64) -> MoveSearchOptions {

@@ -76,7 +76,8 @@ pub(in crate::app::cli::commands) fn drawing(
 fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, SelfMotionReport), Failure> {
     let design = context.load(&args.design)?;
     let motion = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
-    let options = SelfMotionOptions::new(start(args, &design)?).sections(args.sections).motion(motion);
+    let options =
+        SelfMotionOptions::new(start(args, &design, context)?).sections(args.sections).motion(motion);
     let found = design.self_motions(&options).map_err(|why| failure(&why))?;
     Ok((design, found))
 }
@@ -94,13 +95,14 @@ fn failure(why: &NoSelfMotion) -> Failure {
 }
 
 /// The pose or the leg lengths.
-fn start(args: &CurveQuestion, design: &Design) -> Result<MotionStart, Failure> {
+fn start(args: &CurveQuestion, design: &Design, context: &Context) -> Result<MotionStart, Failure> {
     if let Some(text) = &args.lengths {
         let bad = |message: String| Failure::refused("motion::bad_lengths", format!("--lengths: {message}"));
         let lengths = six(text, &design.leg_offsets(), &design.units).map_err(bad)?;
         return Ok(MotionStart::Lengths(lengths.distances.squared()));
     }
-    poses::parse(&args.pose, &args.frames.of(design), "--pose", "motion::bad_pose").map(MotionStart::Pose)
+    let frames = args.frames.of(design);
+    poses::parse(&args.pose, &frames, ("--pose", "motion::bad_pose"), context).map(MotionStart::Pose)
 }
 
 /// The longest curve, animated.

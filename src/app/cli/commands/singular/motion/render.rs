@@ -17,13 +17,14 @@ pub(super) fn answer(design: &Design, found: &SelfMotionReport, degrees: &[Optio
     let motion = &found.motion;
     let critical = found.critical.as_ref();
     let curves = motion.curves.iter().zip(degrees);
-    // with lengths alone the first pose is one of several
+    // with lengths alone the first pose is one of several, and matters only if it proves a motion
     let at = motion.at_pose.as_ref().filter(|_| found.start.is_some());
+    let proof = motion.at_pose.as_ref().filter(|_| found.start.is_some() || found.moves() == Some(true));
     let record = SelfmotionAnswer {
         name: design.name.clone(),
         units: design.units.clone(),
         dimension: found.dimension,
-        evidence: at.map_or(MotionEvidenceWord::Sections, |at| at.verdict.into()),
+        evidence: proof.map_or(MotionEvidenceWord::Sections, |at| at.verdict.into()),
         tangent_dimension: at.map(|at| at.tangent_dimension),
         isolated: at.and_then(|at| IsolatedRecord::of(at.verdict)),
         start: found.start.as_ref().map(PoseQuaternionRecord::from),
@@ -31,7 +32,7 @@ pub(super) fn answer(design: &Design, found: &SelfMotionReport, degrees: &[Optio
         singular_values: motion.singular_values.map(Number),
         further_starts: further(found),
         real_poses: found.real_poses.iter().map(PoseQuaternionRecord::from).collect(),
-        completeness: CompletenessWord::Unproved,
+        completeness: if found.isolated { CompletenessWord::Proved } else { CompletenessWord::Unproved },
         components_accounted: found.accounted,
         complex_components: critical.map(|c| c.components.clone()),
         critical_points: critical.map(CriticalPointsRecord::from),

@@ -75,7 +75,7 @@ struct SingularPoses {
 pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let frames = args.frames.of(&design);
-    let pose = poses::parse(&args.pose, &frames, "--pose", "poses::bad_pose")?;
+    let pose = poses::parse(&args.pose, &frames, ("--pose", "poses::bad_pose"), context)?;
     note_frames(&frames, context);
     let lengths = match &args.lengths {
         Some(text) => {
@@ -101,7 +101,7 @@ pub(crate) fn run(args: &SingularPosesArgs, context: &mut Context) -> Result<Ans
         let figure = slice::figure(&design, args.slice, &pose, &report.options);
         files::write_text(path, &singular_slice(&figure))?;
     }
-    let path = paths::path(args, &design, &report)?;
+    let path = paths::path(args, &design, &report, context)?;
     let joins = JoinOptions { samples: args.samples, seed };
     let between = args.between.then(|| report.between(&design, &joins));
     let found = SingularPoses { report, of_the_design: args.shape.is_none(), path, between };

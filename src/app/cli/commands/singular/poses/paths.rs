@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::SingularPosesArgs;
 use crate::app::cli::poses;
-use crate::app::cli::{Failure, files};
+use crate::app::cli::{Context, Failure, files};
 use ::files::plot::{AlongFigure, AlongPart, sign_along};
 use ask::{Design, PoseFrames, SignPath, SignsBetween, SingularPosesReport};
 use platform::geom::Pose;
@@ -24,13 +24,15 @@ pub(super) fn path(
     args: &SingularPosesArgs,
     design: &Design,
     report: &SingularPosesReport,
+    context: &Context,
 ) -> Result<Option<SignPath>, Failure> {
     let Some(text) = &args.path else { return Ok(None) };
     let numbers =
         text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
     let ends = numbers.ok_or_else(|| refuse(format!("--path: `{text}` is not two numbers")))?;
     let frames = args.frames.of(design);
-    let via = args.via.iter().map(|text| poses::parse(text, &frames, "--via", "poses::bad_pose"));
+    let of = ("--via", "poses::bad_pose");
+    let via = args.via.iter().map(|text| poses::parse(text, &frames, of, context));
     let via: Vec<Pose> = via.collect::<Result<_, _>>()?;
     let path = report.path(design, ends, &via).map_err(|k| {
         refuse(format!("--path: there is no assembly mode {k}, there are {}", report.modes.len()))
