@@ -1188,7 +1188,7 @@ class Cell:
         """Their slopes along w: 2 w_k (C_1' w x v + C_2' w x (w x v)) + C_1 e_k x v + C_2 (e_k (w.v) + w v_k - 2 w_k v)."""
         w, (first, second), grown = self.w, self.factors, [stumpff(k, 1, self.turn) for k in (1, 2)]
         growth = [grown[0] * b + grown[1] * c for b, c in zip(real_cross(w, v), apply(self.twice, v))]
-        spun, slopes = [first * x for x in v], []
+        spun, slopes = [first * x for x in v], list[Vector]()
         for k in range(3):
             i, j, two, slope = (k + 1) % 3, (k + 2) % 3, w[k] + w[k], [ZERO] * 3
             slope[k] = two * growth[k] + second * (w[i] * v[i] + w[j] * v[j])
