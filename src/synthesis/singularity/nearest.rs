@@ -370,6 +370,7 @@ mod tests {
     use super::*;
     use nalgebra::Rotation3;
     use num::Rng;
+    use platform::geom::random_rotation;
     use platform::manipulator::Leg;
 
     /// A Griffis-Duffy platform with `prod t_i = prod (1 - t_i)`, rotated and moved in general.
@@ -419,6 +420,77 @@ mod tests {
             let m = rounded(&exact, &decimals(usize::try_from(count).unwrap()));
             let meant = rounded_singular(&m).unwrap().unwrap();
             assert!(meant.within_rounding || meant.within_digits == Some(half_unit(count)), "{count}");
+        }
+    }
+
+    /// Leg ends of singular designs by kind, with general numbers.
+    fn of_kind(kind: &str, rng: &mut Rng) -> [Leg; 6] {
+        let mut point = || Vector3::from_fn(|_, _| rng.uniform(-90.0, 90.0));
+        let (mut a, mut b) = ([0; 6].map(|_| point()), [0; 6].map(|_| point()));
+        let (o, p, d, e) = (point(), point(), point(), point());
+        let t = [-0.9, -0.4, 0.1, 0.35, 0.7, 1.1].map(|t| t + 0.001 * o.x);
+        match kind {
+            "all_collinear" => b = t.map(|t| p + e * t),
+            "point_line" => (0..3).for_each(|k| (a[k], b[k]) = (o, p + e * t[k])),
+            "star_and_pencil" => {
+                (0..3).for_each(|k| a[k] = o);
+                (a[3], a[4], b[4]) = (o + d * t[0], o + d * t[4], b[3]);
+            }
+            "five_between_lines" => (0..5).for_each(|k| (a[k], b[k]) = (o + d * t[k], p + e * t[(k * k + 1) % 6])),
+            "four_paired" => (0..4).for_each(|k| {
+                (a[k], b[k]) = (o + d * t[k], p + e * ((3.0 * t[k] + 0.2) / (t[k] + 2.5)));
+            }),
+            "line_plane" => (0..5).for_each(|k| {
+                let w = 1.0 + 0.4 * t[k] * t[k];
+                (a[k], b[k]) = (o + d * t[k], p + e * (t[k] / w) + d * (t[k] * t[k] / w));
+            }),
+            _ => {
+                // projective images of points on an ellipse, similar ones on a circle
+                let circle = kind == "similar_circles";
+                for (k, t) in t.into_iter().enumerate() {
+                    let (sin, cos) = (3.0 * t).sin_cos();
+                    a[k] = Vector3::new(90.0 * cos, if circle { 90.0 } else { 60.0 } * sin, 0.0);
+                    let w = if circle { 1.0 } else { 1.0 + 0.002 * a[k].x };
+                    b[k] = Vector3::new(0.6 * a[k].x, 0.6 * a[k].y, 0.0) / w;
+                }
+            }
+        }
+        std::array::from_fn(|k| Leg { base: Point3::from(a[k]), platform: Point3::from(b[k]) })
+    }
+
+    /// The same legs in other frames and another unit.
+    fn moved(legs: &[Leg; 6], rng: &mut Rng) -> [Leg; 6] {
+        let scale = 10f64.powf(rng.uniform(-2.0, 3.0));
+        let mut frame = || (random_rotation(rng), Vector3::from_fn(|_, _| rng.uniform(-150.0, 150.0)));
+        let frames = [frame(), frame()];
+        let at = |p: &Point3<f64>, (turn, shift): &(Rotation3<f64>, Vector3<f64>)| {
+            Point3::from((turn * p.coords + shift) * scale)
+        };
+        legs.each_ref().map(|l| Leg { base: at(&l.base, &frames[0]), platform: at(&l.platform, &frames[1]) })
+    }
+
+    const KINDS: [&str; 8] = [
+        "all_collinear",
+        "point_line",
+        "star_and_pencil",
+        "five_between_lines",
+        "four_paired",
+        "line_plane",
+        "similar_circles",
+        "conic",
+    ];
+
+    /// Rounded coordinates of joints on a line are not on one. The line through them that changes all coordinates by
+    /// half a unit at most is not that of the least squares.
+    #[test]
+    fn every_kind_is_recognised_behind_its_digits_in_any_frame() {
+        let mut rng = Rng::new(8);
+        for (k, kind) in KINDS.into_iter().cycle().take(24).enumerate() {
+            let legs = moved(&of_kind(kind, &mut rng), &mut rng);
+            let digits = [6, 9, 12][k / KINDS.len()];
+            let m = rounded(&legs, &significant(digits));
+            let meant = rounded_singular(&m).unwrap();
+            assert!(meant.is_some_and(|n| n.may_be_meant()), "{kind}, {digits} digits, case {k}");
         }
     }
 
