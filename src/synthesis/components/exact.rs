@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn lines_of_partners_are_bounded_around_each_joint() {
         let all = [0, 1, 2, 3, 4, 5];
-        let general = [[0., 0., 0.], [1., 0., 2.], [3., 5., 1.], [2., 7., 4.], [9., 1., 3.], [4., 4., 8.]];
+        let general = [[0., 0., 0.], [1., 0., 2.], [3., 5., 1.], [2., 7., 4.], [9., 1., 3.], [4., 4., 9.]];
         let six = two_lines(general);
         // off the line of the first three joints three platform joints remain, of rank 3
         assert_eq!(doubtful_lines(&six, Body::Base, &all, 0), Some(vec![1, 2]));
