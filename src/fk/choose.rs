@@ -72,11 +72,7 @@ impl ForwardKinematics for Automatic {
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let few = || class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
         let by_trilateration = || {
-            if few() {
-                Trilateration::default().prepared(m).ok().map(Box::new)
-            } else {
-                None
-            }
+            if few() { Trilateration::default().prepared(m).ok().map(Box::new) } else { None }
         };
         let by_octic = OcticSolver::new(m).ok().map(|solver| QuickDesign::Octic(Box::new(solver)));
         let by_distances = by_octic.or_else(|| Some(QuickDesign::Trilateration(by_trilateration()?)));

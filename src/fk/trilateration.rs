@@ -380,7 +380,7 @@ mod tests {
     fn joints_in_one_place_are_merged_at_every_door() {
         let (o, method) = (FkOptions::default(), Trilateration::default());
         let s = SquaredLegLengths::try_new([3.1, 2.9, 3.3, 2.7, 3.0, 3.2]).unwrap();
-        for number in [7, 31] {
+        for number in [7, 6] {
             let m = member(number);
             let legs = m.legs();
             let apart = Manipulator::from_legs(legs).unwrap();

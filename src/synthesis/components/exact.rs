@@ -70,7 +70,8 @@ pub(super) fn only_crossings(six: &ExactLegs, body: Body, legs: &[usize]) -> boo
     let around: Vec<(usize, Vec<usize>)> =
         legs.iter().filter_map(|joint| Some((*joint, doubtful_lines(six, body, legs, *joint)?))).collect();
     around.iter().any(|(joint, lines)| {
-        let misses = |line: &usize| around.iter().any(|(q, _)| !collinear([*joint, *line, *q].map(|k| &ends[k])));
+        let misses =
+            |line: &usize| around.iter().any(|(q, _)| !collinear([*joint, *line, *q].map(|k| &ends[k])));
         lines.iter().all(misses)
     })
 }
@@ -87,7 +88,8 @@ fn doubtful_lines(six: &ExactLegs, body: Body, legs: &[usize], joint: usize) -> 
     }));
     let apart = rank(&rows) - 4;
     let at_most = |on: &dyn Fn(usize) -> bool| {
-        let off: Vec<AlgebraicVector> = legs.iter().filter(|k| !on(**k)).map(|k| others[*k].clone()).collect();
+        let off: Vec<AlgebraicVector> =
+            legs.iter().filter(|k| !on(**k)).map(|k| others[*k].clone()).collect();
         apart - if off.is_empty() { 0 } else { rank(&off) }
     };
     let here = |k: usize| ends[k] == ends[joint];

@@ -143,8 +143,7 @@ fn legs_at_one_point_leave_nothing_undecided() {
     for (k, t) in [(3, 1.5), (4, -0.75)] {
         star[k] = Leg { base: star[0].base + direction * t, platform: star[5].platform + direction };
     }
-    let exchanged =
-        |legs: [Leg; 6]| legs.map(|leg| Leg { base: leg.platform, platform: leg.base });
+    let exchanged = |legs: [Leg; 6]| legs.map(|leg| Leg { base: leg.platform, platform: leg.base });
     for (legs, count) in [(four, 13), (exchanged(four), 13), (star, 10), (exchanged(star), 10)] {
         let c = found(&legs);
         assert!(c.doubts.is_empty(), "{:?}", c.doubts);

@@ -62,7 +62,8 @@ impl JointFamily {
     /// The least change into the family: points that must coincide move to their centroid, points that must be
     /// collinear move to the line through their centroid along the principal axis.
     pub(super) fn nearest(&self, m: &Manipulator) -> Change {
-        self.changed(m, |condition| Some(condition.nearest(m.joints(condition.body)))).unwrap_or_else(|| self.still(m))
+        self.changed(m, |condition| Some(condition.nearest(m.joints(condition.body))))
+            .unwrap_or_else(|| self.still(m))
     }
 
     /// A change into the family with no coordinate beyond its unit, if one is found.
@@ -118,7 +119,8 @@ fn stars_and_pencils(
     rest: &[usize],
 ) -> Vec<(Vec<usize>, Vec<Condition>)> {
     let at_star = joints(m, body, star);
-    let pairs = rest.iter().map(|skipped| rest.iter().copied().filter(|i| i != skipped).collect::<Vec<usize>>());
+    let pairs =
+        rest.iter().map(|skipped| rest.iter().copied().filter(|i| i != skipped).collect::<Vec<usize>>());
     // with a leg of the pair at the star it is four legs at one point, another family
     let apart = pairs.filter(|pair| joints(m, body, pair).iter().all(|joint| !at_star.contains(joint)));
     apart
@@ -161,8 +163,7 @@ impl Condition {
         };
         let weight: f64 = self.groups.iter().map(|g| g.len() as f64).sum();
         let mean = self.groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
-        let term =
-            |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
+        let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
         let scatter: Matrix3<f64> = self.groups.iter().map(term).sum();
         let (values, vectors) = symmetric_eigen3(&scatter);
         let axis = vectors.column(values.imax()).into_owned();

@@ -42,9 +42,7 @@ pub(super) const CORNERS: usize = 64;
 pub(super) type AtCorners = [Real; CORNERS];
 
 /// Numbers of the determinants: balls for proofs, doubles to see whether a proof is likely.
-pub(super) trait Entry:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
+pub(super) trait Entry: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     const ZERO: Self;
     fn of(ball: Real) -> Self;
     fn ball(self) -> Real;
@@ -117,11 +115,7 @@ fn triples() -> [(Triple, Triple, bool); 20] {
 type Row<T> = [T; 6];
 
 /// The twenty determinants of three rows, on the columns of the first (or second) member of each pair of triples.
-fn minors<T: Entry>(
-    rows: [&Row<T>; 3],
-    triples: &[(Triple, Triple, bool); 20],
-    second: bool,
-) -> [T; 20] {
+fn minors<T: Entry>(rows: [&Row<T>; 3], triples: &[(Triple, Triple, bool); 20], second: bool) -> [T; 20] {
     let mut out = [T::ZERO; 20];
     for (value, (first, rest, _)) in out.iter_mut().zip(triples) {
         let [a, b, c] = if second { *rest } else { *first };
@@ -150,7 +144,12 @@ struct Half<T> {
 }
 
 impl<T: Entry> Half<T> {
-    fn new(ends: &[[Row<T>; 2]; 6], y: &Row<T>, triples: &[(Triple, Triple, bool); 20], second: bool) -> Self {
+    fn new(
+        ends: &[[Row<T>; 2]; 6],
+        y: &Row<T>,
+        triples: &[(Triple, Triple, bool); 20],
+        second: bool,
+    ) -> Self {
         let first = if second { 3 } else { 0 };
         let rows =
             |corner: usize| -> [&Row<T>; 3] { std::array::from_fn(|k| &ends[first + k][corner >> k & 1]) };

@@ -341,9 +341,9 @@ fn test(
         }
         let worst = &found[..found.len().min(at_all_corners)];
         let in_doubles = |(k, d): &(usize, Direction)| {
-            *estimates.entry(*k).or_insert_with(|| {
-                at_corners::<f64>(&poses[*k].rows, d.vectors.as_ref()?, bounds, limit)
-            })
+            *estimates
+                .entry(*k)
+                .or_insert_with(|| at_corners::<f64>(&poses[*k].rows, d.vectors.as_ref()?, bounds, limit))
         };
         let likely: Vec<AtCorners> = worst.iter().filter_map(in_doubles).collect();
         let in_balls = |(k, d): &(usize, Direction)| {
