@@ -260,7 +260,7 @@ impl FamilySearch<'_> {
 
     /// Points of a plane with a whole line of partners that are not joints. They are intersections of lines through
     /// joints, and further common zeros of the minors of order 3. The dimension of the cubics through them proves that
-    /// there are no others. Where several of them coincide, an exact bound on partners can prove it.
+    /// there are no others. An exact bound on partners can prove it if several of them coincide.
     fn isolated_points(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
         let conditions = super::planes::conditions(view, &mut self.rng)?;

@@ -285,8 +285,8 @@ impl NearestProblem {
     }
 }
 
-/// Follows one start; `None` if it does not converge to a design with a relation. With `scales`, changes are measured in
-/// those of their coordinates, and coordinates without a scale stay.
+/// Follows one start; `None` if it does not converge to a design with a relation. With `scales`, every coordinate is
+/// measured in its own, and coordinates without a scale stay.
 fn project(m: &Manipulator, start: &UnitCoefficients, scales: Option<&DigitUnits>) -> Option<Change> {
     let problem = NearestProblem::of(m);
     let weights = problem.weights(scales);
