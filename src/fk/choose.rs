@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::bounds::class_bound;
-use super::trilateration::Prepared as PreparedTrilateration;
+use super::trilateration::{Evaluation, Prepared as PreparedTrilateration};
 use super::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, OcticSolver,
     PreparedDesign, SolutionSet, Trilateration,
@@ -55,27 +55,24 @@ impl ForwardKinematics for Automatic {
         if class_bound(m).is_none_or(|t| t.bound() > FEW_POSES) {
             return Homotopy.solve(m, s, o);
         }
-        let trilateration = Trilateration::default();
-        if let Some(found) = trilateration.proved(m, s, o) {
-            return Ok(found);
-        }
+        let evaluated = match Trilateration::default().evaluate(m, s, o).map(Evaluation::proved) {
+            Ok(Ok(found)) => return Ok(found),
+            Ok(Err(unproved)) => Some(unproved),
+            Err(_) => None,
+        };
         let found = Homotopy.solve(m, s, o)?;
         if found.is_complete() || found.solution_set != SolutionSet::Isolated {
             return Ok(found);
         }
         // the exact polynomial may take many times as long as the paths
-        let exact = trilateration.solve(m, s, o).ok().filter(FkSolutions::is_complete);
+        let exact = evaluated.and_then(|e| e.finished(m, s, o).ok()).filter(FkSolutions::is_complete);
         Ok(exact.unwrap_or(found))
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let few = || class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
         let by_trilateration = || {
-            if few() {
-                Trilateration::default().prepared(&m.with_merged_joints()).ok().map(Box::new)
-            } else {
-                None
-            }
+            if few() { Trilateration::default().prepared(m).ok().map(Box::new) } else { None }
         };
         let by_octic = OcticSolver::new(m).ok().map(|solver| QuickDesign::Octic(Box::new(solver)));
         let by_distances = by_octic.or_else(|| Some(QuickDesign::Trilateration(by_trilateration()?)));

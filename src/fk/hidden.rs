@@ -17,12 +17,13 @@ const BUDGET: usize = 150_000;
 /// All poses of a design that needs two or three virtual legs, `None` for others.
 ///
 /// Complete only when as many distinct poses are certified as the topology can have; those that several ways find count
-/// together.
+/// together. Joints in one place are one joint.
 pub(super) fn solve(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Option<Result<FkSolutions, FkError>> {
+    let m = &m.with_merged_joints();
     let hidden = HiddenLengths::of(m)?;
     let most = WAYS.iter().find(|w| w.0 == hidden.virtual_legs()).map_or(1, |w| w.1);
     let theorem = class_bound(m).unwrap_or(Theorem::SixLegs);

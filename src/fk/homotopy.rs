@@ -86,12 +86,15 @@ fn attempts(
     let next = u64::from(planar.is_none());
     let mut plans = VecDeque::from([planar.unwrap_or_else(|| whole(0, false))]);
     let mut quick = None;
+    // roots that doubles cannot certify, of any attempt: more bits certify each of them beside a motion too
+    let mut uncertified = None;
     while let Some((problem, attempt)) = plans.pop_front() {
         let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
         let (mut found, certificates) = problem.solve(m, s, o, seed)?;
         attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
+        uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone()).or(uncertified);
         if found.completeness.is_proved() || surroundings.conclude(&mut found, s, o.pose_count)? {
-            return Ok(found);
+            return Ok(moving_within_rounding(uncertified, m, s, count, o).unwrap_or(found));
         }
         let quick = *quick.get_or_insert_with(|| {
             // poses that doubles cannot see are asked for by the count, and by the proof next to affine hexagons
@@ -104,11 +107,10 @@ fn attempts(
         if count.is_none() {
             count = counted(m, s, o);
         }
-        let uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone());
         let verdict = count.as_ref().map_or(Ok(CountVerdict::Silent), |c| compare(&mut found, c))?;
         match verdict {
             CountVerdict::Complete => {
-                return Ok(moving_within_rounding(uncertified, m, s, count).unwrap_or(found));
+                return Ok(moving_within_rounding(uncertified, m, s, count, o).unwrap_or(found));
             }
             CountVerdict::PositiveDimensional { dimension } => {
                 return positive_dimensional(found, m, s, o, &frame, dimension);
@@ -148,15 +150,20 @@ fn moving_within_rounding(
     m: &Manipulator,
     s: &SquaredLegLengths,
     count: Option<PoseCount>,
+    o: &FkOptions,
 ) -> Option<FkSolutions> {
     let mut found = found?;
     detect_curves(&mut found, m, s);
+    if !matches!(found.solution_set, SolutionSet::PositiveDimensional { .. }) {
+        return None;
+    }
     set_unproved_apart(&mut found);
+    let count = count.or_else(|| counted(m, s, o));
     if let Some(count) = &count {
         found.completeness.learn(set_counted(count, false));
     }
     found.pose_count = count;
-    matches!(found.solution_set, SolutionSet::PositiveDimensional { .. }).then_some(found)
+    Some(found)
 }
 
 /// Failed paths, each counted once for every pose it stands for.

@@ -71,39 +71,42 @@ impl Trilateration {
         })
     }
 
-    /// The answer if evaluations in floating point prove it, without the exact polynomial.
-    pub(super) fn proved(
+    /// Makes all evaluations in floating point, without the exact polynomial.
+    pub(super) fn evaluate(
         &self,
         m: &Manipulator,
         s: &SquaredLegLengths,
         o: &FkOptions,
-    ) -> Option<FkSolutions> {
-        let m = &m.with_merged_joints();
-        match hidden::solve(m, s, o) {
-            Some(found) => found.ok().filter(|found| found.completeness.is_proved()),
-            None => self.prepared(m).ok()?.proved(s, o),
+    ) -> Result<Evaluation, FkError> {
+        if let Some(found) = hidden::solve(m, s, o) {
+            return Ok(Evaluation::Hidden(found?));
         }
+        let design = self.prepared(m)?;
+        let evaluated = design.evaluated(s, o)?;
+        Ok(Evaluation::Sequences(design, evaluated))
     }
 
+    /// The sequences of a design. Joints in one place are one joint, as for the bounds of the classes.
     pub(super) fn prepared(&self, m: &Manipulator) -> Result<Prepared, FkError> {
+        let m = m.with_merged_joints();
         let refuse =
             |why: NoPlan| FkError::NotApplicable { method: Method::Trilateration, reason: why.to_string() };
-        let ranked = self.ranked(m);
+        let ranked = self.ranked(&m);
         let ranked = ranked.as_ref().as_ref().map_err(|why| refuse(*why))?;
         let fitted =
-            ranked.iter().filter_map(|(s, shape)| fit(m, s).map(|(fatness, s)| (fatness, s, *shape)));
+            ranked.iter().filter_map(|(s, shape)| fit(&m, s).map(|(fatness, s)| (fatness, s, *shape)));
         let mut fitted: Vec<(Nesting, f64, Sequence, GenericDegrees)> =
             fitted.map(|(f, s, shape)| (Nesting::of(&m.pairs(), &s), f, s, shape)).collect();
         fitted.sort_by(|x, y| x.0.cmp(&y.0).then(y.1.total_cmp(&x.1)));
         let evaluator = |(_, _, s, shape): &(Nesting, f64, Sequence, GenericDegrees)| {
-            Evaluator::with_shape(m, s, &[], s.closures.first().copied(), *shape)
+            Evaluator::with_shape(&m, s, &[], s.closures.first().copied(), *shape)
         };
         let evaluators: Vec<Evaluator> = fitted.iter().filter_map(evaluator).collect();
         if evaluators.is_empty() {
             return Err(refuse(NoPlan::Collinear));
         }
-        let theorem = class_bound(m).unwrap_or(Theorem::SixLegs);
-        Ok(Prepared { manipulator: m.clone(), evaluators, theorem })
+        let theorem = class_bound(&m).unwrap_or(Theorem::SixLegs);
+        Ok(Prepared { manipulator: m, evaluators, theorem })
     }
 }
 
@@ -154,16 +157,11 @@ impl ForwardKinematics for Trilateration {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        // joints in one place are one joint, as for the bounds of the classes
-        let m = &m.with_merged_joints();
-        match hidden::solve(m, s, o) {
-            Some(found) => compared_with_count(found?, m, s, o),
-            None => self.prepared(m)?.solve(s, o),
-        }
+        self.evaluate(m, s, o)?.finished(m, s, o)
     }
 
     fn prepare(&self, m: &Manipulator, _: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
-        Some(Box::new(self.prepared(&m.with_merged_joints()).ok()?))
+        Some(Box::new(self.prepared(m).ok()?))
     }
 }
 
@@ -180,8 +178,43 @@ impl Prepared {
     }
 }
 
-/// All evaluations, of which the last may be proved to be complete.
-struct Evaluated {
+/// The evaluations of one problem, kept so that none is made twice.
+pub(super) enum Evaluation {
+    /// One length is hidden.
+    Hidden(FkSolutions),
+    /// The sequences of a design.
+    Sequences(Prepared, Evaluated),
+}
+
+impl Evaluation {
+    /// The answer if the evaluations prove it, otherwise the evaluations.
+    pub(super) fn proved(self) -> Result<FkSolutions, Self> {
+        match self {
+            Self::Hidden(found) | Self::Sequences(_, Evaluated { found, .. })
+                if found.completeness.is_proved() =>
+            {
+                Ok(found)
+            }
+            unproved => Err(unproved),
+        }
+    }
+
+    /// The answer, for unproved evaluations after all further steps of trilateration.
+    pub(super) fn finished(
+        self,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+        o: &FkOptions,
+    ) -> Result<FkSolutions, FkError> {
+        match self {
+            Self::Hidden(found) => compared_with_count(found, m, s, o),
+            Self::Sequences(design, evaluated) => design.finished(evaluated, s, o),
+        }
+    }
+}
+
+/// All evaluations on the sequences, of which the last may be proved to be complete.
+pub(super) struct Evaluated {
     found: FkSolutions,
     ends: Vec<HarvestEnd>,
     expected: usize,
@@ -219,11 +252,15 @@ impl Prepared {
     pub(super) fn proved(&self, s: &SquaredLegLengths, o: &FkOptions) -> Option<FkSolutions> {
         Some(self.evaluated(s, o).ok()?.found).filter(|found| found.completeness.is_proved())
     }
-}
 
-impl PreparedDesign for Prepared {
-    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let Evaluated { mut found, mut ends, expected, attempts } = self.evaluated(s, o)?;
+    /// The answer; the exact polynomial and the count of poses follow evaluations that prove nothing.
+    fn finished(
+        &self,
+        evaluated: Evaluated,
+        s: &SquaredLegLengths,
+        o: &FkOptions,
+    ) -> Result<FkSolutions, FkError> {
+        let Evaluated { mut found, mut ends, expected, attempts } = evaluated;
         if !found.completeness.is_proved() {
             let legs = dependence(&self.manipulator, s);
             if let Some(dependent) = related(legs, &self.manipulator, s, o) {
@@ -237,6 +274,12 @@ impl PreparedDesign for Prepared {
             }
         }
         compared_with_count(found, &self.manipulator, s, o)
+    }
+}
+
+impl PreparedDesign for Prepared {
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        self.finished(self.evaluated(s, o)?, s, o)
     }
 }
 
@@ -287,4 +330,69 @@ pub(super) fn with_evidence(
     };
     attach(&mut solutions, m, s, theorem, certificates)?;
     Ok(solutions)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PoseCounting;
+    use nalgebra::Point3;
+    use platform::topology::catalogue;
+
+    /// A member of a topology with general joints.
+    fn member(number: usize) -> Manipulator {
+        let t = catalogue()[number - 1].topology();
+        let place = |k: usize| {
+            let k = k as f64;
+            Point3::new((1.3 * k).cos() + 0.1 * k, (1.7 * k).sin(), (5.0 * k).sin())
+        };
+        let base = (0..t.base_joints()).map(place).collect();
+        let platform = (0..t.platform_joints()).map(|k| place(k + 7)).collect();
+        Manipulator::try_new(base, platform, t.legs()).unwrap()
+    }
+
+    /// Evaluations that prove nothing are handed on: the exact polynomial follows without another evaluation, which
+    /// would fail here for want of a sequence.
+    #[test]
+    fn evaluations_are_made_once() {
+        let o = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
+        let s = SquaredLegLengths::try_new([3.1, 2.9, 3.3, 2.7, 3.0, 3.2]).unwrap();
+        for number in [7, 22] {
+            let m = member(number);
+            let Evaluation::Sequences(mut design, mut evaluated) =
+                Trilateration::default().evaluate(&m, &s, &o).unwrap()
+            else {
+                panic!("T{number:02}")
+            };
+            let count = evaluated.found.roots.len();
+            assert!(evaluated.found.completeness.is_proved() && count > 0);
+            evaluated.found.completeness = Completeness::unproved([]);
+            evaluated.found.roots.clear();
+            evaluated.ends.clear();
+            design.evaluators.clear();
+            assert!(design.solve(&s, &o).is_err());
+            let finished = Evaluation::Sequences(design, evaluated).finished(&m, &s, &o).unwrap();
+            assert_eq!((finished.roots.len(), finished.is_complete()), (count, true), "T{number:02}");
+        }
+    }
+
+    /// Joints in one place are one joint, whichever door asks.
+    #[test]
+    fn joints_in_one_place_are_merged_at_every_door() {
+        let (o, method) = (FkOptions::default(), Trilateration::default());
+        let s = SquaredLegLengths::try_new([3.1, 2.9, 3.3, 2.7, 3.0, 3.2]).unwrap();
+        for number in [7, 6] {
+            let m = member(number);
+            let legs = m.legs();
+            let apart = Manipulator::from_legs(legs).unwrap();
+            let expected = method.solve(&m, &s, &o).unwrap();
+            assert!(expected.completeness.is_proved());
+            assert_eq!(method.solve(&apart, &s, &o).unwrap().roots.len(), expected.roots.len());
+            if let Some(design) = method.prepare(&m, &o) {
+                let prepared = method.prepare(&apart, &o).unwrap();
+                let count = |d: &dyn PreparedDesign| d.solve(&s, &o).unwrap().roots.len();
+                assert_eq!(count(prepared.as_ref()), count(design.as_ref()));
+            }
+        }
+    }
 }

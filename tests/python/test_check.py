@@ -1,9 +1,13 @@
 """The program `equipod-check` of the package: it checks proof files, and imports nothing beyond the standard library."""
 
+import itertools
 import json
+import math
 import pathlib
 import subprocess
 import sys
+import types
+from fractions import Fraction
 
 import equipod
 from equipod_check import check
@@ -42,3 +46,41 @@ def test_exact_numbers_are_those_of_their_texts():
     assert [number(x).sign() for x in ("sqrt(2) - 1", "7 - 5*sqrt(2)", "99 - 70*sqrt(2)", "sqrt(2) - sqrt(2)")] == [1, -1, 1, 0]
     x = number("1 + sqrt(2) - sqrt(3) + 2*sqrt(6)/5")
     assert (x * x.inverse()).terms == {1: 1}
+
+
+def test_the_ends_of_a_product_are_the_least_and_the_greatest_product():
+    ends = [x * check.ONE for x in (-3, -1, 0, 2, 5)]
+    factors = [check.Real(low, high) for low, high in itertools.combinations_with_replacement(ends, 2)]
+    for x, y in itertools.product(factors, repeat=2):
+        products = [a * b // check.ONE for a in (x.low, x.high) for b in (y.low, y.high)]
+        found = x * y
+        assert (found.low, found.high) == (min(products), max(products)), (x.low, x.high, y.low, y.high)
+
+
+def test_series_of_rotations_enclose_their_sums():
+    def partial_sum(k: int, n: int, s: Fraction) -> Fraction:
+        terms = ((-1) ** j * Fraction(math.perm(j, n), math.factorial(2 * j + k)) * s ** (j - n) for j in range(n, 60))
+        return sum(terms, Fraction(0))
+
+    for k, n, s in itertools.product((1, 2), (0, 1), (Fraction(0), Fraction(1, 1024), Fraction(3, 2), Fraction(20))):
+        exact, found = partial_sum(k, n, s), check.stumpff_at(k, n, check.scaled(s))
+        assert found.low <= exact * check.ONE <= found.high
+        assert found.high - found.low < check.ONE >> 80
+
+
+def test_slopes_over_a_cell_hold_the_change_from_end_to_end():
+    still = [["0", "0"]] * 3
+    home = {"quaternion": ["1", "0", "0", "0"], "position": ["0", "0", "0"]}
+    turns = [["-40", "30"], ["-20", "50"], ["-60", "20"]]
+    record = {"shape": "box", "home": home, "pivot": ["0", "0", "0"], "translation": still, "rotation_deg": turns}
+    region = check.Region(types.SimpleNamespace(base=[], platform=[]), record)
+    v = [check.Real.of(x) for x in (3, -5, 2)]
+    low, high = [0, 0, 0, -check.ONE, check.ONE // 4, 0], [0, 0, 0, -check.ONE // 2, check.ONE // 2, check.ONE // 2]
+    cell = check.Cell(region, (low, high))
+    for k in (3, 4, 5):
+        end = [h if i == k else x for i, (x, h) in enumerate(zip(low, high))]
+        ends = [check.Cell(region, (x, x)).turned(v) for x in (low, end)]
+        slope = [x * region.widths[k] * check.Real(high[k] - low[k], high[k] - low[k]) for x in cell.slopes(v)[k - 3]]
+        for a, b, change in zip(*ends, slope):
+            assert change.low <= (b - a).low and (b - a).high <= change.high
+            assert change.high - change.low < 4 * check.ONE

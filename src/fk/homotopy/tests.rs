@@ -297,3 +297,56 @@ fn exact_triple_roots_are_proved_and_counted_three_times() {
     }
     assert!(proved >= 6, "{proved}");
 }
+
+/// Three pairs of legs that exchange their ends have equal lengths at half-turns, so the platform moves about almost
+/// every line (Borel, Bricard). Rounded lengths leave isolated poses, which only more bits than doubles certify.
+fn line_symmetric() -> (Manipulator, SquaredLegLengths) {
+    let joints = [
+        [1., 45., -36.],
+        [45., -19., -8.],
+        [33., -9., 5.],
+        [-47., 25., 4.],
+        [-17., 29., -20.],
+        [-5., -37., -10.],
+    ]
+    .map(Point3::from);
+    let legs = std::array::from_fn(|i| Leg { base: joints[i], platform: joints[(i + 3) % 6] });
+    let m = Manipulator::from_legs(legs).unwrap();
+    let lengths = [
+        140.8432331584681,
+        85.08627074556597,
+        52.88204046821219,
+        140.8432331584681,
+        85.08627074556597,
+        52.8820404682122,
+    ];
+    let s = platform::manipulator::LegLengths::try_new(lengths).unwrap().squared();
+    (m, s)
+}
+
+#[test]
+#[ignore = "evidence"]
+fn rounded_lengths_of_a_line_symmetric_motion_are_said_to_move() {
+    let (m, s) = line_symmetric();
+    let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+    assert!(
+        matches!(found.solution_set, SolutionSet::PositiveDimensional { .. }),
+        "{:?}",
+        found.completeness
+    );
+    assert!(!found.is_complete());
+}
+
+/// Ends that doubles cannot certify tell rounded lengths of a motion from those of a general pose.
+#[test]
+fn uncertified_ends_on_a_curve_are_a_motion_within_rounding() {
+    let (m, s) = line_symmetric();
+    let o = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let general = lengths(&m, &mut Rng::new(3));
+    for (s, moves) in [(s, true), (general, false)] {
+        let found = generic(&m, &s);
+        let moving = moving_within_rounding(Some(found), &m, &s, None, &o);
+        assert_eq!(moving.is_some(), moves);
+    }
+    assert!(moving_within_rounding(None, &m, &s, None, &o).is_none());
+}

@@ -61,6 +61,49 @@ fn partners(
     leg_rank + count - rank(&rows)
 }
 
+/// Whether all points of the plane of the ends on `body` with a line of partners or more are joints, or crossings of
+/// two lines through joints. `false` decides nothing.
+///
+/// Joints without a doubtful line have no such point around them. See the lemma in `docs/theory/components.md`.
+pub(super) fn only_crossings(six: &ExactLegs, body: Body, legs: &[usize]) -> bool {
+    let ends = six.ends(body);
+    let around: Vec<(usize, Vec<usize>)> =
+        legs.iter().filter_map(|joint| Some((*joint, doubtful_lines(six, body, legs, *joint)?))).collect();
+    around.iter().any(|(joint, lines)| {
+        let misses =
+            |line: &usize| around.iter().any(|(q, _)| !collinear([*joint, *line, *q].map(|k| &ends[k])));
+        lines.iter().all(misses)
+    })
+}
+
+/// The lines through a joint and another one, named by a leg of that, whose points may have a line of partners. `None`
+/// if all points of the plane may.
+fn doubtful_lines(six: &ExactLegs, body: Body, legs: &[usize], joint: usize) -> Option<Vec<usize>> {
+    let (ends, others) = (six.ends(body), six.ends(body.other()));
+    let unit = |k: usize| (0..4).map(|i| Algebraic::integer(i64::from(i == k))).collect::<AlgebraicVector>();
+    let mut rows = six.vectors_of(legs);
+    rows.extend((0..4).map(|k| match body {
+        Body::Base => product(&ends[joint], &unit(k)),
+        Body::Platform => product(&unit(k), &ends[joint]),
+    }));
+    let apart = rank(&rows) - 4;
+    let at_most = |on: &dyn Fn(usize) -> bool| {
+        let off: Vec<AlgebraicVector> =
+            legs.iter().filter(|k| !on(**k)).map(|k| others[*k].clone()).collect();
+        apart - if off.is_empty() { 0 } else { rank(&off) }
+    };
+    let here = |k: usize| ends[k] == ends[joint];
+    if at_most(&here) >= 2 {
+        return None;
+    }
+    let through = |leg: usize, k: usize| collinear([&ends[joint], &ends[leg], &ends[k]]);
+    Some(legs.iter().copied().filter(|leg| !here(*leg) && at_most(&|k| through(*leg, k)) >= 2).collect())
+}
+
+fn collinear(points: [&AlgebraicVector; 3]) -> bool {
+    rank(&points.map(Clone::clone)) <= 2
+}
+
 /// A maximal independent part of the rows, the first ones preferred.
 fn independent(rows: &[AlgebraicVector]) -> Vec<AlgebraicVector> {
     let mut kept: Vec<AlgebraicVector> = Vec::new();
@@ -91,5 +134,29 @@ mod tests {
         assert_eq!(e.rank(&[0, 1, 2, 3, 4, 5]), 3);
         assert_eq!(fibre(&e, Body::Platform, &e.platform[0], &[0, 1, 2, 3, 4, 5]), 3);
         assert_eq!(fibre(&e, Body::Base, &e.base[0], &[0, 1, 2, 3, 4, 5]), 1);
+    }
+
+    /// Two lines of the base with three joints each, and platform joints in general.
+    fn two_lines(platform: [[f64; 3]; 6]) -> ExactLegs {
+        let base = [[1., 0., 0.], [2., 0., 0.], [5., 0., 0.], [0., 1., 0.], [0., 3., 0.], [0., 4., 0.]];
+        let leg = |k: usize| Leg { base: Point3::from(base[k]), platform: Point3::from(platform[k]) };
+        ExactLegs::of_doubles(&[0, 1, 2, 3, 4, 5].map(leg)).unwrap()
+    }
+
+    #[test]
+    fn lines_of_partners_are_bounded_around_each_joint() {
+        let all = [0, 1, 2, 3, 4, 5];
+        let general = [[0., 0., 0.], [1., 0., 2.], [3., 5., 1.], [2., 7., 4.], [9., 1., 3.], [4., 4., 9.]];
+        let six = two_lines(general);
+        // off the line of the first three joints three platform joints remain, of rank 3
+        assert_eq!(doubtful_lines(&six, Body::Base, &all, 0), Some(vec![1, 2]));
+        assert_eq!(doubtful_lines(&six, Body::Base, &all, 4), Some(vec![3, 5]));
+        assert!(only_crossings(&six, Body::Base, &all));
+        // without the joints of the second line nothing is known off the first one
+        assert!(!only_crossings(&six, Body::Base, &[0, 1, 2]) || six.rank(&[0, 1, 2]) < 3);
+        // without the first platform joint the others span a plane only
+        let flat = general.map(|[x, y, z]| if [x, y, z] == [0.; 3] { [1., 1., 1.] } else { [x, y, 0.] });
+        let six = two_lines(flat);
+        assert_eq!(doubtful_lines(&six, Body::Base, &all, 0), None);
     }
 }

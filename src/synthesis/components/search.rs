@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::component::{Component, FamilyKind, SampledLeg, flat_name, infinite_parameters};
-use super::exact::{combination, fibre as exact_fibre};
+use super::exact::{combination, fibre as exact_fibre, only_crossings};
 use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
 use super::exact_form::ExactKind;
 use super::flats::{BothReadings, ClosedPair, Flat, Reading};
@@ -260,7 +260,7 @@ impl FamilySearch<'_> {
 
     /// Points of a plane with a whole line of partners that are not joints. They are intersections of lines through
     /// joints, and further common zeros of the minors of order 3. The dimension of the cubics through them proves that
-    /// there are no others.
+    /// there are no others. An exact bound on partners can prove it if several of them coincide.
     fn isolated_points(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
         let conditions = super::planes::conditions(view, &mut self.rng)?;
@@ -282,7 +282,8 @@ impl FamilySearch<'_> {
             points.push(candidate);
         }
         let met = super::planes::conditions_of(&points, view.product.platform.dimension())? + complex;
-        if conditions > met {
+        let exact = pair.reading != Reading::ToleranceOnly;
+        if conditions > met && !(exact && only_crossings(&self.ends.exact, view.carrying, &pair.legs)) {
             self.doubts.push(format!(
                 "over the plane of legs {} there may be a point with a line of partners that was not located",
                 names(&pair.legs)

@@ -132,6 +132,29 @@ fn shared_joints_carry_lines_planes_and_space() {
     }
 }
 
+/// Four legs at one point, and three at a point with two more from a line through it: the common zeros of the minors
+/// coincide there, and an exact bound excludes others.
+#[test]
+fn legs_at_one_point_leave_nothing_undecided() {
+    let mut rng = Rng::new(19);
+    let four = design(0, 3, 4, &mut rng);
+    let mut star = design(0, 3, 3, &mut rng);
+    let direction = p(&mut rng);
+    for (k, t) in [(3, 1.5), (4, -0.75)] {
+        star[k] = Leg { base: star[0].base + direction * t, platform: star[5].platform + direction };
+    }
+    let exchanged = |legs: [Leg; 6]| legs.map(|leg| Leg { base: leg.platform, platform: leg.base });
+    for legs in [four, exchanged(four), star, exchanged(star)] {
+        let c = found(&legs);
+        assert!(c.doubts.is_empty(), "{:?}", c.doubts);
+        assert!(c.components.iter().all(|family| family.exact == Some(true)));
+        // all legs at the point, and a line of legs at each of two joints of the other body
+        let largest: Vec<_> =
+            c.components.iter().filter(|x| x.contained_in.is_empty()).map(|x| x.dimension).collect();
+        assert_eq!(largest, [1, 1, 3], "{:?}", list(&c));
+    }
+}
+
 #[test]
 fn flats_of_every_pair_of_dimensions() {
     let mut rng = Rng::new(5);

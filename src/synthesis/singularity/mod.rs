@@ -12,9 +12,11 @@
 mod case;
 mod conditioning;
 mod dependency;
+mod digit_units;
 mod four_planes;
 mod griffis_duffy;
 mod hold;
+mod joint_families;
 mod lattice;
 mod locus;
 mod lower_bound;

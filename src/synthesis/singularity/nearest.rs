@@ -8,17 +8,19 @@
 //! `F = sum c_i v_i(x_0 + y) = 0` (sixteen equations). Each step solves the linearised problem. The least `y` meets the
 //! part of the equations that a change of `c` cannot reach; `c` meets the rest.
 //!
-//! Closed forms give the nearest designs that are singular since joints coincide or are collinear.
+//! [`JointFamily`] gives the nearest designs that are singular since joints coincide or are collinear.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
+use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
+use super::digit_units::DigitUnits;
+use super::joint_families::JointFamily;
 use super::lattice::candidate_poses;
 use super::lower_bound::proved_at_pose;
 use crate::LegSpan;
 use num::Purpose;
 use num::linalg::LinalgError;
-use num::small::{bounded_svd, symmetric_eigen3};
-use platform::manipulator::{Body, InvalidManipulator, Level, Manipulator};
+use num::small::bounded_svd;
+use platform::manipulator::{InvalidManipulator, Manipulator};
 
 /// A singular design near a given one.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,9 +85,13 @@ pub(super) fn rounded_singular(m: &Manipulator) -> Result<Option<NearestSingular
     }
     // the nearest design may change one coordinate too much while another changes none so
     for units in digits.iter().filter(|units| nearest.distance <= units.reach()) {
-        let starts = UnitCoefficients::all(m, SEED, STARTS);
-        let searched = starts.iter().filter_map(|start| project(m, start, Some(units)));
-        if let Some(meant) = changes(m).into_iter().chain(searched).find(|change| units.contain(change)) {
+        let near = |family: &JointFamily| family.nearest(m).norm() <= units.reach();
+        let closed = JointFamily::all(m).into_iter().filter(near).find_map(|family| family.within(m, units));
+        let searched = || {
+            let starts = UnitCoefficients::all(m, SEED, STARTS);
+            starts.iter().find_map(|start| units.contained(|scales| project(m, start, Some(scales))))
+        };
+        if let Some(meant) = closed.or_else(searched) {
             return describe(m, meant).map(Some);
         }
     }
@@ -96,75 +102,10 @@ fn largest(points: &[Point3<f64>]) -> f64 {
     points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
 }
 
-/// Half a unit of the last given digit of every coordinate, design units.
-#[derive(Debug, Clone, PartialEq)]
-struct DigitUnits {
-    base: Vec<Vector3<f64>>,
-    platform: Vec<Vector3<f64>>,
-}
-
-impl DigitUnits {
-    /// The ways in which the plain coordinates may have been rounded: to equal decimals, and to equal significant
-    /// digits. Units that are a large share of the design are left out, since such numbers are no rounded values.
-    fn given(m: &Manipulator) -> Vec<Self> {
-        if m.level() != Level::DoublesAsWritten {
-            return Vec::new();
-        }
-        let legs = m.legs();
-        let used = || legs.iter().flat_map(|leg| [leg.base, leg.platform]).flat_map(|p| [p.x, p.y, p.z]);
-        let forms: Vec<(i32, i32)> = used().filter(|x| *x != 0.0).map(decimal_form).collect();
-        let decimals = forms.iter().map(|(digits, exponent)| digits - 1 - exponent).max().unwrap_or(0).max(0);
-        let digits = forms.iter().map(|form| form.0).max().unwrap_or(0);
-        // rounding to significant digits leaves most coordinates with all of them, or with a last zero less
-        let long = forms.iter().filter(|form| form.0 + 1 >= digits).count();
-        let of = |half: &dyn Fn(f64) -> f64| {
-            let joints = |list: &[Point3<f64>]| list.iter().map(|p| p.coords.map(half)).collect();
-            Self { base: joints(m.base_joints()), platform: joints(m.platform_joints()) }
-        };
-        let mut found = vec![of(&|_| half_unit(decimals))];
-        if 2 * long > forms.len() {
-            found.push(of(&|x| if x == 0.0 { 0.0 } else { half_unit(digits - 1 - decimal_form(x).1) }));
-        }
-        found.retain(|units| units.largest() <= COARSE * m.size());
-        found
-    }
-
-    fn all(&self) -> impl Iterator<Item = &Vector3<f64>> {
-        self.base.iter().chain(&self.platform)
-    }
-
-    fn largest(&self) -> f64 {
-        self.all().map(Vector3::amax).fold(0.0, f64::max)
-    }
-
-    /// The greatest distance of a design within these units.
-    fn reach(&self) -> f64 {
-        self.all().map(Vector3::norm_squared).sum::<f64>().sqrt()
-    }
-
-    /// Whether no coordinate changes by more.
-    fn contain(&self, change: &Change) -> bool {
-        let changes = change.base.iter().chain(&change.platform);
-        changes.zip(self.all()).all(|(by, half)| by.iter().zip(half.iter()).all(|(x, h)| x.abs() <= *h))
-    }
-}
-
-fn half_unit(decimals: i32) -> f64 {
-    0.5 * 10f64.powi(-decimals)
-}
-
-/// Number of significant digits, and exponent of the first one, of the shortest decimal that is read as this double.
-fn decimal_form(x: f64) -> (i32, i32) {
-    let text = format!("{x:e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, ""));
-    let count = digits.bytes().filter(u8::is_ascii_digit).count();
-    (i32::try_from(count).unwrap_or(0), exponent.parse().unwrap_or(0))
-}
-
 /// Changes of the joints that make a design singular.
 #[derive(Debug, Clone)]
 pub(super) struct Change {
-    kind: &'static str,
+    pub(super) kind: &'static str,
     pub(super) legs: Vec<usize>,
     pub(super) coefficients: Option<[f64; 6]>,
     pub(super) base: Vec<Vector3<f64>>,
@@ -182,8 +123,6 @@ impl Change {
 const SEED: u64 = 1;
 /// Share of the largest coordinate that counts as rounding: eight half units in its last place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
-/// Digits of a greater share of the size than this belong to the design and are no rounding.
-const COARSE: f64 = 1.0 / 512.0;
 /// Two distances that differ by less than this count as equal.
 const SAME: f64 = 1e-6;
 /// Random starts besides the six singular vectors.
@@ -198,7 +137,7 @@ pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSing
     let least = |all: Vec<Change>| {
         all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
     };
-    let closed = least(changes(m));
+    let closed = least(JointFamily::all(m).iter().map(|family| family.nearest(m)).collect());
     let searched = least(
         UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start, None)).collect(),
     );
@@ -267,7 +206,7 @@ const STEPS: usize = 60;
 /// Largest change in one step, in the normalised coordinates.
 const STRIDE: f64 = 0.3;
 /// Largest `|F|` at the end, in the normalised coordinates.
-const SOLVED: f64 = 1e-13;
+pub(super) const SOLVED: f64 = 1e-13;
 /// Smaller steps than this end the search: they leave their square in `F`.
 const SETTLED: f64 = 1e-10;
 /// Legs with a smaller share in the relation count as outside it.
@@ -308,12 +247,12 @@ impl NearestProblem {
         Self { joints, start: DVector::from_vec(x), legs }
     }
 
-    /// The units of all coordinates, over the largest; 1 without units.
-    fn weights(&self, units: Option<&DigitUnits>) -> DVector<f64> {
-        let Some(units) = units else { return DVector::from_element(self.start.len(), 1.0) };
-        let of_body = self.joints.iter().zip([&units.base, &units.platform]);
+    /// The scales of all coordinates, over the largest; 1 without scales.
+    fn weights(&self, scales: Option<&DigitUnits>) -> DVector<f64> {
+        let Some(scales) = scales else { return DVector::from_element(self.start.len(), 1.0) };
+        let of_body = self.joints.iter().zip([&scales.base, &scales.platform]);
         let joints = of_body.flat_map(|(used, all)| used.iter().map(|j| &all[*j]));
-        let list: Vec<f64> = joints.flat_map(|half| half.iter().map(|x| x / units.largest())).collect();
+        let list: Vec<f64> = joints.flat_map(|half| half.iter().map(|x| x / scales.largest())).collect();
         DVector::from_vec(list)
     }
 
@@ -346,11 +285,11 @@ impl NearestProblem {
     }
 }
 
-/// Follows one start; `None` if it does not converge to a design with a relation. With `units`, changes are measured in
-/// those of their coordinates, and coordinates without a unit stay.
-fn project(m: &Manipulator, start: &UnitCoefficients, units: Option<&DigitUnits>) -> Option<Change> {
+/// Follows one start; `None` if it does not converge to a design with a relation. With `scales`, every coordinate is
+/// measured in its own, and coordinates without a scale stay.
+fn project(m: &Manipulator, start: &UnitCoefficients, scales: Option<&DigitUnits>) -> Option<Change> {
     let problem = NearestProblem::of(m);
-    let weights = problem.weights(units);
+    let weights = problem.weights(scales);
     let mut x = problem.start.clone();
     let mut c = DVector::from_row_slice(&start.0).normalize();
     for _ in 0..STEPS {
@@ -402,7 +341,7 @@ fn tangent(v: &DMatrix<f64>, c: &DVector<f64>) -> DMatrix<f64> {
     v * basis_across(c)
 }
 
-fn pseudo_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(super) fn pseudo_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let svd = bounded_svd(a)?;
     let limit = 1e-10 * svd.singular_values.max();
     svd.solve(b, limit).ok()
@@ -425,154 +364,13 @@ fn change(m: &Manipulator, problem: &NearestProblem, x: &DVector<f64>, c: &DVect
     Change { kind: "leg_vectors_dependent", legs, coefficients: Some(coefficients), base, platform }
 }
 
-/// The nearest member of each simple family. The families are coincident legs, four legs at one point, all legs through
-/// two points, a collinear body, three legs of a pencil, and a bundle and a pencil with a common line.
-///
-/// Each is the least change within its family. Points that must coincide move to their centroid; points that must be
-/// collinear move to the line through their centroid along the principal axis.
-pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
-    let mut found = Vec::new();
-    let bodies = Body::BOTH;
-    for set in (1u8..64).map(members) {
-        let rest: Vec<usize> = (0..6).filter(|i| !set.contains(i)).collect();
-        if set.len() == 2 {
-            let mut change = still(m, "coincident_legs", &set);
-            for body in bodies {
-                meet(m, &mut change, body, &set);
-            }
-            found.push(change);
-        }
-        for body in bodies {
-            if set.len() == 4 {
-                let mut change = still(m, "concurrent_four", &set);
-                meet(m, &mut change, body, &set);
-                found.push(change);
-            }
-            if set.len() == 3 {
-                let mut change = still(m, "point_line", &set);
-                meet(m, &mut change, body, &set);
-                line_up(m, &mut change, body.other(), &each(m, body.other(), &set));
-                found.push(change);
-                stars_and_pencils(m, body, &set, &rest, &mut found);
-                for other in bodies {
-                    let mut change = still(m, "two_joints_hold_all_legs", &[0, 1, 2, 3, 4, 5]);
-                    meet(m, &mut change, body, &set);
-                    meet_again(m, &mut change, other, &rest);
-                    found.push(change);
-                }
-            }
-            if set.len() == 6 {
-                let mut change = still(m, "all_collinear", &set);
-                line_up(m, &mut change, body, &each(m, body, &set));
-                found.push(change);
-            }
-        }
-    }
-    found
-}
-
-fn members(mask: u8) -> Vec<usize> {
-    (0..6).filter(|i| mask >> i & 1 == 1).collect()
-}
-
-fn still(m: &Manipulator, kind: &'static str, legs: &[usize]) -> Change {
-    let none = |joints: &[Point3<f64>]| vec![Vector3::zeros(); joints.len()];
-    let (base, platform) = (none(m.base_joints()), none(m.platform_joints()));
-    Change { kind, legs: legs.to_vec(), coefficients: None, base, platform }
-}
-
-/// The joints of `body` at which `legs` end, each once.
-fn joints(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<usize> {
-    let pairs = m.pairs();
-    let mut list: Vec<usize> = legs.iter().map(|i| body.of(pairs[*i])).collect();
-    list.sort_unstable();
-    list.dedup();
-    list
-}
-
-fn displacements(change: &mut Change, body: Body) -> &mut Vec<Vector3<f64>> {
-    body.of((&mut change.base, &mut change.platform))
-}
-
-/// Moves the ends of `legs` to their centroid.
-fn meet(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
-    let (list, at) = (joints(m, body, legs), m.joints(body));
-    let mean = list.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / list.len() as f64;
-    for j in list {
-        displacements(change, body)[j] = mean - at[j].coords;
-    }
-}
-
-/// [`meet`] for joints of `body` that may have moved already: a joint in both sets makes the two points one.
-fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
-    let list = joints(m, body, legs);
-    let moved = |j: &usize, change: &mut Change| displacements(change, body)[*j].norm_squared() > 0.0;
-    if list.iter().any(|j| moved(j, change)) {
-        let all: Vec<usize> = (0..6).collect();
-        meet(m, change, body, &all);
-    } else {
-        meet(m, change, body, legs);
-    }
-}
-
-/// Moves the ends of each group to one point, and these points to a line. The line through the weighted centroid along
-/// the principal axis needs the least change.
-fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
-    let at = m.joints(body);
-    let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();
-    let centre =
-        |group: &Vec<usize>| group.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / group.len() as f64;
-    let weight: f64 = groups.iter().map(|g| g.len() as f64).sum();
-    let mean = groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
-    let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
-    let scatter: Matrix3<f64> = groups.iter().map(term).sum();
-    let (values, vectors) = symmetric_eigen3(&scatter);
-    let axis = vectors.column(values.imax()).into_owned();
-    for group in &groups {
-        let place = mean + axis * axis.dot(&(centre(group) - mean));
-        for j in group {
-            displacements(change, body)[*j] = place - at[*j].coords;
-        }
-    }
-}
-
-/// One group for each joint of `body` at the ends of `legs`.
-fn each(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<Vec<usize>> {
-    let mut seen = Vec::new();
-    legs.iter()
-        .filter_map(|i| {
-            let joint = joints(m, body, &[*i]);
-            let new = !seen.contains(&joint);
-            seen.push(joint);
-            new.then(|| vec![*i])
-        })
-        .collect()
-}
-
-/// Three legs share one point of `body`; two others go from one point of the other body to a line through it.
-fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize], found: &mut Vec<Change>) {
-    for skipped in rest {
-        let pair: Vec<usize> = rest.iter().copied().filter(|i| i != skipped).collect();
-        let mut legs: Vec<usize> = star.iter().chain(&pair).copied().collect();
-        legs.sort_unstable();
-        let at_star = joints(m, body, star);
-        if pair.iter().any(|i| at_star.contains(&joints(m, body, &[*i])[0])) {
-            continue; // four legs at one point: another family
-        }
-        let mut change = still(m, "star_and_pencil", &legs);
-        let mut groups = each(m, body, &pair);
-        groups.push(star.to_vec());
-        line_up(m, &mut change, body, &groups);
-        meet(m, &mut change, body.other(), &pair);
-        found.push(change);
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::digit_units::half_unit;
     use super::*;
     use nalgebra::Rotation3;
     use num::Rng;
+    use platform::geom::random_rotation;
     use platform::manipulator::Leg;
 
     /// A Griffis-Duffy platform with `prod t_i = prod (1 - t_i)`, rotated and moved in general.
@@ -622,6 +420,79 @@ mod tests {
             let m = rounded(&exact, &decimals(usize::try_from(count).unwrap()));
             let meant = rounded_singular(&m).unwrap().unwrap();
             assert!(meant.within_rounding || meant.within_digits == Some(half_unit(count)), "{count}");
+        }
+    }
+
+    /// Leg ends of singular designs by kind, with general numbers.
+    fn of_kind(kind: &str, rng: &mut Rng) -> [Leg; 6] {
+        let mut point = || Vector3::from_fn(|_, _| rng.uniform(-90.0, 90.0));
+        let (mut a, mut b) = ([0; 6].map(|_| point()), [0; 6].map(|_| point()));
+        let (o, p, d, e) = (point(), point(), point(), point());
+        let t = [-0.9, -0.4, 0.1, 0.35, 0.7, 1.1].map(|t| t + 0.001 * o.x);
+        match kind {
+            "all_collinear" => b = t.map(|t| p + e * t),
+            "point_line" => (0..3).for_each(|k| (a[k], b[k]) = (o, p + e * t[k])),
+            "star_and_pencil" => {
+                (0..3).for_each(|k| a[k] = o);
+                (a[3], a[4], b[4]) = (o + d * t[0], o + d * t[4], b[3]);
+            }
+            "five_between_lines" => {
+                (0..5).for_each(|k| (a[k], b[k]) = (o + d * t[k], p + e * t[(k * k + 1) % 6]))
+            }
+            "four_paired" => (0..4).for_each(|k| {
+                (a[k], b[k]) = (o + d * t[k], p + e * ((3.0 * t[k] + 0.2) / (t[k] + 2.5)));
+            }),
+            "line_plane" => (0..5).for_each(|k| {
+                let w = 1.0 + 0.4 * t[k] * t[k];
+                (a[k], b[k]) = (o + d * t[k], p + e * (t[k] / w) + d * (t[k] * t[k] / w));
+            }),
+            _ => {
+                // projective images of points on an ellipse, similar ones on a circle
+                let circle = kind == "similar_circles";
+                for (k, t) in t.into_iter().enumerate() {
+                    let (sin, cos) = (3.0 * t).sin_cos();
+                    a[k] = Vector3::new(90.0 * cos, if circle { 90.0 } else { 60.0 } * sin, 0.0);
+                    let w = if circle { 1.0 } else { 1.0 + 0.002 * a[k].x };
+                    b[k] = Vector3::new(0.6 * a[k].x, 0.6 * a[k].y, 0.0) / w;
+                }
+            }
+        }
+        std::array::from_fn(|k| Leg { base: Point3::from(a[k]), platform: Point3::from(b[k]) })
+    }
+
+    /// The same legs in other frames and another unit.
+    fn moved(legs: &[Leg; 6], rng: &mut Rng) -> [Leg; 6] {
+        let scale = 10f64.powf(rng.uniform(-2.0, 3.0));
+        let mut frame = || (random_rotation(rng), Vector3::from_fn(|_, _| rng.uniform(-150.0, 150.0)));
+        let frames = [frame(), frame()];
+        let at = |p: &Point3<f64>, (turn, shift): &(Rotation3<f64>, Vector3<f64>)| {
+            Point3::from((turn * p.coords + shift) * scale)
+        };
+        legs.each_ref().map(|l| Leg { base: at(&l.base, &frames[0]), platform: at(&l.platform, &frames[1]) })
+    }
+
+    const KINDS: [&str; 8] = [
+        "all_collinear",
+        "point_line",
+        "star_and_pencil",
+        "five_between_lines",
+        "four_paired",
+        "line_plane",
+        "similar_circles",
+        "conic",
+    ];
+
+    /// Rounded coordinates of joints on a line are not on one. The line through them that changes all coordinates by
+    /// half a unit at most is not that of the least squares.
+    #[test]
+    fn every_kind_is_recognised_behind_its_digits_in_any_frame() {
+        let mut rng = Rng::new(8);
+        for (k, kind) in KINDS.into_iter().cycle().take(24).enumerate() {
+            let legs = moved(&of_kind(kind, &mut rng), &mut rng);
+            let digits = [6, 9, 12][k / KINDS.len()];
+            let m = rounded(&legs, &significant(digits));
+            let meant = rounded_singular(&m).unwrap();
+            assert!(meant.is_some_and(|n| n.may_be_meant()), "{kind}, {digits} digits, case {k}");
         }
     }
 

@@ -12,6 +12,7 @@ The theorems are those of the folder `docs/theory` of equipod; each claim names 
 
 from __future__ import annotations
 
+import functools
 import itertools
 import json
 import math
@@ -381,8 +382,19 @@ class Real:
         return Real(-self.high, -self.low)
 
     def __mul__(self, other: Real) -> Real:
-        products = (self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high)
-        return Real(min(products) >> BITS, -(-max(products) >> BITS))
+        # the signs of the ends tell which two of the four products are the ends
+        a, b, c, d = self.low, self.high, other.low, other.high
+        if a >= 0:
+            low, high = (a * c, b * d) if c >= 0 else (b * c, a * d) if d <= 0 else (b * c, b * d)
+        elif b <= 0:
+            low, high = (a * d, b * c) if c >= 0 else (b * d, a * c) if d <= 0 else (a * d, a * c)
+        elif c >= 0:
+            low, high = a * d, b * d
+        elif d <= 0:
+            low, high = b * c, a * c
+        else:
+            low, high = min(a * d, b * c), max(a * c, b * d)
+        return Real(low >> BITS, -(-high >> BITS))
 
     def inverse(self) -> Real:
         need(self.low > 0 or self.high < 0, "a number that may be zero would be divided by")
@@ -1096,7 +1108,8 @@ def angle_is_below(u: Row, v: Row, degrees: Fraction) -> bool:
 # --- regions of poses ------------------------------------------------------------------------------------------------------------------------------
 
 # Tilings are checked in these coordinates: distances of translation and rotation vector from the middle of the region over its half widths, in the cube [-1, 1]^6.
-Ends = tuple[list[Fraction], list[Fraction]]
+# The ends of a cell are integers over 2^BITS.
+Ends = tuple[list[int], list[int]]
 Vector = list[Real]
 Matrix = list[Vector]
 # Greatest square of a rotation vector: the coefficients of rotations and their slopes are monotone up to it.
@@ -1129,19 +1142,22 @@ def square(x: Real) -> Real:
     return Real(low * low >> BITS, up(x.size() ** 2))
 
 
+@functools.lru_cache(maxsize=1 << 14)
 def stumpff_at(k: int, n: int, s: int) -> Real:
-    """The n-th derivative of C_k(s) = sum_j (-s)^j / (2j + k)!, s from 0 to 20 over 2^BITS: an alternating series."""
-    sign = -1 if n % 2 else 1
-    term = Real.of(Fraction(sign * math.factorial(n), math.factorial(2 * n + k)))
-    out, point, i = Real(0, 0), Real(s, s), 0
+    """The n-th derivative of C_k(s) = sum_j (-s)^j / (2j + k)!, s from 0 to 20 over 2^BITS: an alternating series. Neighbouring cells share ends."""
+    low = ONE * math.factorial(n) // math.factorial(2 * n + k)
+    high, out_low, out_high, i = low + 1, 0, 0, 0
     while True:
-        out = out + term
+        if (i + n) % 2:
+            out_low, out_high = out_low - high, out_high - low
+        else:
+            out_low, out_high = out_low + low, out_high + high
         i += 1
-        before = Fraction(i + n, i * (2 * (i + n) + k - 1) * (2 * (i + n) + k))
-        term = -(term * point * Real.of(before))
+        point, below = s * (i + n), i * (2 * (i + n) + k - 1) * (2 * (i + n) + k)
+        low, high = (low * point >> BITS) // below, -((-high * point >> BITS) // below)
         # the terms fall once their ratio is below one, and the ratio falls
-        if term.size() < LAST_TERM and s * before < ONE:
-            return Real(out.low - term.size(), out.high + term.size())
+        if high < LAST_TERM and point < below * ONE:
+            return Real(out_low - high, out_high + high)
 
 
 def stumpff(k: int, n: int, s: Real) -> Real:
@@ -1151,33 +1167,35 @@ def stumpff(k: int, n: int, s: Real) -> Real:
 
 
 class Cell:
-    """Rotations, their slopes and positions over a cell."""
+    """Poses over a cell: R v = v + C_1 w x v + C_2 w x (w x v) with C_k at w.w, for rotation vectors w, and the place of the pivot."""
 
     def __init__(self, region: Region, ends: Ends) -> None:
-        x = [middle + Real(Real.of(low).low, Real.of(high).high) * width for middle, low, high, width in zip(region.middle, ends[0], ends[1], region.widths)]
-        w = x[3:]
-        s = square(w[0]) + square(w[1]) + square(w[2])
-        need(s.high <= LARGEST_TURN * ONE, "the rotations of the region are too large")
-        first, second = [stumpff(1, n, s) for n in (0, 1)], [stumpff(2, n, s) for n in (0, 1)]
-        once = [[ZERO, -w[2], w[1]], [w[2], ZERO, -w[0]], [-w[1], w[0], ZERO]]
-        twice = [[-(square(w[(i + 1) % 3]) + square(w[(i + 2) % 3])) if i == j else w[i] * w[j] for j in range(3)] for i in range(3)]
-        one = Real.of(1)
-        self.rotation = [[(one if i == j else ZERO) + first[0] * once[i][j] + second[0] * twice[i][j] for j in range(3)] for i in range(3)]
-        self.slopes = []
-        for k in range(3):
-            e = [one if i == k else ZERO for i in range(3)]
-            turned = [[ZERO, -e[2], e[1]], [e[2], ZERO, -e[0]], [-e[1], e[0], ZERO]]
-            two = w[k] + w[k]
-            self.slopes.append(
-                [
-                    [
-                        two * (first[1] * once[i][j] + second[1] * twice[i][j]) + first[0] * turned[i][j] + second[0] * (e[i] * w[j] + w[i] * e[j] - (two if i == j else ZERO))
-                        for j in range(3)
-                    ]
-                    for i in range(3)
-                ]
-            )
+        x = [middle + Real(low, high) * width for middle, low, high, width in zip(region.middle, ends[0], ends[1], region.widths)]
+        self.w = w = x[3:]
+        squares = [square(a) for a in w]
+        self.turn = squares[0] + squares[1] + squares[2]
+        need(self.turn.high <= LARGEST_TURN * ONE, "the rotations of the region are too large")
+        self.factors = stumpff(1, 0, self.turn), stumpff(2, 0, self.turn)
+        self.twice = [[-(squares[(i + 1) % 3] + squares[(i + 2) % 3]) if i == j else w[i] * w[j] for j in range(3)] for i in range(3)]
         self.position = [a + b for a, b in zip(region.position, x)]
+
+    def turned(self, v: Vector) -> Vector:
+        """The vectors R v."""
+        first, second = self.factors
+        return [a + first * b + second * c for a, b, c in zip(v, real_cross(self.w, v), apply(self.twice, v))]
+
+    def slopes(self, v: Vector) -> list[Vector]:
+        """Their slopes along w: 2 w_k (C_1' w x v + C_2' w x (w x v)) + C_1 e_k x v + C_2 (e_k (w.v) + w v_k - 2 w_k v)."""
+        w, (first, second), grown = self.w, self.factors, [stumpff(k, 1, self.turn) for k in (1, 2)]
+        growth = [grown[0] * b + grown[1] * c for b, c in zip(real_cross(w, v), apply(self.twice, v))]
+        spun, slopes = [first * x for x in v], list[Vector]()
+        for k in range(3):
+            i, j, two, slope = (k + 1) % 3, (k + 2) % 3, w[k] + w[k], [ZERO] * 3
+            slope[k] = two * growth[k] + second * (w[i] * v[i] + w[j] * v[j])
+            slope[i] = two * growth[i] - spun[j] + second * (w[i] * v[k] - two * v[i])
+            slope[j] = two * growth[j] + spun[i] + second * (w[j] * v[k] - two * v[j])
+            slopes.append(slope)
+        return slopes
 
 
 class Region:
@@ -1214,20 +1232,21 @@ class Region:
     def tiled(self, tree: Any, prove: Callable[[Cell, Cell, Ends], None]) -> int:
         """Checks the cells of a tree, which tile the region, and counts them."""
         need(isinstance(tree, str), "a tiling is missing")
-        start = [Fraction(int(used)) for used in self.used]
+        start = [ONE if used else 0 for used in self.used]
         open_cells: list[Ends] = [([-x for x in start], start)]
         count = 0
         for letter in tree:
             need(bool(open_cells), "the tiling goes on after its last cell")
             low, high = open_cells.pop()
-            middle = [(a + b) / 2 for a, b in zip(low, high)]
+            need(all((a + b) % 2 == 0 for a, b in zip(low, high)), "the cell is too small")
+            middle = [(a + b) // 2 for a, b in zip(low, high)]
             if letter in "012345":
                 k = int(letter)
                 open_cells.append(([*low[:k], middle[k], *low[k + 1 :]], high))
                 open_cells.append((low, [*high[:k], middle[k], *high[k + 1 :]]))
             elif letter == "x":
-                nearest = [max(a, -b, Fraction(0)) for a, b in zip(low, high)]
-                outside = any(sum(x * x for x in nearest[i : i + 3]) > 1 for i in (0, 3))
+                nearest = [max(a, -b, 0) for a, b in zip(low, high)]
+                outside = any(sum(x * x for x in nearest[i : i + 3]) > ONE * ONE for i in (0, 3))
                 need(self.shape == "ellipsoid" and outside, f"cell {count + 1} is not outside the region")
             else:
                 need(letter == ".", f"`{letter}` is no part of a tiling")
@@ -1239,27 +1258,29 @@ class Region:
         need(not open_cells, "the tiling does not cover the region")
         return count
 
-    def along(self, cell: Cell, leg: int, k: int) -> Vector:
-        """The change of a leg vector along a coordinate."""
-        change = [Real.of(int(i == k)) for i in range(3)] if k < 3 else apply(cell.slopes[k - 3], self.platform[leg])
-        return [x * self.widths[k] for x in change]
+    def along(self, cell: Cell, leg: int) -> list[Vector]:
+        """The changes of a leg vector along the coordinates."""
+        return [[self.widths[k] if i == k else ZERO for i in range(3)] for k in range(3)] + self.turns(cell, self.platform[leg])
+
+    def turns(self, cell: Cell, at_home: Vector) -> list[Vector]:
+        """The changes along the rotations of a vector that rotates from home."""
+        return [[x * width for x in slope] for slope, width in zip(cell.slopes(at_home), self.widths[3:])]
 
     def leg(self, cell: Cell, leg: int) -> Vector:
-        arm = apply(cell.rotation, self.platform[leg])
-        return [x + p - a for x, p, a in zip(arm, cell.position, self.base[leg])]
+        return [x + p - a for x, p, a in zip(cell.turned(self.platform[leg]), cell.position, self.base[leg])]
 
     def line(self, cell: Cell, leg: int, ks: range) -> JetVector:
-        along = [self.along(cell, leg, k) for k in ks]
+        along = self.along(cell, leg) if ks else []
         return [Jet(x, [t[j] for t in along]) for j, x in enumerate(self.leg(cell, leg))]
 
     def turned(self, cell: Cell, at_home: Vector, ks: range) -> JetVector:
         """A vector that rotates from home."""
-        along = [[x * self.widths[k] for x in apply(cell.slopes[k - 3], at_home)] if k >= 3 else [ZERO] * 3 for k in ks]
-        return [Jet(x, [t[j] for t in along]) for j, x in enumerate(apply(cell.rotation, at_home))]
+        along = [[ZERO] * 3] * 3 + self.turns(cell, at_home) if ks else []
+        return [Jet(x, [t[j] for t in along]) for j, x in enumerate(cell.turned(at_home))]
 
     def least(self, value: Real, slopes: Vector, ends: Ends) -> int:
         """A lower bound on a cell, over 2^BITS, of a function with this value at the middle and these slopes."""
-        out, half, z = value.low, half_widths(ends), [scaled((a + b) / 2) for a, b in zip(*ends)]
+        out, half, z = value.low, half_widths(ends), [(a + b) // 2 for a, b in zip(*ends)]
         for first in (0, 3):
             ks = range(first, first + 3)
             c = {k: (slopes[k].low + slopes[k].high) // 2 for k in ks}
@@ -1273,28 +1294,24 @@ class Region:
         """Rows (n, R b x (p - a) / unit): moments about the pivot."""
         rows = []
         for a, b in zip(self.base, self.platform):
-            arm, lever = apply(cell.rotation, b), [p - x for p, x in zip(cell.position, a)]
+            arm, lever = cell.turned(b), [p - x for p, x in zip(cell.position, a)]
             rows.append([x + y for x, y in zip(arm, lever)] + [x * unit for x in real_cross(arm, lever)])
         return rows
 
-    def changes(self, cell: Cell, unit: Real, k: int) -> Matrix:
-        """The change of these rows along a coordinate."""
-        rows = []
-        for a, b in zip(self.base, self.platform):
-            if k < 3:
-                change = [Real.of(int(i == k)) for i in range(3)]
-                moment = real_cross(apply(cell.rotation, b), change)
-            else:
-                change = apply(cell.slopes[k - 3], b)
-                moment = real_cross(change, [p - x for p, x in zip(cell.position, a)])
-            rows.append([x * self.widths[k] for x in change + [x * unit for x in moment]])
-        return rows
+    def changes(self, cell: Cell, unit: Real) -> list[Matrix]:
+        """The changes of these rows along the coordinates."""
+        changes: list[Matrix] = [[] for _ in range(6)]
+        for leg, (a, b) in enumerate(zip(self.base, self.platform)):
+            arm, lever = cell.turned(b), [p - x for p, x in zip(cell.position, a)]
+            for k, change in enumerate(self.along(cell, leg)):
+                moment = real_cross(arm, change) if k < 3 else real_cross(change, lever)
+                changes[k].append(change + [x * unit for x in moment])
+        return changes
 
 
 def half_widths(ends: Ends) -> list[int]:
-    """Half widths of a cell over 2^BITS; cells have dyadic ends, which are exact in so many bits."""
-    need(all(x.denominator <= ONE >> 8 for end in ends for x in end), "the cell is too small")
-    return [scaled((b - a) / 2) for a, b in zip(*ends)]
+    """Half widths of a cell over 2^BITS."""
+    return [(b - a) // 2 for a, b in zip(*ends)]
 
 
 def square_of(v: Vector) -> Real:
@@ -1315,19 +1332,21 @@ def margin_over_region(proof: Proof, claim: Any) -> str:
     need(kind in ("min_leg_length", "max_leg_length", "base_cone_angle", "platform_cone_angle"), f"`{kind}` is no requirement that this program checks")
     axes = a_list(field(claim, "axes"), 6, lambda x: [Real.of(v) for v in a_list(x, 3, number)]) if "cone_angle" in kind else []
     need(all(square_of(m).low > 0 for m in axes), "an axis has no direction")
-    two, cells = Real.of(2), 0
+    cells, of_platform = 0, kind == "platform_cone_angle"
     for i in range(6):
         limit = limits[i] + least if kind == "min_leg_length" else limits[i] - least
         need(limit >= 0, "the limit is negative")
+        bound = Real.of(limit * limit)
         if axes:
             need(limit <= 180, "the limit is above 180 degrees")
-            cosine = cosine_of_degrees(limit) * real_dot(axes[i], axes[i]).sqrt()
+            cosine, axis = cosine_of_degrees(limit) * real_dot(axes[i], axes[i]).sqrt(), apply(region.home, axes[i])
 
         def prove(middle: Cell, cell: Cell, ends: Ends, i: int = i) -> None:
-            n0, along = region.leg(middle, i), [region.along(cell, i, k) for k in range(6)]
+            n0, along = region.leg(middle, i), region.along(cell, i)
             if not axes:
                 # |n|^2 = |n0|^2 + 2 n0.D + |D|^2 with D = n - n0
-                value, slopes = square_of(n0) - Real.of(limit * limit), [two * real_dot(n0, t) for t in along]
+                twice = [x + x for x in n0]
+                value, slopes = square_of(n0) - bound, [real_dot(twice, t) for t in along]
                 if kind == "max_leg_length":
                     half = half_widths(ends)
                     d = [sum(up(t[j].size() * half[k]) for k, t in enumerate(along)) for j in range(3)]
@@ -1335,14 +1354,14 @@ def margin_over_region(proof: Proof, claim: Any) -> str:
                     value, slopes = -value - Real(rest, rest), [-x for x in slopes]
             else:
                 # n.m - cos(limit) |n| |m| with the axis m in the base frame
-                n, at_home, of_platform = region.leg(cell, i), apply(region.home, axes[i]), kind == "platform_cone_angle"
+                n = region.leg(cell, i)
                 need(square_of(n).low > 0, "the leg may have no direction")
-                m0, m = (apply(c.rotation, at_home) if of_platform else axes[i] for c in (middle, cell))
-                value, inverse = real_dot(n0, m0) - cosine * square_of(n0).sqrt(), square_of(n).sqrt().inverse()
-                slopes = [real_dot(t, m) - cosine * (real_dot(n, t) * inverse) for t in along]
+                m0, m = (c.turned(axis) if of_platform else axes[i] for c in (middle, cell))
+                value, scale = real_dot(n0, m0) - cosine * square_of(n0).sqrt(), cosine * square_of(n).sqrt().inverse()
+                slopes = [real_dot(t, m) - scale * real_dot(n, t) for t in along]
                 if of_platform:
-                    for k in range(3, 6):
-                        slopes[k] = slopes[k] + real_dot(n, apply(cell.slopes[k - 3], at_home)) * region.widths[k]
+                    for k, turn in enumerate(region.turns(cell, axis)):
+                        slopes[3 + k] = slopes[3 + k] + real_dot(n, turn)
             need(region.least(value, slopes, ends) >= 0, f"leg {i + 1} may violate it")
 
         cells += region.tiled(trees[i], prove)
@@ -1552,7 +1571,7 @@ def leg_force(proof: Proof, claim: Any) -> str:
             half, one = half_widths(ends), Real.of(1)
             lines = [list(column) for column in zip(*region.lines(middle, scale))]
             inverse = [[Real(z[0], z[0]) for z in row] for row in approximate_inverse([[((x.low + x.high) // 2, 0) for x in row] for row in lines])]
-            changes = [[list(column) for column in zip(*region.changes(cell, scale, k))] for k in range(6)]
+            changes = [[list(column) for column in zip(*change)] for change in region.changes(cell, scale)]
             start, solved_changes = product(inverse, lines), [product(inverse, change) for change in changes]
             rest_at = [[(one if i == j else ZERO) - x for j, x in enumerate(row)] for i, row in enumerate(start)]
             reach = [[sum(up(change[i][j].size() * h) for change, h in zip(solved_changes, half)) for j in range(6)] for i in range(6)]
@@ -1587,7 +1606,7 @@ def regular_region(proof: Proof, claim: Any) -> str:
         at = region.lines(middle, scale)
         inverse = approximate_inverse([[((x.low + x.high) // 2, 0) for x in row] for row in at])
         k_rows = [[Real(z[0], z[0]) for z in row] for row in inverse]
-        start, changes = product(k_rows, at), [product(k_rows, region.changes(cell, scale, k)) for k in range(6)]
+        start, changes = product(k_rows, at), [product(k_rows, change) for change in region.changes(cell, scale)]
         one = Real.of(1)
         for i in range(6):
             size = 0

@@ -20,14 +20,14 @@
 //! affine in every offset, and so is every combination with multipliers. Its greatest value is at one of the 64
 //! corners, even if the functions share offsets.
 
-use nalgebra::Matrix6;
+use std::ops::{Add, Mul, Sub};
+
+use nalgebra::{SVD, U6};
 
 use super::multipliers::game;
 use super::rows::LegRow;
-use crate::offsets::conditioning::PoseLegs;
 use crate::offsets::limits::OffsetRanges;
 use num::ball::Real;
-use num::small::bounded_svd;
 
 /// `a . b`.
 fn dot(a: &[Real; 6], b: &[Real; 6]) -> Real {
@@ -41,8 +41,36 @@ pub(super) const CORNERS: usize = 64;
 /// limit.
 pub(super) type AtCorners = [Real; CORNERS];
 
+/// Numbers of the determinants: balls for proofs, doubles to see whether a proof is likely.
+pub(super) trait Entry: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    const ZERO: Self;
+    fn of(ball: Real) -> Self;
+    fn ball(self) -> Real;
+}
+
+impl Entry for Real {
+    const ZERO: Self = Self { centre: 0.0, radius: 0.0 };
+    fn of(ball: Real) -> Self {
+        ball
+    }
+    fn ball(self) -> Real {
+        self
+    }
+}
+
+impl Entry for f64 {
+    const ZERO: Self = 0.0;
+    fn of(ball: Real) -> Self {
+        ball.centre
+    }
+    fn ball(self) -> Real {
+        Real::point(self)
+    }
+}
+
 /// Vectors in the middle of the box.
-struct Vectors {
+#[derive(Debug)]
+pub(super) struct Vectors {
     x: [f64; 6],
     y: [f64; 6],
     z: [f64; 6],
@@ -50,9 +78,8 @@ struct Vectors {
 }
 
 impl Vectors {
-    /// Singular vectors of the least and of the greatest singular value; `None` if the decomposition fails.
-    fn of(j: &Matrix6<f64>) -> Option<Self> {
-        let svd = bounded_svd(j)?;
+    /// Singular vectors of the least and of the greatest singular value; `None` without finite ones.
+    pub(super) fn of(svd: &SVD<f64, U6, U6>) -> Option<Self> {
         let (u, v_t) = (svd.u?, svd.v_t?);
         let sigma = svd.singular_values;
         let (least, greatest) = (sigma.imin(), sigma.imax());
@@ -85,11 +112,11 @@ fn triples() -> [(Triple, Triple, bool); 20] {
     out
 }
 
-type Row = [Real; 6];
+type Row<T> = [T; 6];
 
 /// The twenty determinants of three rows, on the columns of the first (or second) member of each pair of triples.
-fn minors(rows: [&Row; 3], triples: &[(Triple, Triple, bool); 20], second: bool) -> [Real; 20] {
-    let mut out = [Real::ZERO; 20];
+fn minors<T: Entry>(rows: [&Row<T>; 3], triples: &[(Triple, Triple, bool); 20], second: bool) -> [T; 20] {
+    let mut out = [T::ZERO; 20];
     for (value, (first, rest, _)) in out.iter_mut().zip(triples) {
         let [a, b, c] = if second { *rest } else { *first };
         let [p, q, r] = rows;
@@ -100,8 +127,8 @@ fn minors(rows: [&Row; 3], triples: &[(Triple, Triple, bool); 20], second: bool)
 }
 
 /// A determinant of six rows from the minors of its halves.
-fn joined(upper: &[Real; 20], lower: &[Real; 20], triples: &[(Triple, Triple, bool); 20]) -> Real {
-    let mut sum = Real::ZERO;
+fn joined<T: Entry>(upper: &[T; 20], lower: &[T; 20], triples: &[(Triple, Triple, bool); 20]) -> T {
+    let mut sum = T::ZERO;
     for ((u, l), (_, _, odd)) in upper.iter().zip(lower).zip(triples) {
         // the sign for the columns 0, 1, 2 is positive: their sum is 3
         sum = if *odd { sum + *u * *l } else { sum - *u * *l };
@@ -110,19 +137,24 @@ fn joined(upper: &[Real; 20], lower: &[Real; 20], triples: &[(Triple, Triple, bo
 }
 
 /// Minors of one half of the rows for the eight corners of its offsets, and with one row replaced.
-struct Half {
-    plain: Vec<[Real; 20]>,
+struct Half<T> {
+    plain: Vec<[T; 20]>,
     /// `[corner][replaced row]`; the end of the replaced row is irrelevant.
-    replaced: Vec<[[Real; 20]; 3]>,
+    replaced: Vec<[[T; 20]; 3]>,
 }
 
-impl Half {
-    fn new(ends: &[[Row; 2]; 6], y: &Row, triples: &[(Triple, Triple, bool); 20], second: bool) -> Self {
+impl<T: Entry> Half<T> {
+    fn new(
+        ends: &[[Row<T>; 2]; 6],
+        y: &Row<T>,
+        triples: &[(Triple, Triple, bool); 20],
+        second: bool,
+    ) -> Self {
         let first = if second { 3 } else { 0 };
         let rows =
-            |corner: usize| -> [&Row; 3] { std::array::from_fn(|k| &ends[first + k][corner >> k & 1]) };
+            |corner: usize| -> [&Row<T>; 3] { std::array::from_fn(|k| &ends[first + k][corner >> k & 1]) };
         let plain = (0..8).map(|corner| minors(rows(corner), triples, second)).collect();
-        let mut replaced: Vec<[[Real; 20]; 3]> = Vec::with_capacity(8);
+        let mut replaced: Vec<[[T; 20]; 3]> = Vec::with_capacity(8);
         for corner in 0..8 {
             replaced.push(std::array::from_fn(|k| {
                 let twin = corner & !(1 << k);
@@ -166,42 +198,44 @@ fn least_length(q: &[Real; 3], low: f64, high: f64, a: &Real, b: &Real) -> Optio
     (floor > 0.0).then(|| Real::point(floor))
 }
 
-/// The function of one pose; `None` if it gives no bound.
-pub(super) fn at_corners(
+/// The function of one pose; `None` if it gives no bound. Its values in doubles are below those in balls, up to the
+/// rounding of both.
+pub(super) fn at_corners<T: Entry>(
     rows: &[LegRow; 6],
-    plain: &PoseLegs,
+    v: &Vectors,
     bounds: &OffsetRanges,
     limit: f64,
 ) -> Option<AtCorners> {
-    let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
-    let v = Vectors::of(&plain.jacobian(&middle))?;
-    let mut ends: [[Row; 2]; 6] = [[[Real::ZERO; 6]; 2]; 6];
+    let mut ends: [[Row<T>; 2]; 6] = [[[T::ZERO; 6]; 2]; 6];
     let mut length = [[Real::ZERO; 2]; 6];
     let mut chord = [0.0; 6];
     for i in 0..6 {
         let (constant, rate, _) = rows[i].balls();
         for (end, t) in [bounds[i].0, bounds[i].1].into_iter().enumerate() {
-            ends[i][end] = std::array::from_fn(|k| constant[k] + Real::point(t) * rate[k]);
+            ends[i][end] = std::array::from_fn(|k| T::of(constant[k] + Real::point(t) * rate[k]));
         }
         (length[i], chord[i]) = lengths(&rows[i], bounds[i])?;
     }
     let triples = triples();
     let y = v.y.map(Real::point);
-    let (upper, lower) = (Half::new(&ends, &y, &triples, false), Half::new(&ends, &y, &triples, true));
+    let own = y.map(T::of);
+    let (upper, lower) = (Half::new(&ends, &own, &triples, false), Half::new(&ends, &own, &triples, true));
     let mut det = [Real::ZERO; CORNERS];
     // sum x_i l_i C_i, and x_i C_i for each leg
     let mut sum = [Real::ZERO; CORNERS];
     let mut parts = [[Real::ZERO; 6]; CORNERS];
     for corner in 0..CORNERS {
         let (u, l) = (corner & 7, corner >> 3);
-        det[corner] = joined(&upper.plain[u], &lower.plain[l], &triples);
+        det[corner] = joined(&upper.plain[u], &lower.plain[l], &triples).ball();
         for i in 0..6 {
-            let cofactor = if i < 3 {
-                joined(&upper.replaced[u][i], &lower.plain[l], &triples)
+            // C_i has no row of leg i, so that its offset is irrelevant
+            parts[corner][i] = if corner >> i & 1 == 1 {
+                parts[corner ^ 1 << i][i]
+            } else if i < 3 {
+                Real::point(v.x[i]) * joined(&upper.replaced[u][i], &lower.plain[l], &triples).ball()
             } else {
-                joined(&upper.plain[u], &lower.replaced[l][i - 3], &triples)
+                Real::point(v.x[i]) * joined(&upper.plain[u], &lower.replaced[l][i - 3], &triples).ball()
             };
-            parts[corner][i] = Real::point(v.x[i]) * cofactor;
             sum[corner] = sum[corner] + length[i][corner >> i & 1] * parts[corner][i];
         }
     }
@@ -212,7 +246,7 @@ pub(super) fn at_corners(
         let greatest = parts.iter().map(|p| sign * p[i].centre + p[i].radius).fold(0.0, f64::max).next_up();
         lost = lost + Real::point(chord[i]) * Real::point(greatest);
     }
-    let top = greatest_singular_value(rows, &v, bounds)?;
+    let top = greatest_singular_value(rows, v, bounds)?;
     let factor = Real::point(limit) * Real::point(top);
     let norms = dot(&v.x.map(Real::point), &v.x.map(Real::point)) * dot(&y, &y);
     let norms = norms.sqrt()?;
@@ -248,7 +282,7 @@ const PARTS: u32 = 4;
 
 /// A lower bound of `z (row . w) / length` on a range. On each part it is the value in the middle minus the rate over
 /// the part times half its width.
-fn least_along(row: &LegRow, w: &Row, z: Real, (low, high): (f64, f64)) -> Option<f64> {
+fn least_along(row: &LegRow, w: &Row<Real>, z: Real, (low, high): (f64, f64)) -> Option<f64> {
     let (constant, rate, q) = row.balls();
     let (a, b) = (dot(constant, w), dot(rate, w));
     let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
@@ -276,10 +310,15 @@ fn least_along(row: &LegRow, w: &Row, z: Real, (low, high): (f64, f64)) -> Optio
     Some(least)
 }
 
+/// Multipliers of a combination that is negative at all corners, in doubles.
+pub(super) fn combination(functions: &[AtCorners]) -> Option<Vec<f64>> {
+    let values: Vec<[f64; CORNERS]> = functions.iter().map(|f| f.map(|b| b.centre)).collect();
+    game(&values)
+}
+
 /// `true` if a combination of the functions is proved negative at all corners, and so on the whole box.
 pub(super) fn excluded(functions: &[AtCorners]) -> bool {
-    let values: Vec<[f64; CORNERS]> = functions.iter().map(|f| f.map(|b| b.centre)).collect();
-    let Some(mu) = game(&values) else { return false };
+    let Some(mu) = combination(functions) else { return false };
     (0..CORNERS).all(|corner| {
         let mut sum = Real::ZERO;
         for (mu, f) in mu.iter().zip(functions).filter(|(mu, _)| **mu > 0.0) {

@@ -8,16 +8,18 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use nalgebra::Matrix6;
 
-use self::corners::{AtCorners, at_corners};
+use self::corners::{AtCorners, Vectors, at_corners, combination};
 use self::multipliers::{SAMPLES, Sampled, multipliers};
 use self::rows::{LegRow, QuadraticQuotient, greatest};
 use super::conditioning::{PoseLegs, worst_case_above};
 use super::limits::{OffsetLimits, OffsetRanges, point};
 use super::problem::{OffsetModel, OffsetProblem};
+use num::ball::Real;
 use num::parallel::parallel;
 use num::small::bounded_svd;
 use synthesis::sides;
@@ -258,6 +260,8 @@ struct Direction {
     ratio: f64,
     low: Vec<[f64; 6]>,
     high: Vec<[f64; 6]>,
+    /// Left and right singular vectors for determinants.
+    vectors: Option<Vectors>,
 }
 
 /// Singular values within this factor count as near.
@@ -267,6 +271,7 @@ impl Direction {
     /// `None` if the decomposition fails.
     fn of(j: &Matrix6<f64>) -> Option<Self> {
         let svd = bounded_svd(j)?;
+        let vectors = Vectors::of(&svd);
         let v = svd.v_t?;
         let sigma = svd.singular_values;
         let mut order = [0, 1, 2, 3, 4, 5];
@@ -286,6 +291,7 @@ impl Direction {
             ratio,
             low: mixed(order[0], order[1]),
             high: mixed(order[5], order[4]),
+            vectors,
         })
     }
 }
@@ -323,6 +329,7 @@ fn test(
 ) -> Test {
     let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
     let mut found: Vec<(usize, Direction)> = Vec::new();
+    let mut estimates: BTreeMap<usize, Option<AtCorners>> = BTreeMap::new();
     let mut seen = 0;
     for (looked_at, taking_part, mixed, at_all_corners) in ATTEMPTS {
         let more = &candidates[seen..candidates.len().min(looked_at)];
@@ -332,10 +339,20 @@ fn test(
         if excluded(poses, &found[..found.len().min(taking_part)], mixed, bounds, limit) {
             return Test::Excluded;
         }
-        let function = |(k, _): &(usize, Direction)| at_corners(&poses[*k].rows, &plain[*k], bounds, limit);
-        let functions: Vec<AtCorners> =
-            found[..found.len().min(at_all_corners)].iter().filter_map(function).collect();
-        if corners::excluded(&functions) {
+        let worst = &found[..found.len().min(at_all_corners)];
+        let in_doubles = |(k, d): &(usize, Direction)| {
+            *estimates
+                .entry(*k)
+                .or_insert_with(|| at_corners::<f64>(&poses[*k].rows, d.vectors.as_ref()?, bounds, limit))
+        };
+        let likely: Vec<AtCorners> = worst.iter().filter_map(in_doubles).collect();
+        let in_balls = |(k, d): &(usize, Direction)| {
+            at_corners::<Real>(&poses[*k].rows, d.vectors.as_ref()?, bounds, limit)
+        };
+        // balls take several times as long, and most boxes have no combination
+        if combination(&likely).is_some()
+            && corners::excluded(&worst.iter().filter_map(in_balls).collect::<Vec<_>>())
+        {
             return Test::Excluded;
         }
     }

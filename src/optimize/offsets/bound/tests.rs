@@ -135,7 +135,7 @@ fn better_offsets_than_the_value_given_are_come_upon() {
 /// arithmetic is at most the affine one.
 #[test]
 fn functions_at_the_corners_are_above_what_they_bound() {
-    use super::corners::{CORNERS, at_corners};
+    use super::corners::{CORNERS, Vectors, at_corners};
     let p = problem();
     let m = OffsetModel::new(&p);
     let limits = OffsetLimits::new(&p);
@@ -147,10 +147,19 @@ fn functions_at_the_corners_are_above_what_they_bound() {
         let bounds = around(&t, [0.3, 0.05, 1e-3][n % 3], &mut rng);
         let k = n % p.poses.len();
         let reached = m.poses[k].inverse_condition(&t);
+        let svd = bounded_svd(&m.poses[k].jacobian(&middle(&bounds))).unwrap();
+        let (rows, v) = (&tree.poses[k].rows, Vectors::of(&svd).unwrap());
         // offsets that reach the limit have non-negative values
-        let Some(f) = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * (1.0 - 1e-9)) else {
+        let limit = reached * (1.0 - 1e-9);
+        let Some(f) = at_corners::<Real>(rows, &v, &bounds, limit) else {
             continue;
         };
+        // doubles look for the combination, so they must not be above what balls prove
+        let estimates = at_corners::<f64>(rows, &v, &bounds, limit).unwrap();
+        for (ball, estimate) in f.iter().zip(&estimates) {
+            let excess = estimate.centre - ball.centre;
+            assert!((-1e-9..=1e-12).contains(&(excess / ball.centre.abs().max(1.0))), "{n}: {excess}");
+        }
         let share = |i: usize| (t[i] - bounds[i].0) / (bounds[i].1 - bounds[i].0);
         let weight = |corner: usize| -> f64 {
             (0..6).map(|i| if corner >> i & 1 == 1 { share(i) } else { 1.0 - share(i) }).product()
@@ -158,7 +167,7 @@ fn functions_at_the_corners_are_above_what_they_bound() {
         let value: f64 = (0..CORNERS).map(|c| weight(c) * (f[c].centre + f[c].radius)).sum();
         assert!(value >= 0.0, "{n}: {value}");
         // and a limit well above gives small boxes negative values
-        let above = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * 1.05).unwrap();
+        let above = at_corners::<Real>(rows, &v, &bounds, reached * 1.05).unwrap();
         sharp += usize::from(n % 3 == 2 && above.iter().all(|b| b.centre + b.radius < 0.0));
     }
     assert!(sharp >= 15, "{sharp} of 20");
