@@ -30,7 +30,13 @@ pub(crate) fn read(
         Some(numbers) => (numbers, &usual),
         None => (text, &frames.convention),
     };
-    let (position, rotation) = if text.split(',').count() == 7 {
+    let count = text.split(',').count();
+    if count > 7 {
+        // the entries of a matrix are decimals, and a rotation within their rounding
+        let found = convention.read_text(text, &frames.home);
+        return found.map(|pose| of_doubles(&pose)).map_err(|why| refuse(why.to_string()));
+    }
+    let (position, rotation) = if count == 7 {
         let [x, y, z, quaternion @ ..] = numbers::exact::<7>(text).map_err(refuse)?;
         if quaternion.iter().all(Surd::is_zero) {
             return Err(refuse("the quaternion is zero".to_owned()));

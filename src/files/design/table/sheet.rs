@@ -1,8 +1,11 @@
 //! Rows and columns of a table: detection of separators, decimal marks and the header.
 
+use std::borrow::Cow;
+
 use thiserror::Error;
 
 use super::header::{CellUnit, length_unit, units_in_title};
+use super::printed;
 use super::text::{decode, is_workbook};
 use platform::geom::AngleUnit;
 
@@ -68,6 +71,10 @@ impl CellTable {
         let decoded = decode(bytes).map_err(InvalidSheet::Encoding)?;
         let mut guesses: Vec<String> = decoded.guess.into_iter().collect();
         let mut text = decoded.text;
+        if let Some(joined) = printed::joined(&text) {
+            guesses.push("Groups of columns that were printed below each other are joined.".into());
+            text = joined;
+        }
         if let Some(lines) = bracketed(&text) {
             guesses.push("Each innermost pair of brackets is read as a row.".into());
             text = lines;
@@ -76,7 +83,7 @@ impl CellTable {
         let mut best: Option<([usize; 3], char, char, Vec<SheetRow>)> = None;
         let mut fault = None;
         for (separator, _) in SEPARATORS.into_iter().filter(|(c, _)| present(*c)) {
-            let records = match records(&text, separator) {
+            let records = match records(&text, separator, least) {
                 Ok(records) => records,
                 Err(why) => {
                     fault.get_or_insert(why);
@@ -251,6 +258,34 @@ impl CellTable {
         Ok(())
     }
 
+    /// A table of cells with decimal points, which need no guesses about marks.
+    pub(super) fn of_rows(
+        header: Option<Vec<String>>,
+        rows: Vec<SheetRow>,
+        (length_unit, angle_unit): (Option<&'static str>, Option<AngleUnit>),
+        guesses: Vec<String>,
+    ) -> Self {
+        Self { header, rows, length_unit, angle_unit, guesses, decimal: '.' }
+    }
+
+    /// The factor in a row such as `1.0e+03 *`, as MATLAB prints it above a matrix.
+    pub(super) fn factor(&self, row: &SheetRow) -> Option<f64> {
+        let text = row.cells.join(" ");
+        self.number(text.strip_suffix('*')?.trim()).filter(|x| *x > 0.0)
+    }
+
+    /// A number times a factor, in the notation of this table; a power of ten moves the decimal point without rounding.
+    pub(super) fn scaled(&self, cell: &str, factor: f64) -> String {
+        let power = factor.log10();
+        if factor.to_bits() == 1.0_f64.to_bits() {
+            return cell.to_owned();
+        }
+        if power.fract() == 0.0 && !cell.contains(['e', 'E']) {
+            return format!("{cell}e{power}");
+        }
+        self.number(cell).map_or_else(|| cell.to_owned(), |x| self.shown(x * factor))
+    }
+
     /// The number in a cell; `None` if it is invalid or not finite.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
         number(cell, self.decimal)
@@ -277,6 +312,11 @@ fn number(cell: &str, decimal: char) -> Option<f64> {
     if cell.len() - body.len() > 1 || !body.starts_with(|c: char| c.is_ascii_digit() || c == decimal) {
         return None;
     }
+    // double precision of Fortran: `1.5D+02`
+    let cell = match cell.find(['D', 'd']) {
+        Some(at) if at > 0 => cell[..at].to_owned() + "e" + &cell[at + 1..],
+        _ => cell,
+    };
     let cell = match decimal {
         ',' if cell.contains('.') || cell.ends_with(',') => return None,
         ',' => cell.replacen(',', ".", 1),
@@ -382,10 +422,32 @@ fn bracketed(text: &str) -> Option<String> {
     Some(out)
 }
 
+/// The text without comments behind the numbers of a line; lines keep their places.
+fn without_comments(text: &str, least: usize) -> Cow<'_, str> {
+    if !COMMENTS.iter().any(|mark| text.contains(mark)) {
+        return text.into();
+    }
+    let separates = |c: char| c.is_whitespace() || ";|,".contains(c);
+    let short = |line: &'_ str| -> usize {
+        let marks = COMMENTS.iter().filter_map(|mark| line.find(mark));
+        let Some(at) = marks.min().filter(|at| line[..*at].ends_with(separates)) else { return line.len() };
+        let numbers = line[..at].split(separates).filter(|cell| number(cell, '.').is_some()).count();
+        if numbers >= least && !line[..at].contains('"') { at } else { line.len() }
+    };
+    text.split_inclusive('\n')
+        .flat_map(|line| {
+            let at = short(line);
+            [&line[..at], if at < line.len() && line.ends_with('\n') { "\n" } else { "" }]
+        })
+        .collect::<String>()
+        .into()
+}
+
 /// Cells of all lines that are not blank. A cell in quotation marks may contain separators and line ends; two marks in
 /// it are one.
 // The crate `csv` silently accepts an unclosed quotation mark, and it counts each blank of a run as a separator.
-fn records(text: &str, separator: char) -> Result<Vec<SheetRow>, InvalidSheet> {
+fn records(text: &str, separator: char, least: usize) -> Result<Vec<SheetRow>, InvalidSheet> {
+    let text: &str = &without_comments(text, least);
     let mut rows = Vec::new();
     let mut row = SheetRow { line: 1, cells: Vec::new() };
     let (mut cell, mut line) = (String::new(), 1);

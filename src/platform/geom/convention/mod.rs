@@ -11,6 +11,8 @@
 //!
 //! so that the pivot, and not the origin of the platform, stands at `C q`.
 
+mod matrix;
+
 use std::fmt::Write as _;
 
 use std::fmt;
@@ -21,6 +23,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::pose_set::ListedFrom;
 use super::rotation_vector::rotation_vector;
 use super::{InvalidPose, Pose};
+
+pub use matrix::is_by_columns;
 
 num::words! {
     /// An axis of a frame.
@@ -443,11 +447,12 @@ impl PoseConvention {
             && self.up_axis() == UpAxis::Z
     }
 
-    /// The pose of six numbers, position and angles, or of seven, position and a quaternion of norm 1 within a
-    /// thousandth.
+    /// The pose of six numbers, position and angles; of seven, position and a quaternion of norm 1 within a thousandth;
+    /// or of twelve or sixteen, the matrix `(R p)` or `(R p; 0 0 0 1)` row by row.
     ///
     /// # Errors
-    /// Another number of numbers, numbers that are not finite, another norm.
+    /// Another number of numbers, numbers that are not finite, another norm, a matrix that is no rotation within the
+    /// rounding of its decimals.
     pub fn read(&self, numbers: &[f64], home: &Pose) -> Result<Pose, InvalidPose> {
         if !numbers.iter().all(|x| x.is_finite()) {
             return Err(InvalidPose::NotFinite);
@@ -461,7 +466,19 @@ impl PoseConvention {
                 Pose::from_quaternion([x, y, z], self.quaternion_order().scalar_first([a, b, c, d]))?
             }
             _ => {
-                return Err(InvalidPose::Text(format!("{} values instead of six or seven", numbers.len())));
+                if let Ok(matrix) = numbers.try_into() {
+                    matrix::of_twelve(matrix)?
+                } else if let Ok(matrix) = numbers.try_into() {
+                    matrix::of_sixteen(matrix)?
+                } else if let Ok(matrix) = numbers.try_into() {
+                    return Err(matrix::without_position(matrix));
+                } else {
+                    let message = format!(
+                        "{} values instead of six or seven, or twelve or sixteen of a matrix",
+                        numbers.len()
+                    );
+                    return Err(InvalidPose::Text(message));
+                }
             }
         };
         Ok(self.in_base_frame(&written, home))

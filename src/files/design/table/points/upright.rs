@@ -1,6 +1,7 @@
 //! Tables whose columns are joints or legs and whose rows are coordinates, turned so that rows are joints or legs.
 
-use super::{LEAST_NUMBERS, axis_of, only_number};
+use super::LEAST_NUMBERS;
+use super::words::{axis_of, only_number};
 use crate::design::table::header::plain;
 use crate::design::table::sheet::{CellTable, SheetRow};
 
