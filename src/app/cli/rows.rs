@@ -57,6 +57,9 @@ fn told<T>(
             InvalidSeries::Matrices(_) => {
                 "write R11,R12,R13,x,R21,..,z or a 4 x 4 matrix row by row, each pose on one line or on lines of four numbers, or name the columns r11, r12, .., r33, x, y, z".into()
             }
+            InvalidSeries::Computed => {
+                "print the numbers in your program and read its output, or write them out".into()
+            }
             InvalidSeries::Abbreviated => {
                 "print the whole array, in numpy with set_printoptions(threshold=sys.maxsize), or write it with savetxt".into()
             }

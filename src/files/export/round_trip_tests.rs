@@ -88,6 +88,28 @@ fn tables_of_legs_return() {
 }
 
 #[test]
+fn scripts_of_matlab_return() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
+        let mut given = design(text);
+        if LengthUnit::of(&given.units).is_err() {
+            given.units = "m".into();
+        }
+        returns(&given.in_units("m").unwrap(), "matlab");
+    }
+}
+
+#[test]
+fn json_returns_in_millimetres() {
+    for text in [SYMMETRIC, OCTAHEDRAL, GENERAL, MIDLINE, SIX_FOUR, RUBIN, MOTION_BASE] {
+        let mut given = design(text);
+        if LengthUnit::of(&given.units).is_err() {
+            given.units = "mm".into();
+        }
+        returns(&given.in_units("mm").unwrap(), "json");
+    }
+}
+
+#[test]
 fn inches_return_as_inches() {
     for text in [SYMMETRIC, MOTION_BASE] {
         returns(&design(text).in_units("in").unwrap(), "mjcf");

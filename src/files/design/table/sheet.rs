@@ -379,17 +379,25 @@ fn uncommented(row: &SheetRow) -> Vec<String> {
     cells
 }
 
+fn opens(c: char) -> bool {
+    matches!(c, '[' | '(' | '{')
+}
+
+/// Whether a text begins with a list in brackets.
+pub(super) fn is_list(text: &str) -> bool {
+    let is_comment = |line: &str| COMMENTS.iter().any(|mark| line.trim_start().starts_with(mark));
+    let content = text.lines().find(|line| !line.trim().is_empty() && !is_comment(line));
+    // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
+    content.is_some_and(|content| {
+        content.trim_start().starts_with(opens)
+            || content.split_once(['=', ':']).is_some_and(|(_, value)| value.trim_start().starts_with(opens))
+    })
+}
+
 /// The rows of a list in brackets, one per line, for example `base = [[1, 2, 3], ..`. Text before a bracket is a
 /// separate line. `None`: the text has no such rows.
 fn bracketed(text: &str) -> Option<String> {
-    let opens = |c: char| matches!(c, '[' | '(' | '{');
-    let content = text
-        .lines()
-        .find(|l| !l.trim().is_empty() && !COMMENTS.iter().any(|m| l.trim_start().starts_with(m)))?;
-    // units in a header are in brackets too: a list begins with a bracket, or with a name and its value
-    let lists = content.trim_start().starts_with(opens)
-        || content.split_once(['=', ':']).is_some_and(|(_, value)| value.trim_start().starts_with(opens));
-    if !lists {
+    if !is_list(text) {
         return None;
     }
     let mut out = String::new();

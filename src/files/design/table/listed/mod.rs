@@ -9,7 +9,7 @@ mod records;
 mod tokens;
 
 use self::reader::Reader;
-pub(super) use self::records::{Record, is_abbreviated, member, records, table_of};
+pub(super) use self::records::{Formula, Record, is_abbreviated, member, records, table_of};
 pub(super) use self::tokens::is_computed;
 use self::tokens::{Token, tokens};
 use super::header::{UNITS, plain, units_in_title};

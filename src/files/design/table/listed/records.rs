@@ -1,7 +1,7 @@
 //! Records of a list: objects, or the numbers of a row, with the lines where they begin.
 
 use super::reader::Reader;
-use super::tokens::{Token, tokens};
+use super::tokens::{Token, computes, tokens};
 use super::{ListValue, named_values};
 use crate::design::table::header::CellUnit;
 use crate::design::table::sheet::SheetRow;
@@ -20,22 +20,30 @@ const POSE: usize = 6;
 /// Numbers of a row of a matrix with a position, and fewest such rows.
 const MATRIX_ROW: (usize, usize) = (4, 3);
 
+/// A formula whose value is not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::design::table) struct Formula;
+
 /// The records in the lists of a text: objects that `is_known` accepts, else rows of six numbers or more, else rows of
 /// four numbers. The outermost lists count; a matrix in a list is one record.
+///
+/// # Errors
+/// A list in a formula, such as one with a factor.
 pub(in crate::design::table) fn records(
     text: &str,
     is_known: &dyn Fn(&ListValue) -> bool,
-) -> Option<Vec<Record>> {
+) -> Result<Option<Vec<Record>>, Formula> {
     // assignments, or a mapping without brackets
     if let Some(named) = named_values(text, &mut Vec::new()) {
         let value = ListValue::Named(named.values);
         if is_known(&value) {
-            return Some(vec![Record { line: 1, value }]);
+            return Ok(Some(vec![Record { line: 1, value }]));
         }
     }
     let (tokens, places) = tokens(text);
     let mut reader = Reader { tokens: &tokens, places: &places, at: 0, factor: None, depth: 0 };
     let mut found: Vec<Record> = Vec::new();
+    let count = |record: &Record| if let ListValue::List(list) = &record.value { list.len() } else { 0 };
     while let Some(token) = reader.peek().cloned() {
         let begin = reader.at;
         let line = places[begin].0;
@@ -56,8 +64,22 @@ pub(in crate::design::table) fn records(
             list.into_iter().map(record).collect::<Option<Vec<_>>>().filter(|list| !list.is_empty())
         });
         if let Some(list) = list {
+            let is_formula = |at: Option<usize>| {
+                at.and_then(|at| tokens.get(at))
+                    .is_some_and(|token| matches!(token, Token::Times | Token::Over))
+            };
+            if list.iter().any(|record| count(record) >= MATRIX_ROW.0)
+                && (is_formula(begin.checked_sub(1)) || is_formula(Some(reader.at)))
+            {
+                return Err(Formula);
+            }
             found.extend(list);
             continue;
+        }
+        if let (Token::Word(name), Some(Token::Open(_))) = (&token, tokens.get(begin + 1))
+            && computes(name)
+        {
+            return Err(Formula);
         }
         reader.at = begin + 1;
         if token == Token::Open('{') {
@@ -67,14 +89,13 @@ pub(in crate::design::table) fn records(
             }
         }
     }
-    let count = |record: &Record| if let ListValue::List(list) = &record.value { list.len() } else { 0 };
     let kept = |keeps: &dyn Fn(usize) -> bool| -> Vec<Record> {
         found.iter().filter(|record| keeps(count(record))).cloned().collect()
     };
     let rows = kept(&|n| n == MATRIX_ROW.0);
-    [kept(&|n| n == 0), kept(&|n| n >= POSE), if rows.len() < MATRIX_ROW.1 { Vec::new() } else { rows }]
-        .into_iter()
-        .find(|list| !list.is_empty())
+    let kinds =
+        [kept(&|n| n == 0), kept(&|n| n >= POSE), if rows.len() < MATRIX_ROW.1 { Vec::new() } else { rows }];
+    Ok(kinds.into_iter().find(|list| !list.is_empty()))
 }
 
 /// Whether a printed array leaves out rows or numbers, which it shows as `...`.

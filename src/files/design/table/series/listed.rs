@@ -1,10 +1,10 @@
 //! Poses in lists and objects of Python, MATLAB, JSON and YAML, as a table.
 
-use super::names::{LENGTH_WORDS, is_time, without_angle_units};
+use super::names::{is_time, without_angle_units};
 use super::pose_names::named_pose;
 use crate::design::table::header::{CellUnit, plain};
 use crate::design::table::listed::{
-    ListValue, NamedValues, Record, member, named_values, records, stated_units, table_of,
+    Formula, ListValue, NamedValues, Record, member, named_values, records, stated_units, table_of,
 };
 use crate::design::table::sheet::{CellTable, SheetRow};
 use platform::geom::{PoseConvention, QuaternionOrder, RotationOrder};
@@ -21,31 +21,39 @@ fn names_in(word: &str, parts: &[&str]) -> bool {
     parts.iter().any(|part| word.contains(part))
 }
 
-/// The poses of a text that is a list or an object; `None` for other texts.
-pub(super) fn read(text: &str, stated: &PoseConvention) -> Option<CellTable> {
+/// The rows of a text that is a list or has objects with columns that `knows`; `None` for other texts. A list of six
+/// numbers under one of `words` is one of numbered columns.
+///
+/// # Errors
+/// A list in a formula.
+pub(super) fn read(
+    text: &str,
+    (stated, words): (&PoseConvention, &'static [&'static str]),
+    knows: &dyn Fn(&[String]) -> bool,
+) -> Result<Option<CellTable>, Formula> {
     let in_brackets = text.contains(['[', '{', '(']);
     if !in_brackets && !text.lines().any(|line| line.trim_start().starts_with("- ")) {
-        return None;
+        return Ok(None);
     }
     let is_known = |value: &ListValue| {
         if let Some((names, _)) = columns(value) {
-            return is_pose(&names);
+            return knows(&names);
         }
-        let mut cells = Cells::default();
+        let mut cells = Cells::of_six(words);
         value.leaves("", &mut |name, leaf| cells.take(name, leaf, stated));
-        matches!(value, ListValue::Named(_)) && !cells.holds_lists && is_pose(&cells.names())
+        matches!(value, ListValue::Named(_)) && !cells.holds_lists && knows(&cells.names())
     };
-    let found = records(text, &is_known)?;
+    let Some(found) = records(text, &is_known)? else { return Ok(None) };
     let values =
         named_values(text, &mut Vec::new()).map_or_else(Vec::new, |NamedValues { values, .. }| values);
     let (length_unit, angle_unit, guess) = stated_units(&values, text);
     let mut guesses: Vec<String> = guess.into_iter().collect();
-    let (header, rows) = table(found, stated, &mut guesses);
-    Some(CellTable::of_rows(header, rows, (length_unit, angle_unit), guesses))
+    let (header, rows) = table(found, (stated, words), &mut guesses);
+    Ok(Some(CellTable::of_rows(header, rows, (length_unit, angle_unit), guesses)))
 }
 
-/// Whether names of columns tell a pose, in an order of angles that may have to be stated.
-fn is_pose(names: &[String]) -> bool {
+/// Whether names of columns tell a pose, perhaps in an order of angles that may have to be stated.
+pub(super) fn is_pose(names: &[String]) -> bool {
     let plain: Vec<String> = names.iter().map(|name| plain(name)).collect();
     let stated = PoseConvention { rotation_order: Some(RotationOrder::Vector), ..Default::default() };
     plain.iter().any(|name| name.starts_with(POSE_NUMBER))
@@ -70,7 +78,7 @@ fn columns(value: &ListValue) -> Option<(Vec<String>, Vec<Vec<f64>>)> {
 
 fn table(
     found: Vec<Record>,
-    stated: &PoseConvention,
+    (stated, words): (&PoseConvention, &'static [&'static str]),
     guesses: &mut Vec<String>,
 ) -> (Option<Vec<String>>, Vec<SheetRow>) {
     let shown = |x: f64| format!("{x:?}");
@@ -88,7 +96,7 @@ fn table(
             let cells = list.iter().filter_map(ListValue::number).map(shown).collect();
             rows.push(SheetRow { line, cells });
         } else {
-            let mut cells = Cells::default();
+            let mut cells = Cells::of_six(words);
             value.leaves("", &mut |name, leaf| cells.take(name, leaf, stated));
             named.push((line, cells.of_pose(guesses)));
         }
@@ -103,6 +111,8 @@ fn table(
 /// The cells of an object with the names of their columns.
 #[derive(Default)]
 struct Cells {
+    /// Names of lists of six numbers that are numbered columns.
+    words: &'static [&'static str],
     cells: Vec<(String, String)>,
     /// Whether there are lists of other lists or objects, which may be the poses.
     holds_lists: bool,
@@ -110,6 +120,10 @@ struct Cells {
 }
 
 impl Cells {
+    fn of_six(words: &'static [&'static str]) -> Self {
+        Self { words, ..Self::default() }
+    }
+
     fn names(&self) -> Vec<String> {
         self.cells.iter().map(|(name, _)| name.clone()).collect()
     }
@@ -128,7 +142,7 @@ impl Cells {
         let (pose, rest): (Vec<_>, Vec<_>) = self.cells.into_iter().partition(|(name, _)| in_list(name));
         let is_length = |name: &str| {
             let word = plain(name);
-            LENGTH_WORDS.iter().any(|length| word.strip_suffix(|c: char| c.is_ascii_digit()) == Some(length))
+            self.words.iter().any(|own| word.strip_suffix(|c: char| c.is_ascii_digit()) == Some(own))
         };
         let (times, rest): (Vec<_>, Vec<_>) = rest.into_iter().partition(|(name, _)| is_time(&plain(name)));
         times.into_iter().chain(pose).chain(rest.into_iter().filter(|(name, _)| is_length(name))).collect()
@@ -166,8 +180,8 @@ impl Cells {
                 }
                 names.map(String::from).to_vec()
             }
-            6 if LENGTH_WORDS.iter().any(|length| word.starts_with(length)) => {
-                (1..=6).map(|leg| format!("leg{leg}")).collect()
+            6 if self.words.iter().any(|own| word.starts_with(own)) => {
+                (1..=6).map(|leg| format!("{}{leg}", self.words[0])).collect()
             }
             6 | 7 if names_in(word, &POSE_WORDS) => {
                 (0..list.len()).map(|k| format!("{POSE_NUMBER}{k}")).collect()

@@ -8,7 +8,9 @@ mod pose_names;
 
 use thiserror::Error;
 
-use super::listed::is_abbreviated;
+use self::names::{ANGLE_WORDS, LENGTH_WORDS, numbered_columns, numbered_name};
+use super::header::plain;
+use super::listed::{Formula, is_abbreviated};
 use super::sheet::{CellTable, InvalidSheet};
 use super::text::decode;
 use platform::geom::{InvalidPose, Pose, PoseConvention};
@@ -98,6 +100,9 @@ pub enum InvalidSeries {
     /// A printed array with rows left out.
     #[error("the array is abbreviated: `...` stands for rows or numbers that are missing")]
     Abbreviated,
+    /// A list in a formula.
+    #[error("this text computes its numbers, and programs are not run")]
+    Computed,
     /// Rows that cannot be read, each with its line.
     #[error("{}", quoted(.0))]
     Rows(Vec<String>),
@@ -226,18 +231,31 @@ const ROLL_WORDS: [&str; 5] = ["roll", "rollen", "rollwinkel", "wanken", "roulis
 /// Names of the turn about y.
 const PITCH_WORDS: [&str; 6] = ["pitch", "nick", "nicken", "nickwinkel", "stampfen", "tangage"];
 impl RowKind<'_> {
-    /// The cells of a text. Poses may be in lists of programs too.
+    /// The cells of a text, which may be a list of a program too.
     fn sheet(self, bytes: &[u8]) -> Result<CellTable, InvalidSeries> {
-        if let Self::Poses { stated, .. } = self
-            && let Ok(decoded) = decode(bytes)
-            && let Some(listed) = listed::read(&decoded.text, stated)
-        {
-            return if is_abbreviated(&decoded.text) { Err(InvalidSeries::Abbreviated) } else { Ok(listed) };
+        let numbered = |names: &[String], words| {
+            let names: Vec<String> = names.iter().map(|name| plain(&numbered_name(name))).collect();
+            numbered_columns(&names, words).is_some()
+        };
+        let text = decode(bytes).map(|decoded| decoded.text).unwrap_or_default();
+        let usual = PoseConvention::default();
+        let listed = match self {
+            Self::Six(SeriesKind::Lengths) => {
+                listed::read(&text, (&usual, &LENGTH_WORDS), &|names| numbered(names, &LENGTH_WORDS))
+            }
+            Self::Six(SeriesKind::Angles) => {
+                listed::read(&text, (&usual, &ANGLE_WORDS), &|names| numbered(names, &ANGLE_WORDS))
+            }
+            Self::Poses { stated, .. } => listed::read(&text, (stated, &LENGTH_WORDS), &listed::is_pose),
+        };
+        match listed.map_err(|Formula| InvalidSeries::Computed)? {
+            Some(_) if is_abbreviated(&text) => Err(InvalidSeries::Abbreviated),
+            Some(listed) => Ok(listed),
+            None => CellTable::read(bytes, LEAST_NUMBERS).map_err(|why| match why {
+                InvalidSheet::NoNumbers(_) => InvalidSeries::Empty,
+                why => InvalidSeries::Sheet(why),
+            }),
         }
-        CellTable::read(bytes, LEAST_NUMBERS).map_err(|why| match why {
-            InvalidSheet::NoNumbers(_) => InvalidSeries::Empty,
-            why => InvalidSeries::Sheet(why),
-        })
     }
 }
 

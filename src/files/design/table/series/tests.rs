@@ -230,3 +230,163 @@ fn every_bad_row_is_named() {
     assert_eq!(why.to_string(), "line 2: 5 values; line 3: 7 cells below 6 names of columns");
     assert_eq!(SeriesKind::Lengths.read(b"a,b\n", "mm", numbers), Err(InvalidSeries::Empty));
 }
+
+/// A pose with its matrix in decimals of this count, row by row.
+fn matrix(digits: usize) -> (Pose, Vec<String>) {
+    let pose = Pose::new([5.0, -7.0, 405.5], platform::geom::Angles::from_degrees([3.0, -4.0, 12.0]));
+    let numbers = pose.matrix().transpose();
+    (pose, numbers.iter().map(|x| format!("{x:.digits$}")).collect())
+}
+
+fn apart(found: &Pose, meant: &Pose) -> f64 {
+    (found.matrix() - meant.matrix()).amax()
+}
+
+#[test]
+fn matrices_are_poses_on_one_line_or_several() {
+    let (meant, m) = matrix(15);
+    let line = |list: &[String], separator: &str| list.join(separator);
+    let by_columns: Vec<String> = (0..16).map(|k| m[k % 4 * 4 + k / 4].clone()).collect();
+    let lines = |list: &[String], separator: &str| {
+        list.chunks(4).map(|row| row.join(separator)).collect::<Vec<_>>().join("\n")
+    };
+    let origin = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
+    let comma = |list: &[String]| list.iter().map(|x| x.replace('.', ",")).collect::<Vec<_>>();
+    let rotation = |i: usize| [4 * i, 4 * i + 1, 4 * i + 2].map(|k| m[k].as_str()).join(",");
+    let position = [&m[3], &m[7], &m[11]].map(String::as_str).join(",");
+    for text in [
+        line(&m[..12], " "),
+        line(&m, ","),
+        line(&by_columns, ",") + "\n" + &origin.replace(' ', ","),
+        lines(&m[..12], "\t"),
+        lines(&m, " ") + "\n\n" + &lines(&m, " "),
+        lines(&comma(&m), ";"),
+        lines(&by_columns, ", "),
+        format!("T(:,:,1) =\n\n{}\n\nT(:,:,2) =\n\n{}\n", lines(&m, "   "), lines(&m, "   ")),
+        format!("T(:,:,1) = [{}];\nT(:,:,2) = [{0}];\n", lines(&m, " ").replace('\n', "; ")),
+        format!("[[[{}]]]", lines(&m, ", ").replace('\n', "], [")),
+        format!("array([[{}]])\n", lines(&m, ", ").replace('\n', "],\n       [")),
+        format!("[[{}]\n [{}]]", line(&m, " "), line(&m[..8], " ") + "\n  " + &line(&m[8..], " ")),
+        format!(
+            "t,r11,r12,r13,r21,r22,r23,r31,r32,r33,x,y,z\n0,{},{},{},{position}\n",
+            rotation(0),
+            rotation(1),
+            rotation(2)
+        ),
+        format!(
+            "x,y,z,R00,R01,R02,R10,R11,R12,R20,R21,R22\n{position},{},{},{}\n",
+            rotation(0),
+            rotation(1),
+            rotation(2)
+        ),
+        format!("T11,T12,T13,T14,T21,T22,T23,T24,T31,T32,T33,T34\n{}\n", line(&m[..12], ",")),
+    ] {
+        let found = usual(&text);
+        assert!(apart(&found.rows[0].value, &meant) < 1e-12, "{text}\n{:?}", found.guesses);
+        assert!(
+            found.guesses.iter().any(|g| g.contains("matri") || g.contains("Each pose"))
+                || text.contains('[')
+        );
+    }
+    // four decimals are a rotation to four decimals
+    let (_, rounded) = matrix(4);
+    assert!(apart(&usual(&lines(&rounded, " ")).rows[0].value, &meant) < 2e-4);
+    let scaled = "   1.0e+03 *\n\n 0.001 0 0 0.005\n 0 0.001 0 -0.007\n 0 0 0.001 0.4055\n 0 0 0 0.001\n";
+    let level = usual(scaled).rows[0].value;
+    assert_eq!(level.position.as_slice(), [5.0, -7.0, 405.5]);
+    let metres = format!(
+        "positions in m\n{}\n",
+        line(
+            &[&m[..3], &["0.005".into()], &m[4..7], &["-0.007".into()], &m[8..11], &["0.4055".into()]]
+                .concat(),
+            " "
+        )
+    );
+    assert!(apart(&usual(&metres).rows[0].value, &meant) < 1e-12);
+    let with_lengths = format!("{},1,2,3,4,5,6\n", line(&m[..12], ","));
+    let table = read_poses_with_lengths(with_lengths.as_bytes(), &PoseConvention::default(), &home(), "mm");
+    let (pose, lengths) = table.unwrap().rows[0].value;
+    assert!(apart(&pose, &meant) < 1e-12);
+    assert_eq!(lengths, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+}
+
+#[test]
+fn matrices_that_are_unclear_are_refused_with_what_was_found() {
+    let refusal = |text: &str| {
+        let read = read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm");
+        read.map(|table| table.rows[0].value).expect_err(text).to_string()
+    };
+    let (_, m) = matrix(15);
+    let entry = |k: usize| m[k / 3 * 4 + k % 3].clone();
+    let nine: Vec<String> = (0..9).map(entry).collect();
+    let mirrored: Vec<String> = m[..12]
+        .iter()
+        .enumerate()
+        .map(|(k, x)| if k % 4 == 2 { format!("{}", -x.parse::<f64>().unwrap()) } else { x.clone() })
+        .collect();
+    for (text, part) in [
+        (nine.join(","), "without a position"),
+        (nine.chunks(3).map(|row| row.join(" ")).collect::<Vec<_>>().join("\n"), "without positions"),
+        (format!("{},1,2,3", nine.join(",")), "do not tell rows from columns"),
+        (format!("1,2,3,{}", nine.join(",")), "do not tell rows from columns"),
+        (mirrored.join(","), "no rotation"),
+        ("0.9,0.1,0,1,-0.1,0.9,0,2,0,0,1,3".into(), "no rotation"),
+        ("0 1 0 0\n-1 0 0 0\n0 0 1 5\n0 0 0 2\n0 0 0 1\n".into(), "neither 4 x 4"),
+        ("0,1,0,0,-1,0,0,0,0,0,1,0,0,0,0,1".into(), "rows and columns cannot be told apart"),
+        ("poses = 0.001 * [[1, 2, 3, 4, 5, 6]]".into(), "programs are not run"),
+        ("poses = np.deg2rad([[1, 2, 3, 4, 5, 6]])".into(), "programs are not run"),
+        ("[[5. -7. 405. 3. -4. 12.]\n ...\n [0. 3. 410. 1. 5. 7.]]".into(), "abbreviated"),
+    ] {
+        assert!(refusal(&text).contains(part), "{text}: {}", refusal(&text));
+    }
+}
+
+#[test]
+fn poses_in_lists_and_objects_of_programs_are_read() {
+    let meant = usual("10,20,30,1,2,3\n").rows[0].value;
+    let q = meant.quaternion();
+    let xyzw = format!("[{}, {}, {}, {}]", q[1], q[2], q[3], q[0]);
+    let r = meant.rotation.matrix();
+    let row = |i: usize| format!("[{}, {}, {}]", r[(i, 0)], r[(i, 1)], r[(i, 2)]);
+    let rows = format!("[{}, {}, {}]", row(0), row(1), row(2));
+    for text in [
+        "[[10, 20, 30, 1, 2, 3],\n [0, 0, 30, 0, 0, 0]]",
+        "poses = np.array([[10, 20, 30, 1, 2, 3],\n  [0, 0, 30, 0, 0, 0]])  # from the planner",
+        "P = [10 20 30 1 2 3;\n     0 0 30 0 0 0];",
+        "[[10. 20. 30. 1.\n   2. 3.]\n [ 0.  0. 30.  0.\n   0.  0.]]",
+        "t = [0, 1]\nposes = [(10, 20, 30, 1, 2, 3), (0, 0, 30, 0, 0, 0)]",
+        "[([10, 20, 30], [1, 2, 3]), ([0, 0, 30], [0, 0, 0])]",
+        "[{\"x\": 10, \"y\": 20, \"z\": 30, \"roll\": 1, \"pitch\": 2, \"yaw\": 3, \"note\": \"a\"}]",
+        "{\"x\": 10, \"y\": 20, \"z\": 30, \"roll\": 1, \"pitch\": 2, \"yaw\": 3}\n{\"x\": 0, \"y\": 0, \"z\": 30, \"roll\": 0, \"pitch\": 0, \"yaw\": 0}\n",
+        "{\"x\": [10, 0], \"y\": [20, 0], \"z\": [30, 30], \"roll\": [1, 0], \"pitch\": [2, 0], \"yaw\": [3, 0]}",
+        "{\"poses\": [{\"t\": 0.1, \"position\": [10, 20, 30], \"rpy_deg\": [1, 2, 3]}]}",
+        "{\"units\": \"m\", \"poses\": [{\"position\": [0.01, 0.02, 0.03], \"rpy_deg\": [1, 2, 3]}]}",
+        "poses:\n  - x: 10\n    y: 20\n    z: 30\n    roll: 1\n    pitch: 2\n    yaw: 3\n",
+        "- [10, 20, 30, 1, 2, 3]\n- [0, 0, 30, 0, 0, 0]\n",
+        &format!("[{{\"position\": [10, 20, 30], \"quat_xyzw\": {xyzw}}}]"),
+        &format!(
+            "{{\"poses\": [{{\"position\": {{\"x\": 10, \"y\": 20, \"z\": 30}}, \"orientation\": {{\"x\": {}, \"y\": {}, \"z\": {}, \"w\": {}}}}}]}}",
+            q[1], q[2], q[3], q[0]
+        ),
+        &format!("[{{\"R\": {rows}, \"p\": [10, 20, 30]}}]"),
+        &format!("R = {rows};\np = [10; 20; 30];\n"),
+    ] {
+        let found = usual(text);
+        assert!(apart(&found.rows[0].value, &meant) < 1e-12, "{text}\n{:?}", found.guesses);
+    }
+    let timed = usual("{\"poses\": [{\"t\": 0.5, \"pose\": [10, 20, 30, 1, 2, 3]}]}");
+    assert_eq!((timed.rows[0].time, timed.rows[0].value), (Some(0.5), meant));
+    let text = "{\"poses\": [\n {\"x\": 10, \"y\": 20, \"z\": 30, \"rx\": 1, \"ry\": 2, \"rz\": 3}]}";
+    let unclear = read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm");
+    assert!(matches!(unclear, Err(InvalidSeries::Order(_))), "{unclear:?}");
+    let text = "[[10, 20, 30, 1, 2, 3],\n [1, 2, 3, 4, 5]]";
+    let line = read_poses(text.as_bytes(), &PoseConvention::default(), &home(), "mm").unwrap_err();
+    assert!(line.to_string().contains("line 2: 5 values"), "{line}");
+    for text in [
+        "[{\"l1\": 1, \"l2\": 2, \"l3\": 3, \"l4\": 4, \"l5\": 5, \"l6\": 6}]",
+        "{\"rows\": [{\"t\": 0, \"lengths\": [1, 2, 3, 4, 5, 6]}]}",
+        "L = [1 2 3 4 5 6];",
+    ] {
+        assert_eq!(read(SeriesKind::Lengths, text).rows[0].value, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "{text}");
+    }
+}

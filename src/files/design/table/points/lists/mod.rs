@@ -9,6 +9,7 @@ use super::words::{FIRST_WITH_FIRST, bodies_of_words, name_both_bodies, own_word
 use super::{InvalidPointTable, PointTable};
 use crate::design::table::header::plain;
 use crate::design::table::listed::{ListValue, NamedValues, named_values, stated_units};
+use crate::design::table::sheet::is_list;
 use platform::geom::{Angles, Pose, PoseConvention, QuaternionOrder};
 use platform::manipulator::{Body, Leg};
 
@@ -16,7 +17,9 @@ use platform::manipulator::{Body, Leg};
 /// some of its values and the names do not tell the bodies.
 pub(super) fn read(text: &str) -> Option<Result<PointTable, InvalidPointTable>> {
     let mut guesses = Vec::new();
-    let NamedValues { values, computed } = named_values(text, &mut guesses)?;
+    let Some(NamedValues { values, computed }) = named_values(text, &mut guesses) else {
+        return is_list(text).then_some(Err(InvalidPointTable::Computed));
+    };
     let in_export = values.iter().any(|(name, _)| name == bodies::C_EXPORT);
     let exported = in_export.then(|| bodies::both_in_one(&values)).flatten();
     let bodies = exported

@@ -28,7 +28,7 @@ pub(in crate::design::table::points) fn read(text: &str) -> Option<CellTable> {
         let names: Vec<String> = cells(value).into_iter().map(|(name, _)| name).collect();
         matches!(value, ListValue::Named(_)) && PointColumns::named(&names, &mut Vec::new()).is_some()
     };
-    let found = records(text, &is_known)?;
+    let found = records(text, &is_known).ok()??;
     if found.len() < 6 || !found.iter().all(|record| matches!(record.value, ListValue::Named(_))) {
         return None;
     }

@@ -176,3 +176,73 @@ fn brackets_without_end_are_refused() {
         assert!(!why.is_empty());
     }
 }
+
+#[test]
+fn values_of_programs_beside_the_joints_are_told_apart() {
+    let matrix = |list: [[f64; 3]; 6]| list.map(|p| p.map(|x| x.to_string()).join(" ")).join("; ");
+    let (base, platform) = (matrix(BASE), matrix(PLATFORM));
+    let limits = "[350 450; 350 450; 350 450; 350 450; 350 450; 350 450]";
+    for text in [
+        format!("B = [{base}];\nP = [{platform}];\nlim = {limits};\n"),
+        format!("robot.plat = [{platform}];\nrobot.base = [{base}];\nrobot.limits = {limits};\n"),
+        format!(
+            "clear; clc\nB = [{base}]';\nP = [{platform}]';\nplot3(B(1,:), B(2,:), B(3,:), 'o'); hold on\nL = sqrt(sum((B - P).^2));\n"
+        ),
+        format!(
+            "s.b = [{platform}];\ns.a = [{base}];\ns.lengths = @(R, p) sqrt(sum((R * s.b + p - s.a).^2, 1))';\n"
+        ),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+    }
+    let home =
+        read(&format!("B = [{base}];\nP = [{platform}];\nR = [0 -1 0; 1 0 0; 0 0 1];\np = [1; 2; 300];\n"))
+            .home
+            .unwrap();
+    assert_eq!(home.position.as_slice(), [1.0, 2.0, 300.0]);
+    assert!((home.angles().degrees()[2] - 90.0).abs() < 1e-12);
+    // the base is computed, and other lists are not taken for it
+    let computed = format!("B = r * [cos(t); sin(t)];\nP = [{platform}];\nlim = {limits};\n");
+    assert!(refusal(&computed).contains("programs are not run"), "{}", refusal(&computed));
+    let halves = read(&format!("B = [{base}]/2;\nP = 2*[{platform}];\n"));
+    assert_eq!((halves.legs[3].base.x, halves.legs[3].platform.x), (-200.74 / 2.0, -195.63 * 2.0));
+    assert!(!refusal(&format!("B = [{base}] + 5;\nP = [{platform}];\n")).is_empty());
+}
+
+#[test]
+fn joints_of_objects_are_read() {
+    let name = |body: Body, i: usize| format!("{}{}", body.of(("A", "B")), i + 1);
+    let of = |body: Body| body.of((BASE, PLATFORM));
+    let objects = |body: Body| {
+        (0..6)
+            .map(|i| format!("{{\"name\": \"{}\", \"at\": {:?}}}", name(body, i), of(body)[i]))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let legs = (1..=6).map(|i| format!("{{\"base_joint\": \"A{i}\", \"platform_joint\": \"B{i}\"}}"));
+    let legs = legs.collect::<Vec<_>>().join(", ");
+    let flat = (0..6).map(|i| {
+        let (a, b) = (BASE[i], PLATFORM[i]);
+        format!(
+            "{{\"leg\": {i}, \"bx\": {}, \"by\": {}, \"bz\": {}, \"px\": {}, \"py\": {}, \"pz\": {}}}",
+            a[0], a[1], a[2], b[0], b[1], b[2]
+        )
+    });
+    let joints = Body::BOTH.into_iter().flat_map(|body| {
+        (0..6).map(move |i| format!("{{\"body\": \"{body}\", \"position\": {:?}}}", of(body)[i]))
+    });
+    for text in [
+        format!(
+            "{{\"legs\": [{legs}], \"base\": {{\"joints\": [{}]}}, \"platform\": {{\"joints\": [{}]}}}}",
+            objects(Body::Base),
+            objects(Body::Platform)
+        ),
+        format!("[{}]", flat.collect::<Vec<_>>().join(",\n ")),
+        format!("{{\"joints\": [{}]}}", joints.collect::<Vec<_>>().join(", ")),
+        format!("[{BASE:?}, {PLATFORM:?}]"),
+        format!("joints = np.array([{BASE:?},\n{PLATFORM:?}])"),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+    }
+}
